@@ -180,33 +180,49 @@ static void cover(Panels *panels)
         renderer_set_covered(panels->panels[i].renderer, covered);
 }
 
-/* The range of all panels that show the same scalar and follow their states, as the panel's own is one of
-   them. */
-static ScalarRange joint_range(const Panels *panels, int index, const ScalarRange *const ranges[])
+/* Of all states that have one of that scalar. */
+static ScalarRange joint_range(const ParticleBuffers states[], int count, int scalar)
 {
-    ScalarRange joint = *ranges[index];
-    for (int i = 0; i < panels->count; i++)
-        if (ranges[i] && panels->panels[i].def.color_by == panels->panels[index].def.color_by) {
-            joint.low = fmin(joint.low, ranges[i]->low);
-            joint.high = fmax(joint.high, ranges[i]->high);
-            joint.least = fmin(joint.least, ranges[i]->least);
-            joint.greatest = fmax(joint.greatest, ranges[i]->greatest);
-        }
+    ScalarRange joint = {.known = false};
+    for (int i = 0; i < count; i++) {
+        const ScalarRange *own = &states[i].range[scalar];
+        if (!own->known)
+            continue;
+        joint.low = joint.known ? fmin(joint.low, own->low) : own->low;
+        joint.high = joint.known ? fmax(joint.high, own->high) : own->high;
+        joint.least = joint.known ? fmin(joint.least, own->least) : own->least;
+        joint.greatest = joint.known ? fmax(joint.greatest, own->greatest) : own->greatest;
+        joint.known = true;
+    }
     return joint;
+}
+
+/* A scalar has the same range in all panels that follow their states. */
+static void join_ranges(ParticleBuffers states[], int count)
+{
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        const ScalarRange joint = joint_range(states, count, s);
+        for (int i = 0; i < count; i++)
+            if (states[i].range[s].known)
+                states[i].range[s] = joint;
+    }
 }
 
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer)
 {
-    const ScalarRange *ranges[PANELS_MAX] = {NULL};
-    ScalarRange joint[PANELS_MAX];
+    ParticleBuffers with[PANELS_MAX];
     cover(panels);
+    for (int i = 0; i < panels->count; i++) {
+        with[i] = *states[i];
+        if (panels->count > 1) /* one alone derives as it draws */
+            GL_STAGE(timer, STAGE_SCALARS)
+            {
+                renderer_derive(panels->panels[i].renderer, &with[i]);
+            }
+    }
+    join_ranges(with, panels->count);
     for (int i = 0; i < panels->count; i++)
-        ranges[i] = renderer_measure(panels->panels[i].renderer, states[i], timer);
-    for (int i = 0; i < panels->count; i++)
-        if (ranges[i])
-            joint[i] = joint_range(panels, i, ranges);
-    for (int i = 0; i < panels->count; i++)
-        renderer_draw_measured(panels->panels[i].renderer, ranges[i] ? &joint[i] : NULL, timer);
+        renderer_draw(panels->panels[i].renderer, &with[i], timer);
 }
 
 void panels_take(Panels *panels, int index, const ParticleBuffers *state)

@@ -30,7 +30,6 @@ struct Renderer {
     double range[2]; /* of the last picture */
     Target target;
     unsigned uniforms;
-    ParticleBuffers with; /* the state measured last, with what is derived from it */
     Derived derived;
     Ranges ranges; /* nothing before the first picture that asks for one */
     Shadow shadow;
@@ -92,16 +91,16 @@ static void drop_unused_solids(Renderer *renderer)
     shadow_follow_solids(&renderer->shadow, false, &none);
 }
 
-/* A range that follows the state is of a scalar, not of the fluids' own colours. */
-static bool follows_state(const ViewDef *def)
-{
-    return def->range_auto && def->color_by != SCALAR_FLUID;
-}
-
 /* What a picture by that def reads of the particles: who draws adds here what it reads. */
 static ParticleWants wants_of(const ViewDef *def)
 {
     return (ParticleWants){.scalars = SCALAR_BIT(def->color_by), .attributes = overlays_attributes(def)};
+}
+
+/* SCALAR_BIT of those whose range follows the state; the fluids' own colours have none. */
+static uint32_t ranged_of(const ViewDef *def)
+{
+    return def->range_auto && def->color_by != SCALAR_FLUID ? SCALAR_BIT(def->color_by) : 0;
 }
 
 unsigned renderer_attributes(const ViewDef *def)
@@ -116,7 +115,7 @@ static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
     const ParticleWants wants = wants_of(def);
     if (!derived_follow(&renderer->derived, &wants, error))
         return false;
-    if (!follows_state(def) || renderer->ranges.find)
+    if (!ranged_of(def) || renderer->ranges.find)
         return true;
     if (ranges_create(&renderer->ranges, error))
         return true;
@@ -270,36 +269,37 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
 static bool derives(const ViewDef *def)
 {
     const ParticleWants wants = wants_of(def);
-    return follows_state(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
+    return ranged_of(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
 }
 
-/* The state with what is derived from it. */
-static void derive(Renderer *renderer, ParticleBuffers *particles)
+void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
 {
-    const ViewDef *def = &renderer->def;
-    const ParticleWants wants = wants_of(def);
+    const ParticleWants wants = wants_of(&renderer->def);
+    const uint32_t ranged = ranged_of(&renderer->def);
     DerivedSpace space = {.flat = frame_slab(particles) > 0};
-    const int shown = def->color_by;
     memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
     derived_fill(&renderer->derived, &wants, &space, particles);
-    if (follows_state(def))
-        particles->range[shown] = ranges_find(&renderer->ranges, &particles->scalar[shown], particles->count);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if ((ranged & SCALAR_BIT(s)) && !particles->range[s].known)
+            particles->range[s] = ranges_find(&renderer->ranges, &particles->scalar[s], particles->count);
 }
 
-static void measure(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
+/* The state as passes read it. */
+static ParticleBuffers derived_of(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
-    renderer->with = *state;
+    ParticleBuffers with = *state;
     if (derives(&renderer->def))
         GL_STAGE(timer, STAGE_SCALARS)
         {
-            derive(renderer, &renderer->with);
+            renderer_derive(renderer, &with);
         }
+    return with;
 }
 
-static void draw(Renderer *renderer, GlTimer *timer, ViewCounts *counts)
+static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
-    const ParticleBuffers *particles = &renderer->with;
+    const ParticleBuffers with = derived_of(renderer, state, timer), *particles = &with;
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
     const Target *target = &renderer->target;
     const Subject subject = subject_of(renderer);
@@ -343,34 +343,19 @@ static void draw(Renderer *renderer, GlTimer *timer, ViewCounts *counts)
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
     const Subject subject = subject_of(renderer);
-    measure(renderer, state, timer);
-    overlays_take(&renderer->overlays, &renderer->with, &subject, timer);
+    const ParticleBuffers with = derived_of(renderer, state, timer);
+    overlays_take(&renderer->overlays, &with, &subject, timer);
 }
 
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
 {
-    measure(renderer, particles, timer);
-    draw(renderer, timer, NULL);
-}
-
-const ScalarRange *renderer_measure(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
-{
-    measure(renderer, particles, timer);
-    return follows_state(&renderer->def) ? &renderer->with.range[renderer->def.color_by] : NULL;
-}
-
-void renderer_draw_measured(Renderer *renderer, const ScalarRange *range, GlTimer *timer)
-{
-    if (range)
-        renderer->with.range[renderer->def.color_by] = *range;
-    draw(renderer, timer, NULL);
+    draw(renderer, particles, timer, NULL);
 }
 
 void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts)
 {
     *counts = (ViewCounts){0};
-    measure(renderer, particles, NULL);
-    draw(renderer, NULL, counts);
+    draw(renderer, particles, NULL, counts);
 }
 
 void renderer_read(const Renderer *renderer, uint8_t *rgb)

@@ -36,15 +36,15 @@ void renderer_destroy(Renderer *renderer); /* NULL is allowed */
 bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error);
 bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
 
+/* What drawing begins with: adds to `particles`, a state, what is derived from it and read by the picture,
+   and the ranges that follow the state (which waits for the GPU). It stays up to this renderer's next. What
+   is there already stays as it is: several renderers can draw with one range, if somebody writes it into
+   their states. */
+void renderer_derive(Renderer *renderer, ParticleBuffers *particles);
+
 /* Draws one state into the renderer's own target; stages go to `timer` (NULL: not measured). Does not wait.
  */
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
-
-/* renderer_draw in two halves, for who has a say in the range. The first returns that of the scalar shown, or
-   NULL where it does not follow the state; the second takes another (NULL: that one). The particles must stay
-   as they are in between. */
-const ScalarRange *renderer_measure(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
-void renderer_draw_measured(Renderer *renderer, const ScalarRange *range, GlTimer *timer);
 
 /* Shows a state that is not drawn to those overlays that follow particles from state to state. */
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer);

@@ -284,7 +284,8 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
     const size_t count = particles->count;
     for (int s = 0; s < SCALAR_COUNT; s++) {
         const unsigned program = derived->scalar_program[s];
-        if (!due(wants->scalars & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
+        if (particles->scalar[s].buffer ||
+            !due(wants->scalars & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
             continue;
         reserve(&derived->scalar_buffer[s], &derived->scalar_capacity[s], count, 4, scalar_list[s].name);
         particles->scalar[s] = make(&making, &scalar_recipes[s], program, derived->scalar_buffer[s], 4);
@@ -293,7 +294,8 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
         particles->vector[VECTOR_VELOCITY] = particles->velocity;
     for (int v = 0; v < VECTOR_COUNT; v++) {
         const unsigned program = derived->vector_program[v];
-        if (!due(wants->vectors & VECTOR_BIT(v), program, &vector_recipes[v], particles))
+        if (particles->vector[v].buffer ||
+            !due(wants->vectors & VECTOR_BIT(v), program, &vector_recipes[v], particles))
             continue;
         reserve(&derived->vector_buffer[v], &derived->vector_capacity[v], count, 16, vector_list[v].name);
         particles->vector[v] = make(&making, &vector_recipes[v], program, derived->vector_buffer[v], 16);

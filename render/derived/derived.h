@@ -9,8 +9,8 @@
    them.
 
    Gradients: grad s = M^-1 sum_j w_j (s_j - s_i) d_j, M = sum_j w_j d_j d_j, d_j = x_j - x_i, w_j = V_j
-   |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys. 68,
-   eq. 2.17) with the matrix of Randles and Libersky 1996 and of Bonet and Lok 1999, so that linear fields are
+   |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys. 68)
+   with the matrix of Randles and Libersky 1996 and of Bonet and Lok 1999, so that linear fields are
    exact, at walls and free surfaces too. The kernel is the same for all methods, that their pictures may be
    compared. Where M is near singular (spray, sheets) it is widened, and what neighbours do not tell goes to
    0. A neighbour that is no number is left out. Neighbours across periodic sides count. Velocities are those
@@ -66,8 +66,8 @@ typedef struct Derived {
 bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error);
 void derived_destroy(Derived *derived);
 
-/* Computes all that is wanted and derived from the rest of `particles`, and writes there where it stands: up
-   to the next call. */
+/* Computes all that is wanted, derived and not there yet from the rest of `particles`, and writes there where
+   it stands: up to the next call. */
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles);
 

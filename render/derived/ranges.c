@@ -75,13 +75,13 @@ static ScalarRange range_of(const Found *found)
     for (int r = 0; r < RANKS; r++)
         at[r] = number_of(found->found[r]);
     if (at[1] < at[2])
-        return (ScalarRange){at[1], at[2], at[0], at[3]};
-    return (ScalarRange){at[0], at[3], at[0], at[3]};
+        return (ScalarRange){at[1], at[2], at[0], at[3], true};
+    return (ScalarRange){at[0], at[3], at[0], at[3], true};
 }
 
 ScalarRange ranges_find(Ranges *ranges, const ParticleAttribute *values, size_t count)
 {
-    static const ScalarRange none;
+    static const ScalarRange none = {.known = true};
     if (count == 0 || !values->buffer)
         return none;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);

@@ -143,6 +143,9 @@ static void describe(const Upload *upload, Slot *slot)
 {
     ParticleBuffers *out = &slot->state;
     const Layout *layout = &upload->layout;
+    memset(out->scalar, 0, sizeof out->scalar);
+    memset(out->vector, 0, sizeof out->vector);
+    memset(out->range, 0, sizeof out->range);
     out->position = attribute(slot, layout->position, 4 * sizeof(float));
     out->velocity = attribute(slot, layout->velocity, 4 * sizeof(float));
     out->fluid = attribute(slot, layout->fluid, sizeof(uint32_t));

@@ -8,6 +8,7 @@
 #include "sim/box/box_motion.h"
 #include "sim/world/world.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -30,6 +31,7 @@ typedef struct ParticleAttribute {
 typedef struct ScalarRange {
     double low, high;       /* the 1st and the 99th percentile; where they are one, as the ends: */
     double least, greatest; /* of all that is a number */
+    bool known;
 } ScalarRange;
 
 typedef struct ParticleBuffers {
@@ -41,7 +43,7 @@ typedef struct ParticleBuffers {
     ParticleAttribute
         scalar[SCALAR_COUNT]; /* float; the derived ones are there in pictures that ask for them */
     ParticleAttribute vector[VECTOR_COUNT]; /* vec4: x y z in the box's axes; in pictures that ask for them */
-    ScalarRange range[SCALAR_COUNT];        /* in pictures that ask for it */
+    ScalarRange range[SCALAR_COUNT];        /* of those that a picture asked for: renderer_derive */
     double spacing;                         /* m */
     double support_radius;                  /* h, m */
     double box_size[3];                     /* m */

@@ -105,8 +105,10 @@ static void derive(Cloud *cloud)
     assert_true(upload_take(upload, &particles));
     if (!derived_follow(&derived, &wants, &error))
         fail_msg("%s", error.message);
-    for (int run = 0; run < 2; run++)
+    for (int run = 0; run < 2; run++) {
+        assert_true(upload_take(upload, &particles));
         derived_fill(&derived, &wants, &cloud->space, &particles);
+    }
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (int s = SCALAR_STATE_COUNT; s < SCALAR_COUNT; s++) {
         assert_true(particles.scalar[s].buffer || count == 0);

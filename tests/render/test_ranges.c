@@ -19,10 +19,10 @@ static ScalarRange by_sorting(const float *values, size_t count)
         if (isfinite(values[i]))
             sorted[known++] = values[i];
     if (known == 0)
-        return (ScalarRange){0, 0, 0, 0};
+        return (ScalarRange){.known = true};
     qsort(sorted, known, sizeof *sorted, ascending);
     const size_t open = (known - 1) / 100;
-    ScalarRange range = {sorted[open], sorted[known - 1 - open], sorted[0], sorted[known - 1]};
+    ScalarRange range = {sorted[open], sorted[known - 1 - open], sorted[0], sorted[known - 1], true};
     if (!(range.low < range.high))
         range.low = range.least, range.high = range.greatest;
     return range;
@@ -39,7 +39,7 @@ static void check(Ranges *ranges, const char *what, const float *values, size_t 
     const ScalarRange is = ranges_find(ranges, &attribute, count), wanted = by_sorting(values, count);
     glDeleteBuffers(1, &buffer);
     if (is.low != wanted.low || is.high != wanted.high || is.least != wanted.least ||
-        is.greatest != wanted.greatest)
+        is.greatest != wanted.greatest || !is.known)
         fail_msg("%s: %g %g %g %g, not %g %g %g %g", what, is.least, is.low, is.high, is.greatest,
                  wanted.least, wanted.low, wanted.high, wanted.greatest);
 }
@@ -119,6 +119,32 @@ static void a_picture_has_the_range_of_most(void **state)
     assert_true(found[0] == 0 && found[1] == 2);
 }
 
+/* What is in the state already stays: so several pictures have one range. */
+static void a_range_may_be_given(void **state)
+{
+    (void)state;
+    Error error = {0};
+    double found[2];
+    const ViewDef def = view_def_default();
+    ParticleBuffers buffers, box = box_state(3, 0.05);
+    Particles *particles = calloc(1, sizeof *particles);
+    assert_non_null(particles);
+    for (int i = 0; i < 3; i++)
+        particles_add(particles, 0.1 * i, 0.5, 0, i, 0);
+    Upload *upload = upload_particles(particles, &box, &buffers);
+    Renderer *renderer = renderer_create(&def, NULL, WIDE, HIGH, &error);
+    assert_non_null(renderer);
+    renderer_derive(renderer, &buffers);
+    assert_true(buffers.range[SCALAR_SPEED].known && buffers.range[SCALAR_SPEED].high == 2);
+    buffers.range[SCALAR_SPEED].high = 5;
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_range(renderer, found);
+    assert_true(found[0] == 0 && found[1] == 5);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    free(particles);
+}
+
 /* Yellow of viridis above the bar, violet below it, in the legend's panel. */
 static int tips(const uint8_t *rgb, int from, int to)
 {
@@ -152,6 +178,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(ranges_are_percentiles, no_gl_errors),
         cmocka_unit_test_teardown(a_picture_has_the_range_of_most, no_gl_errors),
+        cmocka_unit_test_teardown(a_range_may_be_given, no_gl_errors),
         cmocka_unit_test_teardown(the_legend_says_that_some_are_beyond, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
