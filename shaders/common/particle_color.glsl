@@ -1,6 +1,7 @@
-// The colour of a particle: its fluid's, or its scalar's in the colormap; linear light. Wants common/frame.glsl and
-// common/particles.glsl.
+// The colour of a particle: its fluid's, or its scalar's in the colormap, magenta where that is no number; linear light. Wants
+// common/frame.glsl and common/particles.glsl.
 #include "shaders/shared/bindings.h"
+#include "common/nan.glsl"
 #include "common/particle_scalars.glsl"
 #include "common/particle_fluids.glsl"
 layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
@@ -10,5 +11,7 @@ vec3 particle_color(uint index)
     if (by_fluid != 0u)
         return fluid_color[fluid_words[index * fluid_stride] & 7u].rgb;
     float value = (scalar_words[index * scalar_stride] - range_low) * range_scale;
+    if (is_nan(value))
+        return vec3(1.0, 0.0, 0.6);
     return texelFetch(colormap, ivec2(clamp(value, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
 }

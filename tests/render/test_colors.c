@@ -89,6 +89,12 @@ static void test_scalar_through_colormap(void **state)
     }
     center_color(&def, 99, 0, color); /* beyond the range: its end */
     assert_color(color, &map[3 * 255]);
+    for (int automatic = 0; automatic < 2; automatic++) {
+        static const uint8_t magenta[3] = {255, 0, 203};
+        def.range_auto = automatic;
+        center_color(&def, NAN, 0, color);
+        assert_color(color, magenta);
+    }
 }
 
 static void test_fluids_own_colors(void **state)
