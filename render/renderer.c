@@ -27,7 +27,7 @@ struct Renderer {
     bool plain;
     Covered covered;
     Title title;
-    double range[2]; /* of the last picture */
+    double range[2], opacity_range[2], size_range[2]; /* of the last picture */
     Target target;
     unsigned uniforms;
     Derived derived;
@@ -91,16 +91,28 @@ static void drop_unused_solids(Renderer *renderer)
     shadow_follow_solids(&renderer->shadow, false, &none);
 }
 
-/* What a picture by that def reads of the particles: who draws adds here what it reads. */
-static ParticleWants wants_of(const ViewDef *def)
+/* The fluid is a number here, not what has a colour. */
+static void want_curve(ParticleWants *wants, const ScalarCurve *curve)
 {
-    return (ParticleWants){.scalars = SCALAR_BIT(def->color_by), .attributes = overlays_attributes(def)};
+    if (curve->by == 0)
+        return;
+    const int scalar = scalar_of_curve(curve);
+    if (scalar < SCALAR_STATE_COUNT)
+        wants->attributes |= PARTICLE_SCALAR(scalar);
+    else
+        wants->scalars |= SCALAR_BIT(scalar);
 }
 
-/* SCALAR_BIT of those whose range follows the state; the fluids' own colours have none. */
-static uint32_t ranged_of(const ViewDef *def)
+/* What a picture by that def reads of the particles: who draws adds here what it reads. Screen-doors go by
+   ids. */
+static ParticleWants wants_of(const ViewDef *def)
 {
-    return def->range_auto && def->color_by != SCALAR_FLUID ? SCALAR_BIT(def->color_by) : 0;
+    ParticleWants wants = {.scalars = SCALAR_BIT(def->color_by), .attributes = overlays_attributes(def)};
+    want_curve(&wants, &def->opacity);
+    want_curve(&wants, &def->size);
+    if (def->opacity.by != 0)
+        wants.attributes |= PARTICLE_SCALAR(SCALAR_ID);
+    return wants;
 }
 
 unsigned renderer_attributes(const ViewDef *def)
@@ -115,7 +127,7 @@ static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
     const ParticleWants wants = wants_of(def);
     if (!derived_follow(&renderer->derived, &wants, error))
         return false;
-    if (!ranged_of(def) || renderer->ranges.find)
+    if (!view_def_ranges(def) || renderer->ranges.find)
         return true;
     if (ranges_create(&renderer->ranges, error))
         return true;
@@ -269,13 +281,13 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
 static bool derives(const ViewDef *def)
 {
     const ParticleWants wants = wants_of(def);
-    return ranged_of(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
+    return view_def_ranges(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
 }
 
 void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
 {
     const ParticleWants wants = wants_of(&renderer->def);
-    const uint32_t ranged = ranged_of(&renderer->def);
+    const uint32_t ranged = view_def_ranges(&renderer->def);
     DerivedSpace space = {.flat = frame_slab(particles) > 0};
     memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
     derived_fill(&renderer->derived, &wants, &space, particles);
@@ -314,6 +326,8 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     if (renderer->view)
         view_show(renderer->view, &renderer->def, &frame);
     memcpy(renderer->range, frame.range, sizeof renderer->range);
+    memcpy(renderer->opacity_range, frame.opacity_range, sizeof renderer->opacity_range);
+    memcpy(renderer->size_range, frame.size_range, sizeof renderer->size_range);
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
     overlays_take(&renderer->overlays, particles, &subject, timer);
     if (renderer->view)
@@ -389,6 +403,12 @@ bool renderer_set_title(Renderer *renderer, const Title *title, Error *error)
 void renderer_range(const Renderer *renderer, double range[2])
 {
     memcpy(range, renderer->range, sizeof renderer->range);
+}
+
+void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double size[2])
+{
+    memcpy(opacity, renderer->opacity_range, sizeof renderer->opacity_range);
+    memcpy(size, renderer->size_range, sizeof renderer->size_range);
 }
 
 void renderer_set_plain(Renderer *renderer, bool plain)

@@ -72,8 +72,11 @@ bool renderer_set_title(Renderer *renderer, const Title *title, Error *error);
 
 /* What the colours of the last picture went from and to, in the unit of what it showed. A range that follows
    the state (`auto`) is from the 1st to the 99th percentile, whatever the backend; for it the GPU is waited
-   for once a picture. */
+   for once a picture and scalar. */
 void renderer_range(const Renderer *renderer, double range[2]);
+
+/* The same of the scalars by which opacity and size went; 0 where they went by none. */
+void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double size[2]);
 
 /* Colours exactly as the colormap has them, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);

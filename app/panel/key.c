@@ -3,6 +3,7 @@
 #include "app/scene/keys.h"
 #include "render/frame/legend.h"
 #include "sim/base/color.h"
+#include "sim/base/control_points.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -159,6 +160,42 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
         emit(row, events, "[%.9g, %.9g]", ends[0], ends[1]);
 }
 
+/* Rounded, so that eight points fit into a setting. */
+static void emit_points(const PanelKey *row, PanelEvents *events, const ControlPoints *points)
+{
+    char text[PANEL_SETTING_SIZE] = "[";
+    size_t used = 1;
+    for (int k = 0; k < points->count && used < sizeof text; k++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "%s[%.3f, %.3f]", k > 0 ? ", " : "",
+                                 points->x[k], points->y[k]);
+    emit(row, events, "%s]", text);
+}
+
+/* The preset, if it is one, and the curve itself. */
+static void draw_points(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
+{
+    const ControlPreset *presets = row->key->names;
+    ControlPoints points = *(const ControlPoints *)(const void *)((const char *)row->base + row->key->offset);
+    const char *names[CHOICES_MAX + 1] = {NULL};
+    int count = 0;
+    while (count + 1 < CHOICES_MAX && presets[count].name) {
+        names[count] = presets[count].name;
+        count++;
+    }
+    int chosen = 0;
+    while (chosen < count && !control_points_equal(&points, &presets[chosen].points))
+        chosen++;
+    names[count] = chosen == count ? "by hand" : NULL;
+    char id[64];
+    snprintf(id, sizeof id, "%.40s.preset", row->path);
+    const UiField preset = {.id = id, .label = field->label, .help = field->help};
+    const UiField curve = {.id = field->id, .label = "", .help = field->help};
+    if (ui_choice(ui, &preset, &chosen, names) && chosen < count)
+        emit(row, events, "%s", presets[chosen].name);
+    else if (ui_curve(ui, &curve, &points, row->key->max))
+        emit_points(row, events, &points);
+}
+
 void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
 {
     char help[512];
@@ -187,6 +224,9 @@ void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
         break;
     case KEY_RANGE:
         draw_range(ui, row, &field, events);
+        break;
+    case KEY_POINTS:
+        draw_points(ui, row, &field, events);
         break;
     case KEY_TEXT:
     case KEY_AXES:

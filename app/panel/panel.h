@@ -42,7 +42,8 @@ typedef struct PanelData {
     double speed;            /* that is asked for; 1: real time */
     double pictures_per_second;
     bool paused, realtime;
-    double scalar_range[2]; /* of the scalar shown, now */
+    double scalar_range[2];                 /* of the scalar shown, now */
+    double opacity_range[2], size_range[2]; /* the same of those by which opacity and size go; else 0 */
     const char *renderer;
     const char *const *warnings; /* plain words */
     int warning_count;
@@ -51,7 +52,7 @@ typedef struct PanelData {
     double panel_ms; /* CPU time of the panel in a picture, mean of the last ones */
 } PanelData;
 
-enum { PANEL_SETTINGS_MAX = 8, PANEL_SETTING_SIZE = 96 };
+enum { PANEL_SETTINGS_MAX = 8, PANEL_SETTING_SIZE = 192 };
 
 /* What the user asks for. */
 typedef struct PanelEvents {

@@ -9,7 +9,17 @@
 
 enum { NAME_LENGTH = 48, PATH_LENGTH = 64 };
 
-static const char *const color_keys[] = {"view.color_by", "view.colormap", "view.range"};
+/* What goes with a scalar; of a range, which one it is while it is automatic. */
+static const struct {
+    const char *path;
+    enum { COLOR_RANGE, OPACITY_RANGE, SIZE_RANGE } range;
+} color_keys[] = {
+    {"view.color_by", COLOR_RANGE},        {"view.colormap", COLOR_RANGE},
+    {"view.color_curve", COLOR_RANGE},     {"view.range", COLOR_RANGE},
+    {"view.opacity.by", OPACITY_RANGE},    {"view.opacity.curve", OPACITY_RANGE},
+    {"view.opacity.range", OPACITY_RANGE}, {"view.size.by", SIZE_RANGE},
+    {"view.size.curve", SIZE_RANGE},       {"view.size.range", SIZE_RANGE},
+};
 
 /* Live keys that are no widget among the scene's. */
 static const struct {
@@ -19,15 +29,15 @@ static const struct {
     {"view.camera.from", "the mouse moves the camera"},
     {"view.camera.to", "the mouse moves the camera"},
     {"view.camera.fov", "the mouse moves the camera"},
-    {"view.color_by", "among the colours"},
-    {"view.colormap", "among the colours"},
-    {"view.range", "among the colours"},
 };
 
 static bool is_elsewhere(const Key *key)
 {
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(elsewhere[i].path, key->path) == 0)
+            return true;
+    for (size_t i = 0; i < sizeof color_keys / sizeof *color_keys; i++)
+        if (strcmp(color_keys[i].path, key->path) == 0)
             return true;
     return false;
 }
@@ -148,10 +158,12 @@ void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents 
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
 {
     char unit[32], text[80];
+    const double *const ranges[] = {data->scalar_range, data->opacity_range, data->size_range};
     if (!ui_section(ui, "Colours", false))
         return;
     for (size_t i = 0; i < sizeof color_keys / sizeof *color_keys; i++)
-        draw_key(ui, scene_key_find(color_keys[i]), data->scene, start, data->scalar_range, events);
+        draw_key(ui, scene_key_find(color_keys[i].path), data->scene, start, ranges[color_keys[i].range],
+                 events);
     legend_unit(scalar_unit(data->scene->view.color_by), unit);
     snprintf(text, sizeof text, "%.4g to %.4g%s%s", data->scalar_range[0], data->scalar_range[1],
              *unit ? " " : "", unit);

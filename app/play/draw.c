@@ -12,6 +12,7 @@ static void draw_overlay(Play *play)
                           .movie = play->files.video != NULL};
     const double began = meter_thread_cpu_ms();
     renderer_range(play->picture.renderer, facts.range);
+    renderer_curve_ranges(play->picture.renderer, facts.opacity_range, facts.size_range);
     play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
     if (overlay_shown(&play->overlay, &play->model))
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);

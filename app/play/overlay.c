@@ -169,6 +169,8 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
         data->iterations += status->solves[k].iterations;
     collect_stages(model, facts, data);
     memcpy(data->scalar_range, facts->range, sizeof facts->range);
+    memcpy(data->opacity_range, facts->opacity_range, sizeof facts->opacity_range);
+    memcpy(data->size_range, facts->size_range, sizeof facts->size_range);
 }
 
 double overlay_covered_left(const Overlay *overlay, int width)

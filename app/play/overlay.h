@@ -40,6 +40,7 @@ typedef struct Overlay {
 typedef struct OverlayFacts {
     int width, height; /* of the picture */
     double range[2];   /* of its colours */
+    double opacity_range[2], size_range[2];
     const char *renderer;
     const PlayMeter *meter;
     const StageTimes *gl_times; /* NULL: the stages of a picture cannot be timed */

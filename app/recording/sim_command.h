@@ -17,7 +17,7 @@ typedef enum SimCommandKind {
     SIM_SET     /* scene_set_live, then world_change, or world_move for another backend */
 } SimCommandKind;
 
-enum { SIM_SETTING_SIZE = 96 };
+enum { SIM_SETTING_SIZE = 192 }; /* a curve of eight control points is the longest */
 
 typedef struct SimCommand {
     uint64_t step; /* WorldInfo.step when it applies */

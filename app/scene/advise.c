@@ -1,6 +1,7 @@
 #include "app/scene/advise_parts.h"
 
 #include "app/scene/keys.h"
+#include "render/frame/view.h"
 #include "sim/world/method.h"
 
 #include <stdarg.h>
@@ -45,33 +46,56 @@ static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZ
     return true;
 }
 
-/* Of an entry of views: as if that were the view. */
-static bool lacks_in_views(const Scene *scene, const KeyOwner *owner, const char *path, bool said,
-                           char need[NEED_SIZE])
+/* A view that draws no particles of different sizes, or opacities, has no use for such. */
+static bool lacks_view(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
-    const int index = (int)strtol(strchr(path, '[') + 1, NULL, 10);
-    char text[NEED_SIZE];
-    Scene one = *scene;
-    one.view = *scene_view(scene, index);
-    if (key_owner_used(owner, &one, said))
+    const unsigned wanted = strncmp(path, "view.opacity.", strlen("view.opacity.")) == 0 ? VIEW_OPACITY
+                            : strncmp(path, "view.size.", strlen("view.size.")) == 0     ? VIEW_SIZE
+                                                                                         : 0;
+    const ViewKind *kind = view_find(scene->view.kind);
+    int used = 0;
+    if (!wanted || !said || (kind && kind->curves & wanted))
         return false;
-    key_owner_need(owner, text, sizeof text);
-    snprintf(need, NEED_SIZE, "views[%d]%.100s", index, text + strlen("view"));
+    for (int i = 0; view_at(i) && used < NEED_SIZE; i++)
+        if (view_at(i)->curves & wanted)
+            used += snprintf(need + used, (size_t)(NEED_SIZE - used), "%s%s",
+                             used > 0 ? " or " : "view.kind: ", view_at(i)->name);
     return true;
 }
+
+static bool lacks_in_views(const Scene *scene, const char *path, bool said, char need[NEED_SIZE]);
 
 /* Whether the key at `path` has no effect, and what the scene lacks for it. */
 static bool lacks(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
     const Key *key = scene_key_find(path);
     const KeyOwner *owner = key ? key_owner(key) : NULL;
-    if (lacks_sound(scene, path, need))
+    if (key && key_list_like(path))
+        return lacks_in_views(scene, path, said, need);
+    if (lacks_sound(scene, path, need) || lacks_view(scene, path, said, need))
         return true;
-    if (owner && key_list_like(path))
-        return lacks_in_views(scene, owner, path, said, need);
     if (!owner || key_owner_used(owner, scene, said))
         return false;
     key_owner_need(owner, need, NEED_SIZE);
+    return true;
+}
+
+/* Of an entry of views: as if that were the view. */
+static bool lacks_in_views(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
+{
+    const int index = (int)strtol(strchr(path, '[') + 1, NULL, 10);
+    char own[PATH_SIZE], text[NEED_SIZE];
+    Scene one = *scene;
+    one.view = *scene_view(scene, index);
+    snprintf(own, sizeof own, "view%.200s", strchr(path, ']') + 1);
+    if (!lacks(&one, own, said, text))
+        return false;
+    const char *view = strstr(text, "view.");
+    if (view)
+        snprintf(need, NEED_SIZE, "%.*sviews[%d]%.100s", (int)(view - text), text, index,
+                 view + strlen("view"));
+    else
+        snprintf(need, NEED_SIZE, "%s", text);
     return true;
 }
 

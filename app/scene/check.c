@@ -3,14 +3,25 @@
 #include <math.h>
 #include <stdio.h>
 
+static bool check_range(const Check *check, const char *view, const char *key, bool automatic,
+                        const double range[2])
+{
+    char path[64];
+    snprintf(path, sizeof path, "%s.%s", view, key);
+    if (!automatic && !(range[0] < range[1]))
+        return FAIL(check, path, "the range's low (%g) is not below its high (%g); swap or move them",
+                    range[0], range[1]);
+    return true;
+}
+
 static bool check_view(const Check *check, const char *path, const ViewDef *view)
 {
-    char range[64], camera[64];
-    snprintf(range, sizeof range, "%s.range", path);
+    char camera[64];
     snprintf(camera, sizeof camera, "%s.camera", path);
-    if (!view->range_auto && !(view->range[0] < view->range[1]))
-        return FAIL(check, range, "the range's low (%g) is not below its high (%g); swap or move them",
-                    view->range[0], view->range[1]);
+    if (!check_range(check, path, "range", view->range_auto, view->range) ||
+        !check_range(check, path, "opacity.range", view->opacity.range_auto, view->opacity.range) ||
+        !check_range(check, path, "size.range", view->size.range_auto, view->size.range))
+        return false;
     const double *from = view->camera.from, *to = view->camera.to;
     if (!view->camera_auto && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
         return FAIL(check, camera, "the camera stands where it looks; move `from` or `to`");

@@ -3,6 +3,22 @@
 #include <stddef.h>
 #include <string.h>
 
+const KeyScalar key_scalars[KEY_SCALARS] = {{"view.color_by", "view.range"},
+                                            {"view.opacity.by", "view.opacity.range"},
+                                            {"view.size.by", "view.size.range"}};
+
+void key_range_free(const KeyScalar *scalar, void *base)
+{
+    *((bool *)base + scene_key_find(scalar->range)->aux) = true;
+}
+
+void key_range_follow(const KeyScalar *scalar, const void *before, void *base)
+{
+    const size_t at = scene_key_find(scalar->by)->offset;
+    if (memcmp((const char *)before + at, (const char *)base + at, sizeof(int)) != 0)
+        key_range_free(scalar, base);
+}
+
 void key_help_text(const Key *key, char *text, size_t size)
 {
     const char *owner = key->owner && key->owner->name ? key->owner->name : "";

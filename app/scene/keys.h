@@ -58,6 +58,20 @@ void scene_default(Scene *scene);
 /* The table as Markdown: `slosh help keys`. */
 void scene_keys_print(FILE *file);
 
+/* The keys of the picture that name a scalar, each with that of its range, which is of that scalar alone. */
+enum { KEY_SCALARS = 3 };
+typedef struct KeyScalar {
+    const char *by, *range;
+} KeyScalar;
+extern const KeyScalar key_scalars[KEY_SCALARS];
+
+/* Makes the range of such a key automatic. `base`: the Scene, or what the keys of an element of `views` count
+   from (key_list_at). */
+void key_range_free(const KeyScalar *scalar, void *base);
+
+/* The same where `before`, of the same kind, has another scalar. */
+void key_range_follow(const KeyScalar *scalar, const void *before, void *base);
+
 /* "path = value unit" for every setting of the scene as it was resolved. */
 void scene_print(const Scene *scene, FILE *file);
 
@@ -69,5 +83,8 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size);
 
 /* "0.001 to 1000", "more than 0, at most 5"; "" when not bounded. */
 void key_range_text(const Key *key, char *text, size_t size);
+
+/* The same of its numbers alone, where it takes names as well. */
+void key_bounds_text(const Key *key, char *text, size_t size);
 
 #endif

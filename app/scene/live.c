@@ -133,9 +133,14 @@ static bool in_world(const Scene *scene, const Change *change, const void *base)
 /* A range is of one scalar. */
 static void ranges_follow(const Scene *before, Scene *after)
 {
-    for (int i = 0; i < after->view_count; i++)
-        after->views[i].range_auto |= after->views[i].color_by != before->views[i].color_by;
-    after->view.range_auto |= after->view.color_by != before->view.color_by;
+    const Key *views = scene_key_find("views");
+    for (int k = 0; k < KEY_SCALARS; k++) {
+        key_range_follow(&key_scalars[k], before, after);
+        for (int i = 0; i < after->view_count; i++) {
+            const size_t at = key_list_at(views, i);
+            key_range_follow(&key_scalars[k], (const char *)before + at, (char *)after + at);
+        }
+    }
 }
 
 static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_world)

@@ -4,6 +4,7 @@
 #include "app/base/path.h"
 #include "app/scene/advise.h"
 #include "app/scene/check.h"
+#include "app/scene/keys.h"
 #include "app/scene/particles.h"
 #include "app/scene/read.h"
 #include "app/scene/tables.h"
@@ -28,34 +29,43 @@ static void title_default(Scene *scene)
         *dot = 0;
 }
 
-/* The file's scalar, or "" where it names none. */
-static void file_scalar(const Tree *tree, char name[NAME_SIZE])
+typedef char ScalarNames[KEY_SCALARS][NAME_SIZE];
+
+/* The file's scalars, or "" where it names none. */
+static void file_scalars(const Tree *tree, ScalarNames names)
 {
-    const Node *node = tree_at(tree, "view.color_by");
-    snprintf(name, NAME_SIZE, "%s", node && node->text ? node->text : "");
+    for (int k = 0; k < KEY_SCALARS; k++) {
+        const Node *node = tree_at(tree, key_scalars[k].by);
+        snprintf(names[k], NAME_SIZE, "%s", node && node->text ? node->text : "");
+    }
 }
 
 /* A range that the file gives is of the file's scalar, not of one that the command line names. */
-static void range_of_scalar(const Tree *tree, const char *scalar_of_file, ViewDef *view)
+static void range_of_scalar(const Tree *tree, const KeyScalar *scalar, const char *of_file, Scene *scene)
 {
-    const Node *color = tree_at(tree, "view.color_by"), *range = tree_at(tree, "view.range");
-    const bool own = range && range->said;
-    const char *of_file = *scalar_of_file ? scalar_of_file : scalar_name(view_def_default().color_by);
-    if (!own && color && color->said && strcmp(of_file, scalar_name(view->color_by)) != 0)
-        view->range_auto = true;
+    static Scene usual;
+    const Node *by = tree_at(tree, scalar->by), *range = tree_at(tree, scalar->range);
+    const Key *key = scene_key_find(scalar->by);
+    char before[NAME_SIZE], now[NAME_SIZE];
+    scene_default(&usual);
+    key_value_text(key, &usual, before, sizeof before);
+    key_value_text(key, scene, now, sizeof now);
+    if (!(range && range->said) && by && by->said && strcmp(*of_file ? of_file : before, now) != 0)
+        key_range_free(scalar, scene);
 }
 
 /* A range is of one scalar: of a picture among several that says none it is that of `view`, if that is of its
  * scalar. */
-static void ranges_of_views(const Tree *tree, Scene *scene)
+static void ranges_of_views(const Tree *tree, const KeyScalar *scalar, Scene *scene)
 {
+    const Key *views = scene_key_find("views"), *range = scene_key_find(scalar->range);
     for (int i = 0; i < scene->view_count; i++) {
-        ViewDef *view = &scene->views[i];
-        char path[32];
-        snprintf(path, sizeof path, "views[%d].range", i);
+        char path[64], *base = (char *)scene + key_list_at(views, i);
+        snprintf(path, sizeof path, "views[%d]%s", i, scalar->range + strlen("view"));
         if (tree_at(tree, path))
             continue;
-        view->range_auto = scene->view.range_auto || view->color_by != scene->view.color_by;
+        *((bool *)base + range->aux) = *((bool *)scene + range->aux);
+        key_range_follow(scalar, scene, base);
     }
 }
 
@@ -137,8 +147,8 @@ static void set_defaults(const Tree *tree, Scene *out)
 
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
-    char scalar[NAME_SIZE];
-    file_scalar(tree, scalar);
+    ScalarNames scalars;
+    file_scalars(tree, scalars);
     if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, error))
         return false;
     out->purpose = settings->purpose;
@@ -146,8 +156,10 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
         advise_settings(settings, out, notes);
     else
         scene_advise_unused(tree, out, notes);
-    range_of_scalar(tree, scalar, &out->view);
-    ranges_of_views(tree, out);
+    for (int k = 0; k < KEY_SCALARS; k++) {
+        range_of_scalar(tree, &key_scalars[k], scalars[k], out);
+        ranges_of_views(tree, &key_scalars[k], out);
+    }
     if (!settings->recorded && !choose_spacing(tree, settings, out, notes, error))
         return false;
     set_defaults(tree, out);

@@ -1,6 +1,7 @@
 /* The table of keys and a scene's settings as text for people. */
 #include "app/scene/keys.h"
 #include "sim/base/color.h"
+#include "sim/base/control_points.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -25,13 +26,32 @@ static void color_text(const Key *key, const char *field, char *text, size_t siz
     print_triple(text, size, "%.3g", color);
 }
 
+static void rows_text(const double *x, const double *y, int count, char *text, size_t size)
+{
+    int used = snprintf(text, size, "[");
+    for (int k = 0; k < count && used >= 0 && (size_t)used < size; k++)
+        used += snprintf(text + used, size - (size_t)used, "%s[%.9g, %.9g]%s", k ? ", " : "", x[k], y[k],
+                         k + 1 < count ? "" : "]");
+}
+
 /* One number, or the rows. */
 static void curve_text(const TimeTable *table, double number, char *text, size_t size)
 {
-    int used = snprintf(text, size, table->rows > 0 ? "[" : "%.9g", number);
-    for (int k = 0; k < (int)table->rows && used >= 0 && (size_t)used < size; k++)
-        used += snprintf(text + used, size - (size_t)used, "%s[%.9g, %.9g]%s", k ? ", " : "", table->time[k],
-                         table->value[k], k + 1 < (int)table->rows ? "" : "]");
+    if (table->rows > 0)
+        rows_text(table->time, table->value, (int)table->rows, text, size);
+    else
+        snprintf(text, size, "%.9g", number);
+}
+
+/* The preset's name where it is one. */
+static void points_text(const Key *key, const ControlPoints *points, char *text, size_t size)
+{
+    for (const ControlPreset *preset = key->names; preset->name; preset++)
+        if (control_points_equal(points, &preset->points)) {
+            snprintf(text, size, "%s", preset->name);
+            return;
+        }
+    rows_text(points->x, points->y, points->count, text, size);
 }
 
 static void axes_text(const bool axes[3], char *text, size_t size)
@@ -99,6 +119,9 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
         else
             snprintf(text, size, "[%.9g, %.9g]", ((const double *)field)[0], ((const double *)field)[1]);
         break;
+    case KEY_POINTS:
+        points_text(key, (const ControlPoints *)(const void *)field, text, size);
+        break;
     case KEY_MAPPING:
     case KEY_VARIANT:
     case KEY_LIST:
@@ -106,23 +129,30 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
     }
 }
 
-void key_range_text(const Key *key, char *text, size_t size)
+void key_bounds_text(const Key *key, char *text, size_t size)
 {
     *text = 0;
-    if (key->type == KEY_CHOICE || key->type == KEY_NAMES) {
-        size_t used = 0;
-        const char *name;
-        for (int i = 0; (name = key_choice(key, i)) && used < size; i++)
-            used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
-    } else if (key->type == KEY_BOOLEAN) {
-        snprintf(text, size, "true, false");
-    } else if (key->min == key->max) {
+    if (key->min == key->max)
         return;
-    } else if (key->flags & KEY_OPEN_LOW) {
+    if (key->flags & KEY_OPEN_LOW)
         snprintf(text, size, "more than %g, at most %g", key->min, key->max);
-    } else {
+    else
         snprintf(text, size, "%g to %g", key->min, key->max);
-    }
+}
+
+void key_range_text(const Key *key, char *text, size_t size)
+{
+    size_t used = 0;
+    const char *name;
+    *text = 0;
+    for (int i = 0; (name = key_choice(key, i)) && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
+    if (key->type == KEY_POINTS && used < size)
+        snprintf(text + used, size - used, ", or points of %g to %g", key->min, key->max);
+    else if (key->type == KEY_BOOLEAN)
+        snprintf(text, size, "true, false");
+    else if (used == 0)
+        key_bounds_text(key, text, size);
 }
 
 static bool is_container(KeyType type)
@@ -192,6 +222,7 @@ void scene_keys_print(FILE *file)
         [KEY_NAMES] = "list of names",
         [KEY_COLOR] = "[r, g, b]",
         [KEY_RANGE] = "[low, high]",
+        [KEY_POINTS] = "name or points",
     };
     int count;
     const Key *keys = scene_keys(&count);

@@ -2,6 +2,7 @@
 
 #include "app/base/suggest.h"
 #include "sim/base/color.h"
+#include "sim/base/control_points.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -75,7 +76,7 @@ static bool read_number(const Value *value, const Node *node, const char *wanted
                           node->text);
     if (in_range(key, *out))
         return true;
-    key_range_text(key, range, sizeof range);
+    key_bounds_text(key, range, sizeof range);
     return tree_error(value->tree, node, value->error, "%s must be %s%s%s, not %.60s", value->shown, range,
                       with_unit(value), key->unit, node->text);
 }
@@ -198,43 +199,90 @@ static bool read_numbers(const Value *value, size_t count, const char *wanted, d
     return true;
 }
 
-static bool read_row(const Value *value, const Node *row, TimeTable *table, int k)
+/* Rows [x, y] on their way into two arrays. */
+typedef struct Rows {
+    const char *wanted, *places, *unit, *what; /* "times", " s", "a table" */
+    double x_most;
+    int most;
+    double *x, *y;
+} Rows;
+
+static bool read_row(const Value *value, const Node *row, const Rows *rows, int k)
 {
-    static const char wanted[] = "a number or rows [seconds, number], the numbers";
-    double *time = &table->time[k];
+    double *x = &rows->x[k];
     if (row->kind != NODE_SEQUENCE || node_count(row) != 2)
-        return wrong(value, row, wanted);
-    if (!number_parse(row->first, time))
-        return wrong(value, row->first, wanted);
-    if (!(*time >= 0 && *time <= TIME_MOST))
-        return tree_error(value->tree, row->first, value->error, "%s: times must be 0 to %g s, not %.60s",
-                          value->shown, TIME_MOST, row->first->text);
-    if (k > 0 && !(*time > table->time[k - 1]))
+        return wrong(value, row, rows->wanted);
+    if (!number_parse(row->first, x))
+        return wrong(value, row->first, rows->wanted);
+    if (!(*x >= 0 && *x <= rows->x_most))
+        return tree_error(value->tree, row->first, value->error, "%s: %s must be 0 to %g%s, not %.60s",
+                          value->shown, rows->places, rows->x_most, rows->unit, row->first->text);
+    if (k > 0 && !(*x > rows->x[k - 1]))
         return tree_error(value->tree, row->first, value->error,
-                          "%s: times must ascend; %.60s stands after %.9g", value->shown, row->first->text,
-                          table->time[k - 1]);
-    return read_number(value, row->first->next, wanted, &table->value[k]);
+                          "%s: %s must ascend; %.60s stands after %.9g", value->shown, rows->places,
+                          row->first->text, rows->x[k - 1]);
+    return read_number(value, row->first->next, rows->wanted, &rows->y[k]);
+}
+
+/* How many rows there are; 0 with the reason. */
+static int read_rows(const Value *value, const Rows *rows)
+{
+    const Node *node = value->node;
+    const size_t count = node_count(node);
+    int k = 0;
+    if (count < 1 || count > (size_t)rows->most) {
+        tree_error(value->tree, node, value->error, "%s has %zu rows; %s must have 1 to %d", value->shown,
+                   count, rows->what, rows->most);
+        return 0;
+    }
+    for (const Node *row = node->first; row; row = row->next, k++)
+        if (!read_row(value, row, rows, k))
+            return 0;
+    return k;
 }
 
 /* A number, or rows of time and number; the field then has the value at time 0. */
 static bool read_curve(const Value *value, TimeTable *table)
 {
-    const Node *node = value->node;
+    static const char wanted[] = "a number or rows [seconds, number], the numbers";
+    const Rows rows = {wanted,    "times",         " s",        "a table",
+                       TIME_MOST, TIME_TABLE_ROWS, table->time, table->value};
     *table = (TimeTable){0};
-    if (node->kind != NODE_SEQUENCE)
-        return read_number(value, node, "a number or rows [seconds, number], the numbers",
-                           (double *)value->field);
-    const size_t rows = node_count(node);
-    if (rows < 1 || rows > TIME_TABLE_ROWS)
-        return tree_error(value->tree, node, value->error, "%s has %zu rows; a table must have 1 to %d",
-                          value->shown, rows, TIME_TABLE_ROWS);
-    int k = 0;
-    for (const Node *row = node->first; row; row = row->next, k++)
-        if (!read_row(value, row, table, k))
-            return false;
-    table->rows = k;
+    if (value->node->kind != NODE_SEQUENCE)
+        return read_number(value, value->node, wanted, (double *)value->field);
+    table->rows = read_rows(value, &rows);
+    if (table->rows == 0)
+        return false;
     *(double *)value->field = time_table_at(table, 0);
     return true;
+}
+
+/* The name of a preset, or rows. */
+static bool read_points(const Value *value)
+{
+    ControlPoints *points = (ControlPoints *)value->field;
+    const ControlPreset *presets = value->key->names;
+    if (value->node->kind == NODE_SCALAR) {
+        char names[256];
+        key_range_text(value->key, names, sizeof names);
+        const int place = name_of(value, value->node, names);
+        if (place >= 0)
+            *points = presets[place].points;
+        return place >= 0;
+    }
+    const Rows rows = {"a name or rows [place in the range 0 to 1, number]",
+                       "places in the range",
+                       "",
+                       "a curve",
+                       1,
+                       CONTROL_POINTS_MAX,
+                       points->x,
+                       points->y};
+    *points = (ControlPoints){0};
+    if (value->node->kind != NODE_SEQUENCE)
+        return wrong(value, value->node, rows.wanted);
+    points->count = read_rows(value, &rows);
+    return points->count > 0;
 }
 
 static bool read_vec3(const Value *value)
@@ -316,6 +364,8 @@ bool value_read(const Tree *tree, const Key *key, const Node *node, const char *
         return read_color(&value);
     case KEY_RANGE:
         return read_range(&value, (bool *)(base + key->aux));
+    case KEY_POINTS:
+        return read_points(&value);
     case KEY_MAPPING:
     case KEY_VARIANT:
     case KEY_LIST:

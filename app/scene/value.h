@@ -5,8 +5,8 @@
 #include "app/scene/keys.h"
 #include "app/yaml/tree.h"
 
-/* Reads a number, curve, integer, boolean, text, choice, vector, colour or range into `base` + the key's
-   offset; `shown` is the key's path for people. False with "place: shown must be ...". */
+/* Reads a number, curve, integer, boolean, text, choice, vector, colour, range or control points into `base`
+   + the key's offset; `shown` is the key's path for people. False with "place: shown must be ...". */
 bool value_read(const Tree *tree, const Key *key, const Node *node, const char *shown, char *base,
                 Error *error);
 

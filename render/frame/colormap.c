@@ -2,8 +2,9 @@
    turbo by Mikhailov (2019), coolwarm by Moreland (2009); between them a Catmull-Rom curve. */
 #include "render/frame/colormap.h"
 
+#include "shaders/shared/bindings.h"
+
 #include <epoxy/gl.h>
-#include <stdio.h>
 #include <string.h>
 
 typedef struct Colormap {
@@ -61,47 +62,75 @@ static uint8_t channel_at(const Colormap *map, double at, int channel)
     return (uint8_t)(value < 0 ? 0 : value > 255 ? 255 : value + 0.5);
 }
 
+static const Colormap *colormap_find(const char *name)
+{
+    for (size_t i = 0; i < sizeof colormaps / sizeof colormaps[0]; i++)
+        if (strcmp(colormaps[i].name, name) == 0)
+            return &colormaps[i];
+    return NULL;
+}
+
+bool colormap_fill_bent(const char *name, const ControlPoints *curve, uint8_t rgb[3 * COLORMAP_SIZE])
+{
+    const Colormap *map = colormap_find(name);
+    for (int entry = 0; map && entry < COLORMAP_SIZE; entry++) {
+        const double at = (map->count - 1.0) * control_points_at(curve, (double)entry / (COLORMAP_SIZE - 1));
+        for (int k = 0; k < 3; k++)
+            rgb[3 * entry + k] = channel_at(map, at, k);
+    }
+    return map != NULL;
+}
+
 bool colormap_fill(const char *name, uint8_t rgb[3 * COLORMAP_SIZE])
 {
-    for (size_t i = 0; i < sizeof colormaps / sizeof colormaps[0]; i++) {
-        const Colormap *map = &colormaps[i];
-        if (strcmp(map->name, name) != 0)
-            continue;
-        for (int entry = 0; entry < COLORMAP_SIZE; entry++)
-            for (int k = 0; k < 3; k++)
-                rgb[3 * entry + k] = channel_at(map, (map->count - 1.0) * entry / (COLORMAP_SIZE - 1), k);
-        return true;
-    }
-    return false;
+    const ControlPoints straight = control_points_straight();
+    return colormap_fill_bent(name, &straight, rgb);
 }
 
-unsigned colormap_texture(const char *name)
+static void fill_texture(ColorTable *table, const ControlPoints *curve)
 {
     uint8_t rgb[3 * COLORMAP_SIZE];
-    GLuint texture;
-    if (!colormap_fill(name, rgb))
-        return 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &texture);
-    glObjectLabel(GL_TEXTURE, texture, -1, "colormap");
-    glTextureStorage2D(texture, 1, GL_SRGB8_ALPHA8, COLORMAP_SIZE, 1);
+    colormap_fill_bent(table->name, curve, rgb);
+    table->curve = *curve;
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture, 0, 0, 0, COLORMAP_SIZE, 1, GL_RGB, GL_UNSIGNED_BYTE, rgb);
-    glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    return texture;
+    glTextureSubImage2D(table->texture, 0, 0, 0, COLORMAP_SIZE, 1, GL_RGB, GL_UNSIGNED_BYTE, rgb);
 }
 
-void colormap_follow(ColormapKept *kept, const char *name)
+bool color_table_create(ColorTable *table, const char *name, const ControlPoints *curve, Error *error)
 {
-    if (kept->texture && strcmp(kept->name, name) == 0)
-        return;
-    colormap_drop(kept);
-    kept->texture = colormap_texture(name);
-    snprintf(kept->name, sizeof kept->name, "%s", name);
+    const Colormap *map = colormap_find(name);
+    *table = (ColorTable){.name = map ? map->name : NULL};
+    if (!map)
+        return error_set(error, "unknown colormap \"%s\"; viridis is the default", name);
+    glCreateTextures(GL_TEXTURE_2D, 1, &table->texture);
+    glObjectLabel(GL_TEXTURE, table->texture, -1, "colormap");
+    glTextureStorage2D(table->texture, 1, GL_SRGB8_ALPHA8, COLORMAP_SIZE, 1);
+    glTextureParameteri(table->texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(table->texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    fill_texture(table, curve);
+    return true;
 }
 
-void colormap_drop(ColormapKept *kept)
+void color_table_destroy(ColorTable *table)
 {
-    glDeleteTextures(1, &kept->texture);
-    *kept = (ColormapKept){0};
+    glDeleteTextures(1, &table->texture);
+    *table = (ColorTable){.texture = 0};
+}
+
+void color_table_bind(ColorTable *table, const ControlPoints *curve)
+{
+    if (!control_points_equal(&table->curve, curve))
+        fill_texture(table, curve);
+    glBindTextureUnit(COLORMAP_UNIT, table->texture);
+}
+
+void color_table_follow(ColorTable *table, const char *name, const ControlPoints *curve)
+{
+    Error unknown;
+    if (!table->name || strcmp(table->name, name) != 0) {
+        color_table_destroy(table);
+        if (!color_table_create(table, name, curve, &unknown))
+            return;
+    }
+    color_table_bind(table, curve);
 }

@@ -2,6 +2,9 @@
 #ifndef SLOSH_COLORMAP_H
 #define SLOSH_COLORMAP_H
 
+#include "sim/base/control_points.h"
+#include "sim/base/error.h"
+
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -12,18 +15,25 @@ enum { COLORMAP_SIZE = 256 };
 /* Fills `rgb` with COLORMAP_SIZE sRGB colours; false when there is no colormap of that name. */
 bool colormap_fill(const char *name, uint8_t rgb[3 * COLORMAP_SIZE]);
 
-/* A texture of COLORMAP_SIZE x 1 texels, sRGB; 0 when there is none of that name. The caller
- * deletes it. */
-unsigned colormap_texture(const char *name);
+/* The same, bent: of a place x in the scalar's range the colour at the curve's y. */
+bool colormap_fill_bent(const char *name, const ControlPoints *curve, uint8_t rgb[3 * COLORMAP_SIZE]);
 
-/* Such a texture for who keeps one from picture to picture. Zero-initialise it. */
-typedef struct ColormapKept {
+/* A colormap for shaders: a texture of COLORMAP_SIZE x 1 texels, sRGB. */
+typedef struct ColorTable {
     unsigned texture;
-    char name[32];
-} ColormapKept;
+    const char *name; /* of colormap_list */
+    ControlPoints curve;
+} ColorTable;
 
-/* Makes it that of another colormap, where it is not yet. */
-void colormap_follow(ColormapKept *kept, const char *name);
-void colormap_drop(ColormapKept *kept);
+/* False, with the reason, when there is none of that name; color_table_destroy is allowed in either case. */
+bool color_table_create(ColorTable *table, const char *name, const ControlPoints *curve, Error *error);
+void color_table_destroy(ColorTable *table);
+
+/* Bends it by that curve, and binds it for shaders (COLORMAP_UNIT). */
+void color_table_bind(ColorTable *table, const ControlPoints *curve);
+
+/* The same for who keeps one whatever the colormap, from a zeroed one on: makes it that of `name`, where it
+   is not yet. */
+void color_table_follow(ColorTable *table, const char *name, const ControlPoints *curve);
 
 #endif

@@ -11,20 +11,37 @@ _Static_assert(FRAME_FLUIDS_MAX == FLUIDS_MAX, "shaders have a colour for each f
 /* Of the softness of shadows on the floor, in sides of the shadow map. */
 static const float LIGHT_RADIUS = 0.035F;
 
-static void make_range(Frame *frame, const ParticleBuffers *particles)
+/* Said, or as found in this state; never empty. */
+static void range_of(const ScalarRange *found, bool automatic, bool symmetric, const double said[2],
+                     double range[2])
+{
+    const double reach = fmax(fabs(found->low), fabs(found->high));
+    range[0] = !automatic ? said[0] : symmetric ? -reach : found->low;
+    range[1] = !automatic ? said[1] : symmetric ? reach : found->high;
+    const double least = 1e-6 * fmax(fabs(range[0]), 1e-6); /* the same everywhere: any width will do */
+    if (!(range[1] - range[0] > least))
+        range[1] = range[0] + fmax(1e-3 * fabs(range[0]), 1e-3);
+}
+
+static void curve_range(const ScalarCurve *curve, const ParticleBuffers *particles, double range[2])
+{
+    range[0] = range[1] = 0;
+    if (curve->by != 0)
+        range_of(&particles->range[scalar_of_curve(curve)], curve->range_auto, curve->range_symmetric,
+                 curve->range, range);
+}
+
+static void make_ranges(Frame *frame, const ParticleBuffers *particles)
 {
     const ViewDef *def = frame->def;
     const ScalarRange *found = &particles->range[def->color_by];
-    const double reach = fmax(fabs(found->low), fabs(found->high));
-    frame->range[0] = !def->range_auto ? def->range[0] : def->range_symmetric ? -reach : found->low;
-    frame->range[1] = !def->range_auto ? def->range[1] : def->range_symmetric ? reach : found->high;
+    range_of(found, def->range_auto, def->range_symmetric, def->range, frame->range);
     frame->beyond[0] = def->range_auto && found->least < frame->range[0];
     frame->beyond[1] = def->range_auto && found->greatest > frame->range[1];
-    double least = 1e-6 * fmax(fabs(frame->range[0]), 1e-6); /* the same everywhere: any width will do */
+    curve_range(&def->opacity, particles, frame->opacity_range);
+    curve_range(&def->size, particles, frame->size_range);
     frame->shown = scalar_name(def->color_by);
     frame->shown_unit = scalar_unit(def->color_by);
-    if (!(frame->range[1] - frame->range[0] > least))
-        frame->range[1] = frame->range[0] + fmax(1e-3 * fabs(frame->range[0]), 1e-3);
 }
 
 /* The light comes from the left, the front and above of the automatic camera. Its map covers the ball around
@@ -175,7 +192,7 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
     frame->attenuation = usual_attenuation(particles->box_size, frame->slab);
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);
-    make_range(frame, particles);
+    make_ranges(frame, particles);
     frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
 }
 

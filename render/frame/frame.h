@@ -46,6 +46,9 @@ typedef struct Frame {
     unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool beyond[2];            /* an automatic range leaves some out, below and above it */
+    double opacity_range[2],
+        size_range[2]; /* the same as range of the def's opacity and size; 0 where they have none */
+    unsigned curves;   /* which of the two the view draws: VIEW_OPACITY, VIEW_SIZE */
     const char *shown, *shown_unit; /* what that range is of, for the legend */
     const char *note;               /* a line below the legend, static; NULL: none */
     bool by_fluid;                  /* coloured by the fluids' own colours */

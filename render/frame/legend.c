@@ -1,6 +1,7 @@
 #include "render/frame/legend.h"
 
 #include "render/frame/colormap.h"
+#include "render/frame/view.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -79,12 +80,12 @@ static uint32_t map_color(const uint8_t *rgb, int i)
 }
 
 /* A bar, pointed where there is more beyond its end. */
-static void draw_bar(Text *text, const char *colormap, const bool beyond[2], float x0, float y0, float x1,
+static void draw_bar(Text *text, const ViewDef *def, const bool beyond[2], float x0, float y0, float x1,
                      float y1)
 {
     enum { PIECES = 51 }; /* 255 = 5 * 51 */
     uint8_t rgb[3 * COLORMAP_SIZE];
-    if (!colormap_fill(colormap, rgb))
+    if (!colormap_fill_bent(def->colormap, &def->color_curve, rgb))
         return;
     for (int i = 0; i < PIECES; i++) {
         float low = y1 + (y0 - y1) * (float)i / PIECES, high = y1 + (y0 - y1) * (float)(i + 1) / PIECES;
@@ -114,6 +115,30 @@ static void draw_ticks(Text *text, const Layout *layout, const double range[2], 
     }
 }
 
+/* "opacity: pressure, 0 to 2000 Pa" below the panel. */
+static void draw_curve(Text *text, const Layout *layout, float line, const char *what,
+                       const ScalarCurve *curve, const double range[2])
+{
+    char unit[32], label[96];
+    legend_unit(scalar_unit(scalar_of_curve(curve)), unit);
+    snprintf(label, sizeof label, "%s: %s, %.5g to %.5g%s%s", what, scalar_name(scalar_of_curve(curve)),
+             range[0], range[1], *unit ? " " : "", unit);
+    text_draw(text, layout->right, layout->bottom + (0.5F + 1.4F * line) * layout->em, 1, layout->ink,
+              TEXT_RIGHT, label);
+}
+
+/* What else goes with a scalar, where the view draws it. `bottom`: of what stands above, in letters. */
+static void draw_curves(Text *text, const Frame *frame, float bottom)
+{
+    const Layout layout = make_layout(text, frame, 0, bottom);
+    const ViewDef *def = frame->def;
+    float line = 0;
+    if (frame->curves & VIEW_OPACITY && def->opacity.by != 0)
+        draw_curve(text, &layout, line++, "opacity", &def->opacity, frame->opacity_range);
+    if (frame->curves & VIEW_SIZE && def->size.by != 0)
+        draw_curve(text, &layout, line, "size", &def->size, frame->size_range);
+}
+
 static void draw_scalar(Text *text, const Frame *frame)
 {
     enum { HEIGHT_EM = 15 };
@@ -125,10 +150,11 @@ static void draw_scalar(Text *text, const Frame *frame)
     snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
-    draw_bar(text, frame->def->colormap, frame->beyond, x, y0, x + 1.2F * em, y1);
+    draw_bar(text, frame->def, frame->beyond, x, y0, x + 1.2F * em, y1);
     draw_ticks(text, &layout, frame->range, x + 1.2F * em, y0, y1);
     if (frame->note)
         text_draw(text, layout.right, layout.bottom + 0.6F * em, 1, layout.faint, TEXT_RIGHT, frame->note);
+    draw_curves(text, frame, HEIGHT_EM + (frame->note ? 1.4F : 0));
 }
 
 static float encode(float linear)
@@ -158,6 +184,7 @@ static void draw_fluids(Text *text, const Frame *frame)
         text_rectangle(text, x, y, x + em, y + em, 0.5F * em, fluid_rgba(world->fluids[i].color));
         text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, world->fluids[i].name);
     }
+    draw_curves(text, frame, 1.6F * (float)world->fluid_count + 0.9F);
 }
 
 void legend_line(Text *text, const Frame *frame, float x, float y, const char *line)

@@ -142,6 +142,13 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
         view->kind->prepare(view->state, particles, frame);
 }
 
+/* What has no curve pays for none, and is made anew when it gets one. */
+static bool same_curves(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
+{
+    return !((kind->curves & VIEW_OPACITY) && (a->opacity.by != 0) != (b->opacity.by != 0)) &&
+           !((kind->curves & VIEW_SIZE) && (a->size.by != 0) != (b->size.by != 0));
+}
+
 static size_t value_size(const Key *key)
 {
     if (key->type == KEY_BOOLEAN)
@@ -166,7 +173,8 @@ bool view_same(const Subject *a, const Subject *b)
     const ViewKind *kind = view_find(a->def->kind);
     return strcmp(a->def->kind, b->def->kind) == 0 && strcmp(a->def->colormap, b->def->colormap) == 0 &&
            (a->world->solid_count > 0) == (b->world->solid_count > 0) &&
-           (!kind || (same_keys(kind, a->def, b->def) && (!kind->same || kind->same(a, b))));
+           (!kind || (same_curves(kind, a->def, b->def) && same_keys(kind, a->def, b->def) &&
+                      (!kind->same || kind->same(a, b))));
 }
 
 bool view_accepts(View *view, const Subject *subject, Error *error)
@@ -176,6 +184,7 @@ bool view_accepts(View *view, const Subject *subject, Error *error)
 
 void view_show(const View *view, const ViewDef *def, Frame *frame)
 {
+    frame->curves = view->kind->curves;
     if (view->kind->show)
         view->kind->show(def, frame);
 }

@@ -16,6 +16,7 @@ typedef struct ViewShapes {
     int bytes;         /* of the largest block */
 } ViewShapes;
 
+enum { VIEW_OPACITY = 1, VIEW_SIZE = 2 };
 enum { VIEW_GRADES_MAX = 8 };
 
 /* A key of a view that trades time for likeness: what `slosh chart --views` tries. */
@@ -74,6 +75,8 @@ typedef struct ViewKind {
      * drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);
     double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
+    unsigned
+        curves; /* VIEW_OPACITY, VIEW_SIZE: what it draws by a scalar of the def; else that has no effect */
     /* Changes the radii, which are those of balls so far; NULL: particles are such balls. */
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
     /* The shapes of particles, where a GPU needs more memory for them than for balls; NULL: they are balls.

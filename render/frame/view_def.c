@@ -5,10 +5,24 @@ ViewDef view_def_shared(void)
     return (ViewDef){.color_by = SCALAR_SPEED,
                      .colormap = "viridis",
                      .range_auto = true,
+                     .color_curve = control_points_straight(),
+                     .opacity = {.range_auto = true, .curve = control_points_straight()},
+                     .size = {.range_auto = true, .curve = control_points_straight()},
                      .legend = true,
                      .box = true,
                      .floor = true,
                      .camera_auto = true,
                      .camera = {.fov_deg = 32},
                      .background = {0.72, 0.76, 0.80}};
+}
+
+static unsigned curve_bit(const ScalarCurve *curve)
+{
+    return curve->by != 0 && curve->range_auto ? 1U << scalar_of_curve(curve) : 0;
+}
+
+unsigned view_def_ranges(const ViewDef *def)
+{
+    const bool color = def->color_by != SCALAR_FLUID && def->range_auto;
+    return (color ? 1U << def->color_by : 0) | curve_bit(&def->size) | curve_bit(&def->opacity);
 }

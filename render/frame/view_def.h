@@ -2,6 +2,7 @@
 #ifndef SLOSH_VIEW_DEF_H
 #define SLOSH_VIEW_DEF_H
 
+#include "sim/base/control_points.h"
 #include "sim/base/scalar.h"
 #include "sim/matter/world_def.h"
 
@@ -14,13 +15,22 @@ typedef struct CameraDef {
     double fov_deg; /* vertical field of view, degrees */
 } CameraDef;
 
-enum { VIEW_KINDS_MAX = 8, OVERLAY_KINDS_MAX = 4, VIEW_OWN_SIZE = 256 };
+enum { VIEW_KINDS_MAX = 8, OVERLAY_KINDS_MAX = 4, VIEW_OWN_SIZE = 512 };
 
 /* Room for the own settings of a view or an overlay, a struct that only its owner knows: see view_own in
    render/frame/view.h, overlay_own in render/frame/overlay.h. */
 typedef struct ViewOwn {
     _Alignas(8) unsigned char bytes[VIEW_OWN_SIZE];
 } ViewOwn;
+
+/* What of a particle goes with a scalar, beside its colour. */
+typedef struct ScalarCurve {
+    int by;               /* 1 + a Scalar; 0: none, and the rest has no effect */
+    bool range_auto;      /* the range follows each state; else range[0] .. range[1] */
+    bool range_symmetric; /* one that follows each state is as wide below 0 as above */
+    double range[2];      /* in the scalar's unit */
+    ControlPoints curve;
+} ScalarCurve;
 
 typedef struct ViewDef {
     char kind[NAME_SIZE];            /* see view_list; "none" draws nothing */
@@ -29,6 +39,9 @@ typedef struct ViewDef {
     bool range_auto;                 /* the range follows each state; else range[0] .. range[1] */
     bool range_symmetric;            /* one that follows each state is as wide below 0 as above */
     double range[2];                 /* in the scalar's unit */
+    ControlPoints color_curve;       /* bends the colormap */
+    ScalarCurve opacity;             /* 0 .. 1 */
+    ScalarCurve size;                /* factor of the radius */
     double radius;                   /* of a particle, in spacings; 0: the view's default */
     ViewOwn of_view[VIEW_KINDS_MAX]; /* own settings of each view of the list, in its order */
     bool legend;                     /* draw the legend */
@@ -47,6 +60,15 @@ typedef struct Subject {
     const ViewDef *def;
     const WorldDef *world; /* all 0 where it is not known */
 } Subject;
+
+/* The scalar of a curve that has one. */
+static inline Scalar scalar_of_curve(const ScalarCurve *curve)
+{
+    return (Scalar)(curve->by - 1);
+}
+
+/* Bits 1 << Scalar of those whose range follows the state. The fluids' own colours have none. */
+unsigned view_def_ranges(const ViewDef *def);
 
 /* Defaults of all that views share; kind and own settings: views_default, overlays_default. */
 ViewDef view_def_shared(void);

@@ -2,6 +2,7 @@
 #include "render/frame/colormap.h"
 #include "render/frame/view.h"
 #include "render/frame/view_def.h"
+#include "sim/base/control_points.h"
 #include "sim/base/key_rows.h"
 #include "sim/base/scalar.h"
 
@@ -16,8 +17,21 @@ static const char *kind_name(int index)
     return index < views ? view_at(index)->name : index == views ? "none" : NULL;
 }
 
-_Static_assert(offsetof(ViewDef, range_symmetric) == offsetof(ViewDef, range_auto) + 1,
-               "bool[2] of KEY_RANGE");
+#define SYMMETRIC_FOLLOWS(range_of)                                                                          \
+    _Static_assert(offsetof(ViewDef, range_of##_symmetric) == offsetof(ViewDef, range_of##_auto) + 1,        \
+                   "bool[2] of KEY_RANGE")
+SYMMETRIC_FOLLOWS(range);
+SYMMETRIC_FOLLOWS(opacity.range);
+SYMMETRIC_FOLLOWS(size.range);
+
+/* "none", then the scalars. */
+static const char *scalar_or_none(int index)
+{
+    return index == 0 ? "none" : scalar_list[index - 1].name;
+}
+
+static const KeyOwner by_opacity = {.key = "view.opacity.by", .need = "a scalar (view.opacity.by)"};
+static const KeyOwner by_size = {.key = "view.size.by", .need = "a scalar (view.size.by)"};
 
 /* clang-format off */
 const Key view_keys[] = {
@@ -27,6 +41,17 @@ const Key view_keys[] = {
     CHOICE_OF("view.colormap", L, colormap_list, AT(colormap), "the colours of a scalar"),
     {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(range),
      .aux = AT(range_auto), .help = "auto: of 98 in 100 particles; symmetric: that, about 0; or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
+    POINTS("view.color_curve", L, 0, 1, control_presets, AT(color_curve), "bends the colormap: the place in it by where the scalar is in its range"),
+    MAPPING("view.opacity", "of particles, by a scalar"),
+    CHOICE("view.opacity.by", L | KEY_INDEX, scalar_or_none, AT(opacity.by), "the scalar; none: all are opaque"),
+    {.path = "view.opacity.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(opacity.range),
+     .aux = AT(opacity.range_auto), .owner = &by_opacity, .help = "auto, symmetric or [low, high] in the scalar's unit, as view.range"},
+    POINTS("view.opacity.curve", L, 0, 1, control_presets, AT(opacity.curve), "the opacity by where the scalar is in its range", .owner = &by_opacity),
+    MAPPING("view.size", "of particles, by a scalar"),
+    CHOICE("view.size.by", L | KEY_INDEX, scalar_or_none, AT(size.by), "the scalar; none: all are of one radius"),
+    {.path = "view.size.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(size.range),
+     .aux = AT(size.range_auto), .owner = &by_size, .help = "auto, symmetric or [low, high] in the scalar's unit, as view.range"},
+    POINTS("view.size.curve", L, 0, 5, control_presets, AT(size.curve), "factor of view.radius by where the scalar is in its range", .owner = &by_size),
     NUMBER("view.radius", L, "spacings", 0, 10, AT(radius), "of a particle; 0: the view's own"),
     KEYS_END,
 };

@@ -13,7 +13,7 @@
 typedef struct Glyphs {
     GlyphArrows arrows;
     unsigned program;
-    ColormapKept colormap;
+    ColorTable colors;
     QuadIndices quads;
     double unit, length; /* an arrow of `length` m stands for `unit`; 0: there are none */
 } Glyphs;
@@ -23,7 +23,7 @@ static void destroy(void *state)
     Glyphs *glyphs = state;
     glyph_arrows_destroy(&glyphs->arrows);
     glDeleteProgram(glyphs->program);
-    colormap_drop(&glyphs->colormap);
+    color_table_destroy(&glyphs->colors);
     quad_indices_destroy(&glyphs->quads);
     free(glyphs);
 }
@@ -76,7 +76,7 @@ static void draw_arrows(Glyphs *glyphs, const Frame *frame)
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
     set_look(glyphs, frame);
-    glBindTextureUnit(COLORMAP_UNIT, glyphs->colormap.texture);
+    color_table_follow(&glyphs->colors, frame->def->colormap, &frame->def->color_curve);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, glyphs->arrows.arrows);
     quad_indices_draw_indirect(&glyphs->quads, glyphs->arrows.most, glyphs->arrows.command, 0);
 }
@@ -88,7 +88,6 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     {
         glyph_arrows_make(&glyphs->arrows, particles, frame);
         make_scale(glyphs, glyphs_def(frame->def));
-        colormap_follow(&glyphs->colormap, frame->def->colormap);
         if (glyphs->arrows.most > 0 && glyphs->unit > 0)
             draw_arrows(glyphs, frame);
     }

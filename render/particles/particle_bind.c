@@ -46,6 +46,13 @@ unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute,
     return attribute->buffer ? (unsigned)(attribute->stride / 4) : 0;
 }
 
+void particle_bind_ids(unsigned program, const ParticleBuffers *particles)
+{
+    const ParticleAttribute *ids = &particles->scalar[SCALAR_ID];
+    bind_attribute(IDS_STORAGE, ids, particles);
+    glProgramUniform1ui(program, ID_STRIDE_AT, (GLuint)(ids->buffer ? ids->stride / 4 : 0));
+}
+
 float point_limit(void)
 {
     GLfloat range[2] = {0};

@@ -16,6 +16,9 @@ const ParticleAttribute *particle_shown(const ParticleBuffers *particles, Scalar
 unsigned particle_bind_one(unsigned binding, const ParticleAttribute *attribute, size_t count,
                            unsigned stand_in);
 
+/* The ids, as numbers that the scalar `id` has, for shaders/common/particle_ids.glsl. */
+void particle_bind_ids(unsigned program, const ParticleBuffers *particles);
+
 /* The largest point that is worth drawing instead of a quad, pixels; 0 where none is: points are cheaper on a
    software driver only, and not all hardware draws them to the bit. */
 float point_limit(void);

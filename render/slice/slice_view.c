@@ -19,7 +19,8 @@
 
 typedef struct SliceView {
     PlaneSum sum;
-    unsigned program, vertex_array, colormap;
+    unsigned program, vertex_array;
+    ColorTable colors;
     bool has_scalar; /* that is shown */
     SliceProbe probe;
     View *balls; /* draws particles beside the plane; NULL: none are shown */
@@ -35,7 +36,7 @@ static void destroy(void *state)
     plane_probe_destroy(&view->probe.probe);
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->vertex_array);
-    glDeleteTextures(1, &view->colormap);
+    color_table_destroy(&view->colors);
     view_destroy(view->balls);
     particle_half_destroy(&view->half);
     free(view);
@@ -75,10 +76,8 @@ static void *create(const Subject *subject, Error *error)
         return NULL;
     }
     glCreateVertexArrays(1, &view->vertex_array);
-    view->colormap = colormap_texture(subject->def->colormap);
-    if (!view->colormap)
-        error_set(error, "unknown colormap \"%s\"; viridis is the default", subject->def->colormap);
-    view->program = view->colormap ? program_create("slice show", stages, NULL, error) : 0;
+    if (color_table_create(&view->colors, subject->def->colormap, &subject->def->color_curve, error))
+        view->program = program_create("slice show", stages, NULL, error);
     const int kernel = plane_kernel_of(slice_def(subject->def)->kernel, subject->world);
     if (view->program && plane_sum_prepare(&view->sum, kernel, error) && create_balls(view, subject, error))
         return view;
@@ -193,7 +192,7 @@ static unsigned what_is_shown(const SliceView *view, const Frame *frame)
     return slice_def(frame->def)->raw ? SLICE_RAW : SLICE_MEAN;
 }
 
-static void show_sums(const SliceView *view, const PlaneJob *job, const Frame *frame)
+static void show_sums(SliceView *view, const PlaneJob *job, const Frame *frame)
 {
     const SliceDef *def = slice_def(frame->def);
     const bool flat = def->show == SLICE_FLAT;
@@ -212,7 +211,7 @@ static void show_sums(const SliceView *view, const PlaneJob *job, const Frame *f
     glUniform1ui(ISOLINES_AT, (GLuint)def->isolines);
     glUniform1f(OPACITY_AT, flat ? 1 : (float)def->opacity);
     glBindTextureUnit(SUMS_UNIT, view->sum.sums);
-    glBindTextureUnit(COLORMAP_UNIT, view->colormap);
+    color_table_bind(&view->colors, &frame->def->color_curve);
     glBindVertexArray(view->vertex_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glDisable(GL_BLEND);

@@ -6,6 +6,7 @@
 #include "render/frame/shadow.h"
 #include "render/particles/casting.h"
 #include "render/particles/particle_bind.h"
+#include "render/particles/particle_curves.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/spheres/spheres_bindings.h"
 #include "sim/gl/program.h"
@@ -13,14 +14,16 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct Spheres {
     GLuint visibility, points, shading; /* programs */
+    ParticleCurves curves;
     Casting casting;
     float point_limit; /* largest point to be drawn, pixels; 0: quads only */
     bool solids;       /* the target holds more than particles */
-    GLuint colormap;
+    ColorTable colors;
     GLuint framebuffer, seen; /* number of the nearest particle where the target's own depth has one, R32UI */
     unsigned target_number;   /* which the framebuffer was made for */
     GLuint screen;            /* vertex array without attributes */
@@ -34,7 +37,8 @@ static void spheres_destroy(void *state)
     glDeleteProgram(spheres->points);
     glDeleteProgram(spheres->shading);
     casting_destroy(&spheres->casting);
-    glDeleteTextures(1, &spheres->colormap);
+    particle_curves_destroy(&spheres->curves);
+    color_table_destroy(&spheres->colors);
     glDeleteFramebuffers(1, &spheres->framebuffer);
     glDeleteTextures(1, &spheres->seen);
     glDeleteVertexArrays(1, &spheres->screen);
@@ -42,18 +46,20 @@ static void spheres_destroy(void *state)
     free(spheres);
 }
 
-static bool create_programs(Spheres *spheres, Error *error)
+static bool create_programs(Spheres *spheres, const ViewDef *def, Error *error)
 {
+    static const char *const quads[] = {"spheres/spheres.vert", "spheres/spheres.frag", NULL};
+    static const char *const points[] = {"spheres/spheres_point.vert", "spheres/spheres_point.frag", NULL};
     static const char *const shading[] = {"common/screen.vert", "spheres/spheres_shade.frag", NULL};
-    spheres->visibility =
-        program_create_pair("spheres", "spheres/spheres.vert", "spheres/spheres.frag", error);
-    spheres->points = spheres->visibility ? program_create_pair("spheres point", "spheres/spheres_point.vert",
-                                                                "spheres/spheres_point.frag", error)
-                                          : 0;
-    spheres->shading = spheres->points ? program_create("spheres shade", shading,
-                                                        spheres->solids ? "#define SOLIDS 1\n" : NULL, error)
-                                       : 0;
-    return spheres->shading && casting_create(&spheres->casting, NULL, error);
+    const char *curves = particle_curves_defines(def);
+    char defines[96];
+    snprintf(defines, sizeof defines, "%s%s", curves, spheres->solids ? "#define SOLIDS 1\n" : "");
+    spheres->visibility = program_create("spheres", quads, curves, error);
+    if (spheres->visibility)
+        spheres->points = program_create("spheres point", points, curves, error);
+    if (spheres->points)
+        spheres->shading = program_create("spheres shade", shading, defines, error);
+    return spheres->shading && casting_create(&spheres->casting, curves, error);
 }
 
 static void *spheres_create(const Subject *subject, Error *error)
@@ -65,13 +71,11 @@ static void *spheres_create(const Subject *subject, Error *error)
         return NULL;
     }
     spheres->solids = subject->world->solid_count > 0;
-    spheres->colormap = colormap_texture(def->colormap);
-    if (!spheres->colormap)
-        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
     glCreateVertexArrays(1, &spheres->screen);
     quad_indices_create(&spheres->quads);
     spheres->point_limit = point_limit();
-    if (spheres->colormap && create_programs(spheres, error))
+    if (color_table_create(&spheres->colors, def->colormap, &def->color_curve, error) &&
+        particle_curves_create(&spheres->curves, def, error) && create_programs(spheres, def, error))
         return spheres;
     spheres_destroy(spheres);
     return NULL;
@@ -95,17 +99,33 @@ static void follow_target(Spheres *spheres, const Target *target)
     spheres->target_number = target->number;
 }
 
+static void spheres_prepare(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    Spheres *spheres = state;
+    if (frame->def->size.by != 0 || frame->def->opacity.by != 0)
+        GL_STAGE(frame->timer, STAGE_VISIBILITY)
+        {
+            particle_curves_make(&spheres->curves, particles, frame);
+        }
+}
+
+static void spheres_radii(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii)
+{
+    radii->reach *= (float)particle_curves_reach(def, particles);
+}
+
 static void spheres_cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     const Spheres *spheres = state;
     (void)frame;
+    particle_curves_bind(&spheres->curves);
     casting_draw(&spheres->casting, particles);
 }
 
 /* A point whose centre is outside the view is lost, and none is larger than the limit. */
 static bool points_will_do(const Spheres *spheres, const Frame *frame)
 {
-    const float *tangent = frame->camera.tangent, r = frame->particle_radius, nearest = frame->nearest + r;
+    const float *tangent = frame->camera.tangent, r = frame->particle_reach, nearest = frame->nearest + r;
     if (!frame->all_in_view || nearest <= 2 * r)
         return false;
     float slant = sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
@@ -126,6 +146,7 @@ static void find_visible(Spheres *spheres, const ParticleBuffers *particles, con
     glDisable(GL_BLEND);
     bool points = points_will_do(spheres, frame);
     GLuint program = points ? spheres->points : spheres->visibility;
+    particle_curves_bind(&spheres->curves);
     glUseProgram(program);
     particle_bind(program, particles, frame->def->color_by);
     if (!points) {
@@ -144,7 +165,8 @@ static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, co
     glDepthFunc(GL_LESS);
     glDepthMask(GL_FALSE);
     glBindTextureUnit(SEEN_UNIT, spheres->seen);
-    glBindTextureUnit(COLORMAP_UNIT, spheres->colormap);
+    color_table_bind(&spheres->colors, &frame->def->color_curve);
+    particle_curves_bind(&spheres->curves);
     glUseProgram(spheres->shading);
     particle_bind(spheres->shading, particles, frame->def->color_by);
     glBindVertexArray(spheres->screen);
@@ -168,8 +190,11 @@ const ViewKind view_spheres = {
     .name = "spheres",
     .help = "every particle as a lit sphere, exact in each pixel",
     .radius = 0.5, /* half a spacing: neighbours at rest touch */
+    .curves = VIEW_OPACITY | VIEW_SIZE,
+    .radii = spheres_radii,
     .create = spheres_create,
     .destroy = spheres_destroy,
+    .prepare = spheres_prepare,
     .cast = spheres_cast,
     .draw = spheres_draw,
 };

@@ -22,7 +22,7 @@ typedef struct SplatView {
     GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1]; /* programs, by sprite */
     GLuint limit;                                          /* program */
     Casting casting;
-    GLuint colormap;
+    ColorTable colors;
     SplatSprites sprites;
     Ellipsoids ellipsoids;
     SplatMaps maps;
@@ -63,7 +63,7 @@ static void splat_destroy(void *state)
     }
     glDeleteProgram(splat->limit);
     casting_destroy(&splat->casting);
-    glDeleteTextures(1, &splat->colormap);
+    color_table_destroy(&splat->colors);
     splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
     narrow_range_destroy(&splat->filter);
@@ -120,17 +120,15 @@ static bool create_passes(SplatView *splat, const Subject *subject, Error *error
 
 static void *splat_create(const Subject *subject, Error *error)
 {
-    const char *colormap = subject->def->colormap;
+    const ViewDef *def = subject->def;
     SplatView *splat = calloc(1, sizeof *splat);
     if (!splat) {
         error_set(error, "out of memory for the view");
         return NULL;
     }
     splat->def = *splat_def(subject->def);
-    splat->colormap = colormap_texture(colormap);
-    if (!splat->colormap)
-        error_set(error, "unknown colormap \"%s\"; viridis is the default", colormap);
-    if (splat->colormap && splat_sprites_create(&splat->sprites, &splat->def, error) &&
+    if (color_table_create(&splat->colors, def->colormap, &def->color_curve, error) &&
+        splat_sprites_create(&splat->sprites, &splat->def, error) &&
         ellipsoids_create(&splat->ellipsoids, &splat->def, error) && create_programs(splat, error) &&
         create_passes(splat, subject, error))
         return splat;
@@ -226,7 +224,7 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
     else
         glProgramUniform1f(splat->blend[sprite], EPS_AT, eps_of(frame));
     glBindTextureUnit(NEAREST_UNIT, splat->maps.nearest);
-    glBindTextureUnit(COLORMAP_UNIT, splat->colormap);
+    color_table_bind(&splat->colors, &frame->def->color_curve);
     counts_begin(frame->counts);
     draw_sprites(splat, sprite, splat->blend[sprite], particles, frame, CULL_BLEND);
     counts_end(frame->counts, STAGE_BLEND);

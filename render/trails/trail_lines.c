@@ -31,7 +31,7 @@ void trail_lines_destroy(TrailLines *lines)
     glDeleteProgram(lines->show);
     glDeleteVertexArrays(1, &lines->screen);
     glDeleteFramebuffers(1, &lines->framebuffer);
-    colormap_drop(&lines->colormap);
+    color_table_destroy(&lines->colors);
     glDeleteTextures(1, &lines->kept);
     quad_indices_destroy(&lines->quads);
     *lines = (TrailLines){0};
@@ -155,7 +155,7 @@ static void show_all(TrailLines *lines, const TrailStore *store, const Frame *fr
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glBindTextureUnit(TRAIL_LINES_UNIT, lines->kept);
-    glBindTextureUnit(COLORMAP_UNIT, lines->colormap.texture);
+    color_table_follow(&lines->colors, frame->def->colormap, &frame->def->color_curve);
     frame_cut_to_bounds(frame);
     show(lines, store, frame, all ? GL_ALWAYS : GL_GEQUAL, 1);
     if (through > 0 && !all)
@@ -170,7 +170,6 @@ void trail_lines_draw(TrailLines *lines, const TrailStore *store, const Frame *f
     if (store->slots == 0 || store->ring.end == store->ring.begin)
         return;
     const TrailLook look = look_of(store, frame);
-    colormap_follow(&lines->colormap, frame->def->colormap);
     follow_size(lines, &look);
     trail_store_bind(store);
     keep(lines, store, &look);

@@ -27,7 +27,7 @@ typedef struct TrailLines {
     unsigned lines, head, show; /* programs */
     unsigned screen;            /* vertex array without attributes */
     unsigned kept, framebuffer;
-    ColormapKept colormap;
+    ColorTable colors;
     QuadIndices quads;
     TrailLook look; /* of the kept picture */
     uint64_t drawn; /* columns before this one are in it */

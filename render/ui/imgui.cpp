@@ -217,7 +217,10 @@ struct Ui {
     float line_right; // where the last button of a line ends; 0: the line is new
     ImGuiID typing;   // the field that is being typed into
     double typed;
-    UiScale held; // of the slider in hand: it stays while the value moves, whatever it is made from
+    UiScale held;  // of the slider in hand: it stays while the value moves, whatever it is made from
+    ImGuiID curve; // in hand
+    int point;     // of it, or -1
+    ControlPoints curve_points;
     UiWatcher *watcher;
     void *watcher_user;
 };
@@ -847,6 +850,129 @@ bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const U
     }
     ImGui::EndGroup();
     end_field(ui, field, needed * (float)count + gap * (float)(count - 1));
+    return changed;
+}
+
+static const float CURVE_LETTERS = 6;    // how high a curve is
+static const float POINT_LETTERS = 0.6F; // how near to a point a press takes it
+
+// Where curves of 0 to `most` stand in a box: with room for the points at its ends.
+struct CurvePlace {
+    ImRect inner;
+    double most;
+};
+
+static ImVec2 curve_place(const CurvePlace &place, double x, double y)
+{
+    return ImVec2(place.inner.Min.x + (float)x * place.inner.GetWidth(),
+                  place.inner.Max.y - (float)(y / place.most) * place.inner.GetHeight());
+}
+
+static void curve_value(const CurvePlace &place, double *x, double *y)
+{
+    const ImVec2 mouse = ImGui::GetMousePos();
+    *x = std::clamp((mouse.x - place.inner.Min.x) / (double)place.inner.GetWidth(), 0.0, 1.0);
+    *y = std::clamp((place.inner.Max.y - mouse.y) / (double)place.inner.GetHeight(), 0.0, 1.0) * place.most;
+}
+
+// The point nearest to the mouse, where one is within reach; else -1.
+static int point_near(const Ui *ui, const CurvePlace &place, const ControlPoints *points)
+{
+    const ImVec2 mouse = ImGui::GetMousePos();
+    float nearest = POINT_LETTERS * ui->pixels;
+    int near = -1;
+    for (int k = 0; k < points->count; k++) {
+        const ImVec2 at = curve_place(place, points->x[k], points->y[k]);
+        const float distance = std::hypot(mouse.x - at.x, mouse.y - at.y);
+        if (distance <= nearest) {
+            nearest = distance;
+            near = k;
+        }
+    }
+    return near;
+}
+
+static void draw_curve(const Ui *ui, const ImRect &box, const CurvePlace &place, const ControlPoints *points,
+                       int lit)
+{
+    const ImGuiStyle &style = ImGui::GetStyle();
+    const ImU32 line = ImGui::GetColorU32(style.Colors[ImGuiCol_CheckMark]),
+                end = ImGui::GetColorU32(style.Colors[ImGuiCol_Text]);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    list->AddRectFilled(box.Min, box.Max, ImGui::GetColorU32(style.Colors[ImGuiCol_FrameBg]));
+    ImVec2 last(place.inner.Min.x, curve_place(place, 0, points->y[0]).y);
+    for (int k = 0; k <= points->count; k++) {
+        const int at = std::min(k, points->count - 1);
+        const ImVec2 next = curve_place(place, k < points->count ? points->x[at] : 1, points->y[at]);
+        list->AddLine(last, next, line, 0.1F * ui->pixels);
+        last = next;
+    }
+    for (int k = 0; k < points->count; k++) {
+        const ImVec2 at = curve_place(place, points->x[k], points->y[k]);
+        const float r = (k == lit ? 0.35F : 0.25F) * ui->pixels;
+        list->AddRectFilled(ImVec2(at.x - r, at.y - r), ImVec2(at.x + r, at.y + r), k == lit ? end : line);
+    }
+    if (lit < 0)
+        return;
+    char text[48];
+    snprintf(text, sizeof text, "%.3g, %.3g", points->x[lit], points->y[lit]);
+    const bool left = points->x[lit] > 0.5;
+    const float width = ImGui::CalcTextSize(text).x, edge = 0.3F * ui->pixels;
+    list->AddText(ImVec2(left ? box.Min.x + edge : box.Max.x - edge - width, box.Min.y), end, text);
+}
+
+// A press takes the point there; a second one soon after makes one where there is none.
+static void press_curve(Ui *ui, ImGuiID id, const CurvePlace &place, ControlPoints *points, int near)
+{
+    double x, y;
+    curve_value(place, &x, &y);
+    if (near < 0 && ImGui::IsMouseDoubleClicked(0))
+        near = control_points_add(points, x, y);
+    ui->curve = id;
+    ui->point = near;
+    ui->curve_points = *points;
+}
+
+// What is in hand stays as it is in hand, whenever the caller's own follows.
+static bool edit_curve(Ui *ui, const ImRect &box, ImGuiID id, const CurvePlace &place, ControlPoints *points,
+                       int *lit)
+{
+    const ControlPoints before = *points;
+    bool hovered = false, held = false;
+    const bool pressed = ImGui::ButtonBehavior(box, id, &hovered, &held, ImGuiButtonFlags_PressedOnClick);
+    *lit = hovered || held ? point_near(ui, place, points) : -1;
+    if (pressed)
+        press_curve(ui, id, place, points, *lit);
+    if (held && ui->curve == id && ui->point >= 0) {
+        double x, y;
+        curve_value(place, &x, &y);
+        control_points_move(&ui->curve_points, ui->point, x, y);
+        *points = ui->curve_points;
+        *lit = ui->point;
+    } else if (hovered && *lit >= 0 && ImGui::IsMouseClicked(1)) {
+        control_points_remove(points, *lit);
+        *lit = -1;
+    }
+    return !control_points_equal(&before, points);
+}
+
+bool ui_curve(Ui *ui, const UiField *field, ControlPoints *points, double most)
+{
+    Current current(ui->context);
+    const float width = begin_field(ui, field), pad = 0.4F * ui->pixels;
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImRect box(corner, ImVec2(corner.x + width, corner.y + std::floor(CURVE_LETTERS * ui->pixels)));
+    const CurvePlace place = {
+        ImRect(ImVec2(box.Min.x + pad, box.Min.y + pad), ImVec2(box.Max.x - pad, box.Max.y - pad)), most};
+    const ImGuiID id = ImGui::GetCurrentWindow()->GetID("curve");
+    bool changed = false;
+    int lit = -1;
+    ImGui::ItemSize(box);
+    if (ImGui::ItemAdd(box, id)) {
+        changed = edit_curve(ui, box, id, place, points, &lit);
+        draw_curve(ui, box, place, points, lit);
+    }
+    end_field(ui, field, 0);
     return changed;
 }
 

@@ -16,6 +16,7 @@ extern "C" {
 #endif
 
 #include "render/ui/ui_scale.h"
+#include "sim/base/control_points.h"
 #include "sim/base/error.h"
 
 typedef struct Ui Ui;
@@ -112,6 +113,10 @@ bool ui_color(Ui *ui, const UiField *field, float srgb[3]);
 /* One to three numbers side by side, by dragging along the scale, or typed after Ctrl+click or a double
    click: then anything from scale->least to scale->most. */
 bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const UiScale *scale);
+
+/* A curve of 0 to `most`. The left button drags a point, a double click where there is none makes one, the
+   right button takes one away. */
+bool ui_curve(Ui *ui, const UiField *field, ControlPoints *points, double most);
 
 /* Room for a drawing as wide as the window, as high as that many letters: left, top, right, bottom. False
    when it is scrolled out of view. */

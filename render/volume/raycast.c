@@ -23,7 +23,8 @@ static const double FAR_STEP = 0.5;
 
 struct Raycast {
     GLuint program, settle; /* march; write depth */
-    GLuint block, colormap, screen;
+    GLuint block, screen;
+    ColorTable colors;
     Bricks bricks;
     Behind behind; /* of water */
     GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
@@ -43,7 +44,8 @@ void raycast_destroy(Raycast *raycast)
     glDeleteProgram(raycast->settle);
     glDeleteBuffers(1, &raycast->block);
     glDeleteTextures(DEPTHS, raycast->depths);
-    glDeleteTextures(2, (GLuint[]){raycast->colormap, raycast->found});
+    color_table_destroy(&raycast->colors);
+    glDeleteTextures(1, &raycast->found);
     glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
     glDeleteVertexArrays(1, &raycast->screen);
     free(raycast);
@@ -79,10 +81,7 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
     glCreateBuffers(1, &raycast->block);
     glObjectLabel(GL_BUFFER, raycast->block, -1, "raycast uniforms");
     glNamedBufferStorage(raycast->block, sizeof(RaycastBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
-    raycast->colormap = colormap_texture(def->colormap);
-    if (!raycast->colormap)
-        error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
-    else
+    if (color_table_create(&raycast->colors, def->colormap, &def->color_curve, error))
         raycast->program = create_program(subject, voxelizer ? voxelizer_defines(voxelizer) : "", error);
     if (raycast->program)
         raycast->settle =
@@ -243,9 +242,10 @@ static void open_gate(const Raycast *raycast, const Target *target, bool inside)
 }
 
 /* Solids stand in the target's depth, which is not written until all rays are cast. */
-static void bind_maps(const Raycast *raycast, const Target *target)
+static void bind_maps(Raycast *raycast, const Frame *frame)
 {
-    glBindTextureUnit(COLORMAP_UNIT, raycast->colormap);
+    const Target *target = frame->target;
+    color_table_bind(&raycast->colors, &frame->def->color_curve);
     glBindTextureUnit(ENTRY_UNIT, raycast->depths[ENTRY]);
     glBindTextureUnit(EXIT_UNIT, raycast->depths[EXIT]);
     glBindTextureUnit(TARGET_DEPTH_UNIT, raycast->solids ? target->depth : 0);
@@ -275,7 +275,7 @@ static void march(Raycast *raycast, const Frame *frame, bool inside)
         glEnablei(GL_BLEND, 0);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    bind_maps(raycast, frame->target);
+    bind_maps(raycast, frame);
     glUseProgram(raycast->program);
     glBindVertexArray(raycast->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);

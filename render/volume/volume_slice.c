@@ -1,6 +1,5 @@
 #include "render/volume/volume_slice.h"
 
-#include "render/frame/colormap.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
@@ -10,9 +9,9 @@
 bool volume_slice_create(VolumeSlice *slice, const ViewDef *def, const Voxelizer *voxelizer, Error *error)
 {
     static const char *const stages[] = {"volume/volume_slice.vert", "volume/volume_slice.frag", NULL};
-    *slice = (VolumeSlice){.colormap = colormap_texture(def->colormap)};
-    if (!slice->colormap)
-        return error_set(error, "unknown colormap \"%s\"; viridis is the default", def->colormap);
+    *slice = (VolumeSlice){.program = 0};
+    if (!color_table_create(&slice->colors, def->colormap, &def->color_curve, error))
+        return false;
     glCreateVertexArrays(1, &slice->vertex_array);
     slice->program = program_create("volume slice", stages, voxelizer_defines(voxelizer), error);
     return slice->program != 0;
@@ -22,11 +21,11 @@ void volume_slice_destroy(VolumeSlice *slice)
 {
     glDeleteProgram(slice->program);
     glDeleteVertexArrays(1, &slice->vertex_array);
-    glDeleteTextures(1, &slice->colormap);
+    color_table_destroy(&slice->colors);
     *slice = (VolumeSlice){0};
 }
 
-void volume_slice_draw(const VolumeSlice *slice, const double box_size[3], const Frame *frame)
+void volume_slice_draw(VolumeSlice *slice, const double box_size[3], const Frame *frame)
 {
     const VolumeDef *def = volume_def(frame->def);
     const int axis = def->slice_axis;
@@ -40,7 +39,7 @@ void volume_slice_draw(const VolumeSlice *slice, const double box_size[3], const
     glUseProgram(slice->program);
     glUniform1ui(SLICE_AXIS_AT, (GLuint)axis);
     glUniform1f(SLICE_PLACE_AT, (float)(from + def->slice * box_size[axis]));
-    glBindTextureUnit(COLORMAP_UNIT, slice->colormap);
+    color_table_bind(&slice->colors, &frame->def->color_curve);
     glBindVertexArray(slice->vertex_array);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }

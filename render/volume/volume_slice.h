@@ -2,11 +2,13 @@
 #ifndef SLOSH_VOLUME_SLICE_H
 #define SLOSH_VOLUME_SLICE_H
 
+#include "render/frame/colormap.h"
 #include "render/frame/frame.h"
 #include "render/volume/volume.h"
 
 typedef struct VolumeSlice {
-    unsigned program, vertex_array, colormap;
+    unsigned program, vertex_array;
+    ColorTable colors;
 } VolumeSlice;
 
 /* For volumes of that voxelizer. False when a shader does not compile or the def's colormap is unknown;
@@ -15,6 +17,6 @@ bool volume_slice_create(VolumeSlice *slice, const ViewDef *def, const Voxelizer
 void volume_slice_destroy(VolumeSlice *slice);
 
 /* Draws the slice that the def names into frame->target, colour and depth. The volume is bound. */
-void volume_slice_draw(const VolumeSlice *slice, const double box_size[3], const Frame *frame);
+void volume_slice_draw(VolumeSlice *slice, const double box_size[3], const Frame *frame);
 
 #endif

@@ -7,6 +7,9 @@
 #include "common/scattered.glsl"
 #include "common/nan.glsl"
 #include "shaders/shared/shadow_maps.h"
+#ifdef VEILED
+#include "common/particle_veils.glsl"
+#endif
 
 layout(local_size_x = 64) in;
 // The same as `lit`, four in a row at once. What is read late is only too far, and costs an atomic that changes nothing.
@@ -33,6 +36,10 @@ void main()
     uint index = scattered(casters);
     if (index >= casters)
         return;
+#ifdef VEILED
+    if (veil[index].y >= veil[index].x) // of many as large a share casts a shadow as each is opaque
+        return;
+#endif
     Ball ball = ball_of(index);
     vec3 at = (box_to_light * vec4(ball.centre, 1.0)).xyz;
     if (is_nan(vec4(at, 0.0)) || any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0))))

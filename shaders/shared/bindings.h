@@ -15,8 +15,10 @@
 #define LISTED_STORAGE    3
 #define HALF_STORAGE      3 /* of a pass without a list */
 #define SHOWN_STORAGE     1
+#define VEILS_STORAGE     3 /* of views that list none */
 /* those of a neighbourhood, bound in this order by one call */
 #define CELLS_STORAGE  4
+#define IDS_STORAGE    4 /* of passes over all particles */
 #define RANKS_STORAGE  5
 #define STARTS_STORAGE 6
 #define ORDER_STORAGE  7
@@ -53,5 +55,11 @@
 #define HALF_COUNT_AT       13
 #define SHOWN_STRIDE_AT     14
 #define SHOWN_IS_FLUID_AT   15
+#define ID_STRIDE_AT        12
+#define CURVE_PARTICLES_AT  13
+#define CURVE_POINTS_AT     14
+#define CURVE_RANGE_AT      15
+#define CURVE_POINT_AT      64 /* so many places: */
+#define CURVE_POINTS_MAX    8
 
 #endif

@@ -5,6 +5,10 @@
 layout(location = 0) noperspective in vec3 offset;
 layout(location = 1) flat in vec3 constants;
 layout(location = 2) flat in uint index;
+#ifdef VEILED
+#include "common/veil.glsl"
+layout(location = 3) flat in vec2 door;
+#endif
 layout(location = 0) out uint seen;
 
 void main()
@@ -12,6 +16,10 @@ void main()
     float e, depth = sphere_depth(offset, constants, e);
     if (e < 0.0 || depth <= 0.0 || depth > 1.0)
         discard;
+#ifdef VEILED
+    if (!veil_covers(door, gl_FragCoord.xy))
+        discard;
+#endif
     gl_FragDepth = depth;
     seen = index;
 }

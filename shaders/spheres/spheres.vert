@@ -2,6 +2,11 @@
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/sphere.glsl"
+#include "common/ball.glsl"
+#ifdef VEILED
+#include "common/particle_veils.glsl"
+layout(location = 3) flat out vec2 door;
+#endif
 
 layout(location = 0) noperspective out vec3 offset;
 layout(location = 1) flat out vec3 constants;
@@ -10,9 +15,17 @@ layout(location = 2) flat out uint index;
 void main()
 {
     index = uint(gl_VertexID) >> 2;
-    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    Sphere sphere = sphere_at(centre, particle_radius);
+    Ball ball = ball_of(index);
+    vec3 centre = (box_to_eye * vec4(ball.centre, 1.0)).xyz;
+    Sphere sphere = sphere_at(centre, ball.radius);
     vec4 bounds = sphere_bounds(sphere);
+#ifdef DROPS
+    if (ball.radius <= 0.0)
+        bounds = vec4(0.0);
+#endif
+#ifdef VEILED
+    door = veil[index];
+#endif
     vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
     offset = sphere_offset(sphere, ray_of_ndc(corner));
     constants = sphere_constants(sphere);

@@ -5,6 +5,11 @@
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/nan.glsl"
+#include "common/ball.glsl"
+#ifdef VEILED
+#include "common/particle_veils.glsl"
+layout(location = 2) flat out vec2 door;
+#endif
 
 layout(location = 0) flat out vec4 axes; // x of a place in the point by its two coordinates from the middle; the same of y
 layout(location = 1) flat out uvec4 rest; // depth: bits of its constant, of x, of the root; the particle's number: each vector costs
@@ -12,8 +17,9 @@ layout(location = 1) flat out uvec4 rest; // depth: bits of its constant, of x, 
 void main()
 {
     uint index = uint(gl_VertexID);
-    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
-    float r = particle_radius, w = -centre.z, q = w * w - r * r, out2 = dot(centre.xy, centre.xy);
+    Ball ball = ball_of(index);
+    vec3 centre = (box_to_eye * vec4(ball.centre, 1.0)).xyz;
+    float r = ball.radius, w = -centre.z, q = w * w - r * r, out2 = dot(centre.xy, centre.xy);
     float outwards = sqrt(out2), slant = inversesqrt(max(q + out2, 1e-30)), root = sqrt(max(q, 1e-30));
     vec2 direction = outwards > 1e-6 * w ? centre.xy / outwards : vec2(1.0, 0.0);
     vec2 half_axes = vec2(r / (q * slant), r / root);
@@ -26,4 +32,11 @@ void main()
     rest = uvec4(floatBitsToUint(near_plane / q * vec3(w, r * slant * outwards, r * slant * root)), index);
     gl_Position = !is_nan(q + out2) && w > r + near_plane ? vec4(centre.xy * w / (q * view_tangent), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     gl_PointSize = size;
+#ifdef DROPS
+    if (r <= 0.0)
+        gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
+#endif
+#ifdef VEILED
+    door = veil[index];
+#endif
 }

@@ -4,6 +4,7 @@
 #include "common/light.glsl"
 #include "common/particles.glsl"
 #include "common/particle_color.glsl"
+#include "common/ball.glsl"
 #include "shaders/spheres/spheres_bindings.h"
 #ifdef SOLIDS
 #include "common/solid_light.glsl"
@@ -26,9 +27,9 @@ vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit, float key)
 
 // Where the ray meets the sphere, as its normal there: that is u + k ray with u = (w ray - c) / r, w = -c.z and |normal| = 1,
 // of which no term cancels when the sphere is small and far.
-vec3 normal_at(vec3 centre, vec3 ray, float per_ray2)
+vec3 normal_at(vec3 centre, float radius, vec3 ray, float per_ray2)
 {
-    vec2 u = (-centre.z * ray.xy - centre.xy) / particle_radius;
+    vec2 u = (-centre.z * ray.xy - centre.xy) / radius;
     float slant = dot(u, ray.xy) * per_ray2;
     float k = slant + sqrt(max(slant * slant + (1.0 - dot(u, u)) * per_ray2, 0.0));
     return vec3(u - k * ray.xy, k);
@@ -41,12 +42,13 @@ void main()
     if (index == 0xffffffffu)
         discard;
 #endif
-    vec3 centre = (box_to_eye * vec4(particle_position(index), 1.0)).xyz;
+    Ball ball = ball_of(index);
+    vec3 centre = (box_to_eye * vec4(ball.centre, 1.0)).xyz;
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
     float per_ray = inversesqrt(dot(ray, ray));
-    vec3 normal = normal_at(centre, ray, per_ray * per_ray);
+    vec3 normal = normal_at(centre, ball.radius, ray, per_ray * per_ray);
     vec3 albedo = particle_color(index);
-    vec3 place = centre + particle_radius * normal;
+    vec3 place = centre + ball.radius * normal;
     float lit = fluid_light(place), key = lit;
 #ifdef SOLIDS
     key *= solid_light(place);

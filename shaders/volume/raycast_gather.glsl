@@ -1,11 +1,6 @@
 // The light that a ray gathers through translucent fluid, from front to back. Wants volume/raycast_surface.glsl for `steps` and
 // volume/raycast_light.glsl. After: Max, Optical models for direct volume rendering, 1995.
-
-// Even noise over the pixels; after Jimenez, Next generation post processing in Call of Duty, 2014.
-float noise()
-{
-    return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
-}
+#include "common/noise.glsl"
 
 // What a piece of fluid sends to the eye: its skin as a lit surface, its body evenly, as light in it comes from everywhere.
 vec3 glow_at(Ray ray, float t, vec3 albedo, float skin)
@@ -59,7 +54,7 @@ vec4 gather(Ray ray, out float half_way)
     float dt = step_length / ray.slant;
     vec3 sum = vec3(0.0);
     float left = 1.0, t = ray.begin, share, f = field_at(ray_at(ray, t));
-    float next = t + dt * (jitter != 0u ? noise() : 1.0);
+    float next = t + dt * (jitter != 0u ? pixel_noise(gl_FragCoord.xy) : 1.0);
     half_way = 0.0;
     while (t < ray.end && left > enough_light) {
         Piece piece = next_piece(ray, dt, t, f, next);

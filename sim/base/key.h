@@ -22,7 +22,8 @@ typedef enum KeyType {
     KEY_NAMES,   /* some names of a list, each once: int[max], their places in it, and their count at `aux` */
     KEY_COLOR,   /* sRGB 0..1 in the file, linear in the struct: float[3] or double[3] */
     KEY_CURVE,   /* a number or rows [s, number]: double, and a TimeTable at `aux` */
-    KEY_RANGE    /* "auto", "symmetric" or [low, high]: double[2] and bool[2] */
+    KEY_RANGE,   /* "auto", "symmetric" or [low, high]: double[2] and bool[2] */
+    KEY_POINTS   /* rows [x, y], x 0 to 1, or the name of such: ControlPoints; `names` are of ControlPreset */
 } KeyType;
 
 enum {

@@ -44,6 +44,12 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
         .path = PATH, .type = KEY_CURVE, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), .offset = AT,         \
         .aux = TABLE, .help = __VA_ARGS__                                                                    \
     }
+/* PRESETS: an array of ControlPreset. */
+#define POINTS(PATH, FLAGS, LO, HI, PRESETS, AT, ...)                                                        \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_POINTS, .flags = FLAGS, .unit = "", BOUNDS(LO, HI), .names = PRESETS,      \
+        .stride = sizeof *(PRESETS), PLACE(AT), .help = __VA_ARGS__                                          \
+    }
 #define VEC3(PATH, FLAGS, UNIT, LO, HI, AT, HELP)                                                            \
     {                                                                                                        \
         .path = PATH, .type = KEY_VEC3, .flags = FLAGS, .unit = UNIT, BOUNDS(LO, HI), PLACE(AT),             \

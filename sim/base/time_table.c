@@ -1,17 +1,12 @@
 #include "sim/base/time_table.h"
 
+#include "sim/base/lines.h"
+
 #include <math.h>
 
 double time_table_at(const TimeTable *table, double time)
 {
-    const int last = (int)table->rows - 1;
-    const double *t = table->time, *y = table->value;
-    int k = 0;
-    while (k < last && t[k + 1] <= time)
-        k++;
-    if (k == last || time <= t[0])
-        return y[k];
-    return y[k] + (time - t[k]) / (t[k + 1] - t[k]) * (y[k + 1] - y[k]);
+    return lines_at(table->time, table->value, (int)table->rows, time);
 }
 
 double time_table_most(const TimeTable *table)

@@ -93,6 +93,10 @@ static const struct {
     {"particles.most=100",
      "fluids[0].emit=[{disk: {centre: [0.4, 0.9], direction: [0, -1], radius: 0.1}, speed: 1}]",
      "an emitter (fluids[].emit)", false},
+    {"view.opacity.range=[0, 1]", "view.opacity.by=speed", "a scalar (view.opacity.by)", false},
+    {"view.opacity.curve=ends", "view.opacity.by=speed", "a scalar (view.opacity.by)", false},
+    {"view.size.range=[0, 1]", "view.size.by=speed", "a scalar (view.size.by)", false},
+    {"view.size.curve=ends", "view.size.by=speed", "a scalar (view.size.by)", false},
     {"view.splat.ior=2", "view.kind=splat", "view.kind: splat", false},
     {"view.volume.look=water", "view.kind=volume", "view.kind: volume", false},
     {"view.slice.cut=0.5", "view.kind=slice", "view.kind: slice", false},
@@ -140,6 +144,21 @@ static void a_key_without_its_owner_is_said(void **state)
         if (notes.lasting > 0)
             fail_msg("%s with %s: %s", set, owned[i].owner, notes.line[0]);
     }
+}
+
+/* A view that draws no particles, or no field that is not opaque, has no use for curves. */
+static void a_view_without_curves_is_said(void **state)
+{
+    (void)state;
+    static Scene scene;
+    const Notes slice = notes_of(column, "view.kind=slice", "view.size.by=speed", SCENE_FOR_ONE, &scene);
+    assert_int_equal(slice.count, 1);
+    assert_string_equal(slice.line[0],
+                        "--set view.size.by=speed: view.size.by has no effect; it needs view.kind: spheres");
+    assert_int_equal(notes_of(column, "view.kind=spheres", "view.size.by=speed", SCENE_FOR_ONE, &scene).count,
+                     0);
+    assert_int_equal(
+        notes_of(column, "view.kind=splat", "view.opacity.by=speed", SCENE_FOR_ONE, &scene).count, 1);
 }
 
 /* Every row that has an owner is among those. */
@@ -276,6 +295,7 @@ int main(void)
         cmocka_unit_test(a_line_has_its_place),
         cmocka_unit_test(a_key_without_its_owner_is_said),
         cmocka_unit_test(every_owner_is_tried),
+        cmocka_unit_test(a_view_without_curves_is_said),
         cmocka_unit_test(only_the_owner_reads_its_keys),
         cmocka_unit_test(files_may_say_how_other_views_shall_be),
         cmocka_unit_test(the_panel_keeps_the_lines),

@@ -115,6 +115,8 @@ static void fill(Session *session)
                                 .pictures_per_second = 59.9,
                                 .realtime = true,
                                 .scalar_range = {-1234.5, 102345},
+                                .opacity_range = {0.5, 2.5},
+                                .size_range = {-3, 7},
                                 .renderer = "llvmpipe (LLVM 15.0.6, 256 bits)",
                                 .warnings = warnings,
                                 .warning_count = 1,
@@ -191,6 +193,16 @@ static void in_second_fluid(const char *path, char out[64])
         snprintf(out, 64, "%s", path);
 }
 
+/* Automatic ones have no sliders. */
+static void set_ranges(Scene *scene)
+{
+    for (int k = 0; k < KEY_SCALARS; k++) {
+        char setting[64];
+        snprintf(setting, sizeof setting, "%s=[0, 2]", key_scalars[k].range);
+        assert_true(scene_set_live(scene, setting, NULL, NULL));
+    }
+}
+
 static void test_every_live_key_has_a_widget(void **state)
 {
     (void)state;
@@ -198,7 +210,7 @@ static void test_every_live_key_has_a_widget(void **state)
     const Key *keys = scene_keys(&count);
     Session session;
     Desk *desk = all_open(&session, "two_oils");
-    assert_true(scene_set_live(&session.scene, "view.range=[0, 2]", NULL, NULL));
+    set_ranges(&session.scene);
     desk_frames(desk, 30);
     for (int i = 0; i < count; i++) {
         char path[64];
@@ -219,6 +231,8 @@ static void test_every_live_key_has_a_widget(void **state)
 static void click_for_change(Desk *desk, const Key *key, const char *path, float share)
 {
     desk_click_at(desk, path, share);
+    if (key->type == KEY_POINTS)
+        desk_click_at(desk, path, share); /* twice: a new point */
     const Seen *seen = desk_find(desk, path);
     const float line = seen->rect[3] - seen->rect[1], middle = (seen->rect[0] + seen->rect[2]) / 2;
     if (key->type == KEY_CHOICE)
@@ -236,7 +250,7 @@ static void test_what_it_asks_for_is_accepted(void **state)
     const Key *keys = scene_keys(&count);
     Session session;
     Desk *desk = all_open(&session, "two_oils");
-    assert_true(scene_set_live(&session.scene, "view.range=[0, 2]", NULL, NULL));
+    set_ranges(&session.scene);
     desk_frames(desk, 30);
     for (int i = 0; i < count; i++) {
         static const float shares[] = {0.005F, 0.3F, 0.62F, 0.995F};
@@ -309,6 +323,31 @@ static void test_one_click_one_value(void **state)
     assert_string_equal(session.last, "view.range=[-1234.5, 102345]");
     desk_click_at(desk, "view.range.auto", 0.5F);
     assert_true(session.scene.view.range_auto);
+    desk_click_at(desk, "view.size.range.auto", 0.5F);
+    assert_string_equal(session.last, "view.size.range=[-3, 7]");
+    desk_click_at(desk, "view.opacity.range.auto", 0.5F);
+    assert_string_equal(session.last, "view.opacity.range=[0.5, 2.5]");
+    assert_int_equal(session.refused, 0);
+    session_close(&session, desk);
+}
+
+/* In the panel as in a scene; eight points are asked for whole. */
+static void test_curves_are_drawn_by_hand(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    const ControlPoints *curve = &session.scene.view.opacity.curve;
+    for (int k = 1; k < 7; k++)
+        for (int twice = 0; twice < 2; twice++)
+            desk_click_at(desk, "view.opacity.curve", 0.14F * (float)k);
+    assert_int_equal(curve->count, CONTROL_POINTS_MAX);
+    assert_true(fabs(curve->y[1] - 0.5) < 0.05 && curve->x[1] > 0.05 && curve->x[1] < 0.25);
+    desk_click_at(desk, "view.opacity.curve.preset", 0.5F);
+    const Seen *seen = desk_find(desk, "view.opacity.curve.preset");
+    desk_click(desk, seen->rect[0] + 10, seen->rect[3] + 1.5F * (seen->rect[3] - seen->rect[1]));
+    assert_string_equal(session.last, "view.opacity.curve=falling");
+    assert_true(curve->count == 2 && curve->y[0] == 1);
     assert_int_equal(session.refused, 0);
     session_close(&session, desk);
 }
@@ -619,6 +658,7 @@ int main(void)
         cmocka_unit_test_teardown(test_what_it_asks_for_is_accepted, no_gl_errors),
         cmocka_unit_test_teardown(test_typed_numbers_are_accepted, no_gl_errors),
         cmocka_unit_test_teardown(test_one_click_one_value, no_gl_errors),
+        cmocka_unit_test_teardown(test_curves_are_drawn_by_hand, no_gl_errors),
         cmocka_unit_test_teardown(test_sliders_follow_another_scene, no_gl_errors),
         cmocka_unit_test_teardown(test_buttons_are_the_commands, no_gl_errors),
         cmocka_unit_test_teardown(test_motion_devices, no_gl_errors),

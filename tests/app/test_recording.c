@@ -237,7 +237,7 @@ static void long_ones_are_refused(void **state)
     setting[SIM_SETTING_SIZE] = 0;
     snprintf(text, sizeof text, HEAD "0 set %s\n+ \n" END, setting);
     assert_false(parse(text, &out));
-    assert_string_equal(error.message, "a.rec:7: the setting is too long; at most 95 bytes are");
+    assert_string_equal(error.message, "a.rec:7: the setting is too long; at most 191 bytes are");
     snprintf(text, sizeof text, HEAD "0 target %0300d\n" END, 0);
     assert_false(parse(text, &out));
     assert_string_equal(error.message, "a.rec:7: the line is too long; at most 255 bytes are");

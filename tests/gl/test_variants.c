@@ -495,6 +495,10 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("spheres", v.floor = true);
     for (int scalar = 0; scalar < SCALAR_COUNT; scalar++)
         VIEW("spheres", v.color_by = (Scalar)scalar);
+    VIEW("spheres", v.size.by = 1 + SCALAR_PRESSURE);
+    VIEW("spheres", v.opacity.by = 1 + SCALAR_PRESSURE);
+    VIEW("spheres", v.size.by = v.opacity.by = 1 + SCALAR_DENSITY);
+    VIEW("spheres", v.size.by = 1 + SCALAR_VORTICITY, v.opacity.by = 1 + SCALAR_NEIGHBOURS);
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape++) {
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape);
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->cull = true,
@@ -553,6 +557,7 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     int count = 0;
     VIEW("spheres", v.color_by = SCALAR_VORTICITY);
     VIEW("spheres", v.color_by = SCALAR_KINETIC_ENERGY);
+    VIEW("spheres", v.size.by = v.opacity.by = 1 + SCALAR_DENSITY);
     VIEW("splat", splat_def(&v)->cull = true, v.floor = true);
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = true);
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = false);

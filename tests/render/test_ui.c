@@ -56,6 +56,82 @@ static void form_close(Desk *desk)
     free(desk);
 }
 
+/* A window with a curve of 0 to 2 alone. */
+static void draw_curve_form(void *user, Desk *desk)
+{
+    ui_window_begin(desk->ui, &form_window);
+    ui_curve(desk->ui, &(UiField){"curve", "bend", NULL}, user, 2);
+    ui_window_end(desk->ui);
+}
+
+/* Where a value stands on the screen, found as a person would: by the ends of the box less the margin. */
+static void curve_spot(const Desk *desk, double x, double y, float spot[2])
+{
+    const float *box = desk_find(desk, "curve")->rect, margin = 0.4F * 13;
+    spot[0] = box[0] + margin + (float)x * (box[2] - box[0] - 2 * margin);
+    spot[1] = box[3] - margin - (float)(y / 2) * (box[3] - box[1] - 2 * margin);
+}
+
+static void drag(Desk *desk, const float from[2], const float to[2])
+{
+    desk_move(desk, from[0], from[1]);
+    desk_press(desk, true);
+    desk_move(desk, (from[0] + to[0]) / 2, (from[1] + to[1]) / 2);
+    desk_move(desk, to[0], to[1]);
+    desk_press(desk, false);
+    desk_frames(desk, 30); /* the next press is no second one */
+}
+
+static void right_click(Desk *desk, const float spot[2])
+{
+    desk_move(desk, spot[0], spot[1]);
+    desk->input.button[1] = true;
+    desk_frames(desk, 2);
+    desk->input.button[1] = false;
+    desk_frames(desk, 2);
+}
+
+static void test_curves_are_edited_by_the_mouse(void **state)
+{
+    (void)state;
+    Desk *desk = calloc(1, sizeof *desk);
+    ControlPoints points = {2, {0, 1}, {0, 2}};
+    float from[2], to[2];
+    assert_non_null(desk);
+    desk_open(desk, 640, 480, 13);
+    desk->draw = draw_curve_form;
+    desk->user = &points;
+    desk_frames(desk, 30);
+    curve_spot(desk, 0.25, 1.5, from);
+    desk_click(desk, from[0], from[1]); /* one click in the empty makes nothing */
+    desk_frames(desk, 30);
+    assert_int_equal(points.count, 2);
+    desk_click(desk, from[0], from[1]);
+    desk_click(desk, from[0], from[1]);
+    assert_int_equal(points.count, 3);
+    assert_true(fabs(points.x[1] - 0.25) < 0.01 && fabs(points.y[1] - 1.5) < 0.04);
+    desk_frames(desk, 30);
+    curve_spot(desk, 0.75, 0.5, to);
+    drag(desk, from, to);
+    assert_int_equal(points.count, 3);
+    assert_true(fabs(points.x[1] - 0.75) < 0.01 && fabs(points.y[1] - 0.5) < 0.04);
+    from[0] = to[0] + 500, from[1] = to[1] - 300; /* beyond its neighbour and the box */
+    drag(desk, to, from);
+    assert_true(fabs(points.x[1] - (1 - CONTROL_POINTS_GAP)) < 1e-9 && points.y[1] == 2);
+    curve_spot(desk, 0.5, 1, to);
+    right_click(desk, to); /* in the empty */
+    assert_int_equal(points.count, 3);
+    curve_spot(desk, points.x[0], points.y[0], to);
+    right_click(desk, to);
+    assert_int_equal(points.count, 2);
+    for (int i = 0; i < 2; i++) {
+        curve_spot(desk, points.x[0], points.y[0], to);
+        right_click(desk, to);
+    }
+    assert_int_equal(points.count, 1); /* the last one stays */
+    form_close(desk);
+}
+
 static void test_scale_goes_there_and_back(void **state)
 {
     (void)state;
@@ -350,6 +426,7 @@ static void test_no_picture_is_too_small(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_curves_are_edited_by_the_mouse, no_gl_errors),
         cmocka_unit_test(test_scale_goes_there_and_back),
         cmocka_unit_test(test_scale_has_no_more_digits_than_are_shown),
         cmocka_unit_test_teardown(test_draws_in_its_window_and_nowhere_else, no_gl_errors),

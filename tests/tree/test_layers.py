@@ -36,7 +36,7 @@ SIM_INSIDE = {f"sim/{name}" for name in ["cpu", "incompressible", *METHODS]}  # 
 GL = {"": "", "compute": "", "fragment": ""}
 RENDER = {
     "frame": "",
-    "particles": "",
+    "particles": "frame",
     "derived": "particles",
     "plane": "particles",
     "ui": "frame",

@@ -1,0 +1,42 @@
+/* What of particles goes with a scalar by a curve of control points (ViewDef.size, ViewDef.opacity): one pass
+   over the particles for each that a def has, nothing where it has none.
+
+   Sizes are radii for shaders with DROPS (shaders/common/ball.glsl). Opacities are shares of the pixels of a
+   particle that it covers, by a screen-door of its own (shaders/common/veil.glsl): nothing is sorted, what is
+   covered is whole, and many that lie one behind the other look as if they were blended. Such a door stands
+   still where the particle's id and the picture's pixels do. */
+#ifndef SLOSH_PARTICLE_CURVES_H
+#define SLOSH_PARTICLE_CURVES_H
+
+#include "render/frame/frame.h"
+#include "sim/base/error.h"
+
+typedef struct ParticleCurve {
+    unsigned program; /* 0: the def has no such curve */
+    unsigned values;  /* buffer: a float each, m; of opacity two: it, and where the particle's door begins */
+    size_t capacity;  /* particles */
+} ParticleCurve;
+
+typedef struct ParticleCurves {
+    ParticleCurve size, opacity;
+} ParticleCurves;
+
+/* For shaders that read them: DROPS, VEILED. A constant. */
+const char *particle_curves_defines(const ViewDef *def);
+
+/* The greatest factor of a radius for these particles. */
+double particle_curves_reach(const ViewDef *def, const ParticleBuffers *particles);
+
+/* False when a shader does not compile; particle_curves_destroy is needed in either case. */
+bool particle_curves_create(ParticleCurves *curves, const ViewDef *def, Error *error);
+void particle_curves_destroy(ParticleCurves *curves);
+
+/* Makes both for these particles, by the frame's def and ranges. Particles without the scalar are as large
+   and as opaque as they would be without the curve; a scalar that is NaN counts as the high end of its
+   range. */
+void particle_curves_make(ParticleCurves *curves, const ParticleBuffers *particles, const Frame *frame);
+
+/* Binds them for shaders. */
+void particle_curves_bind(const ParticleCurves *curves);
+
+#endif

@@ -1,0 +1,45 @@
+// What of each particle goes with a scalar, by a curve of control points (render/particles/particle_curves.h): its radius or, VEILED,
+// how opaque it is.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/particle_scalars.glsl"
+#include "common/nan.glsl"
+
+layout(local_size_x = 64) in;
+layout(location = CURVE_PARTICLES_AT) uniform uint particles;   // how many
+layout(location = CURVE_POINTS_AT) uniform uint points;         // how many; 0: the curve is 1
+layout(location = CURVE_RANGE_AT) uniform vec2 scalar_range;    // its low end, 1 / its width
+layout(location = CURVE_POINT_AT) uniform vec2 point[CURVE_POINTS_MAX];
+#ifdef VEILED
+#include "common/particle_ids.glsl"
+layout(std430, binding = VEILS_STORAGE) writeonly buffer Veils { vec2 veil[]; };
+#else
+layout(std430, binding = SHAPES_STORAGE) writeonly buffer Shapes { float shape_radius[]; };
+#endif
+
+// Straight lines, constant beyond the ends: lines_at in sim/base/lines.c.
+float curve_at(float x)
+{
+    uint k = 0u;
+    while (k + 1u < points && point[k + 1u].x <= x)
+        k++;
+    if (points == 0u)
+        return 1.0;
+    if (k + 1u == points || x <= point[0].x)
+        return point[k].y;
+    return mix(point[k].y, point[k + 1u].y, (x - point[k].x) / (point[k + 1u].x - point[k].x));
+}
+
+void main()
+{
+    uint index = (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    if (index >= particles)
+        return;
+    float x = (scalar_words[index * scalar_stride] - scalar_range.x) * scalar_range.y;
+    float value = curve_at(is_nan(x) ? 1.0 : x);
+#ifdef VEILED
+    veil[index] = vec2(value, id_share(index));
+#else
+    shape_radius[index] = particle_radius * value;
+#endif
+}
