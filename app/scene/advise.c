@@ -46,20 +46,37 @@ static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZ
     return true;
 }
 
-/* A view that draws no particles of different sizes, or opacities, has no use for such. */
+/* What of the picture by a scalar a key is about: a flag of ViewKind.curves; else 0. */
+static unsigned curve_of(const char *path)
+{
+    return strncmp(path, "view.opacity.", strlen("view.opacity.")) == 0 ? VIEW_OPACITY
+           : strncmp(path, "view.size.", strlen("view.size.")) == 0     ? VIEW_SIZE
+                                                                        : 0;
+}
+
+static void views_that_draw(unsigned curve, char need[NEED_SIZE])
+{
+    int length = 0;
+    for (int i = 0; view_at(i) && length < NEED_SIZE; i++)
+        if (view_at(i)->curves & curve)
+            length += snprintf(need + length, (size_t)(NEED_SIZE - length), "%s%s",
+                               length > 0 ? " or " : "view.kind: ", view_at(i)->name);
+}
+
+/* Some views have no use for sizes or opacities of particles. */
 static bool lacks_view(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
-    const unsigned wanted = strncmp(path, "view.opacity.", strlen("view.opacity.")) == 0 ? VIEW_OPACITY
-                            : strncmp(path, "view.size.", strlen("view.size.")) == 0     ? VIEW_SIZE
-                                                                                         : 0;
+    const unsigned curve = curve_of(path);
     const ViewKind *kind = view_find(scene->view.kind);
-    int used = 0;
-    if (!wanted || !said || (kind && kind->curves & wanted))
+    if (!curve || !said)
         return false;
-    for (int i = 0; view_at(i) && used < NEED_SIZE; i++)
-        if (view_at(i)->curves & wanted)
-            used += snprintf(need + used, (size_t)(NEED_SIZE - used), "%s%s",
-                             used > 0 ? " or " : "view.kind: ", view_at(i)->name);
+    if (!kind || !(kind->curves & curve)) {
+        views_that_draw(curve, need);
+        return true;
+    }
+    if (!kind->curves_where || key_owner_used(kind->curves_where, scene, said))
+        return false;
+    key_owner_need(kind->curves_where, need, NEED_SIZE);
     return true;
 }
 

@@ -74,9 +74,9 @@ typedef struct ViewKind {
     /* False, with the reason and the key at fault, where no driver could draw the subject; NULL: all can be
      * drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);
-    double radius; /* of a particle, in spacings, where ViewDef.radius is 0 */
-    unsigned
-        curves; /* VIEW_OPACITY, VIEW_SIZE: what it draws by a scalar of the def; else that has no effect */
+    double radius;                /* of a particle, in spacings, where ViewDef.radius is 0 */
+    unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: of the def's curves those that it draws */
+    const KeyOwner *curves_where; /* in use where it does; NULL: always */
     /* Changes the radii, which are those of balls so far; NULL: particles are such balls. */
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
     /* The shapes of particles, where a GPU needs more memory for them than for balls; NULL: they are balls.

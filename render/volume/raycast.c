@@ -3,6 +3,7 @@
 #include "render/frame/behind.h"
 #include "render/frame/colormap.h"
 #include "render/volume/bricks.h"
+#include "render/volume/transfer.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/raycast_block.h"
 #include "shaders/volume/volume_bindings.h"
@@ -25,6 +26,7 @@ struct Raycast {
     GLuint program, settle; /* march; write depth */
     GLuint block, screen;
     ColorTable colors;
+    Transfer transfer; /* where the curve or a scalar wants it */
     Bricks bricks;
     Behind behind; /* of water */
     GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
@@ -45,10 +47,22 @@ void raycast_destroy(Raycast *raycast)
     glDeleteBuffers(1, &raycast->block);
     glDeleteTextures(DEPTHS, raycast->depths);
     color_table_destroy(&raycast->colors);
+    transfer_destroy(&raycast->transfer);
     glDeleteTextures(1, &raycast->found);
     glDeleteFramebuffers(FRAMEBUFFERS, raycast->framebuffers);
     glDeleteVertexArrays(1, &raycast->screen);
     free(raycast);
+}
+
+/* Lines of defines for translucent fluid. */
+static const char *translucent_defines(const ViewDef *def, char text[96])
+{
+    const VolumeOpacity opacity = volume_opacity(def);
+    char by[32] = "";
+    if (opacity != VOLUME_EVEN)
+        snprintf(by, sizeof by, "#define OPACITY %d\n", (int)opacity);
+    snprintf(text, 96, "#define TRANSLUCENT 1\n%s%s", raycast_is_curved(def) ? "#define CURVED 1\n" : "", by);
+    return text;
 }
 
 /* Program text for what the def asks for, and for nothing else. */
@@ -58,13 +72,19 @@ static GLuint create_program(const Subject *subject, const char *field, Error *e
     const RaycastDef *cast = &volume_def(subject->def)->raycast;
     static const int shows[] = {
         [VOLUME_ENTRY] = 1, [VOLUME_EXIT] = 2, [VOLUME_LENGTH] = 3, [VOLUME_STEPS] = 4, [VOLUME_NORMALS] = 5};
-    char defines[256];
+    char defines[320], translucent[96];
     snprintf(defines, sizeof defines, "#define SHOW %d\n%s%s%s%s%s", shows[volume_def(subject->def)->show],
              subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
-             cast->look == RAYCAST_TRANSLUCENT ? "#define TRANSLUCENT 1\n" : "",
+             cast->look == RAYCAST_TRANSLUCENT ? translucent_defines(subject->def, translucent) : "",
              cast->shadows ? "#define SHADOWS 1\n" : "",
              cast->look == RAYCAST_WATER ? "#define WATER 1\n#define FLOOR_SHADOW 1\n" : "");
     return program_create("raycast", stages, defines, error);
+}
+
+bool raycast_is_curved(const ViewDef *def)
+{
+    const RaycastDef *cast = &volume_def(def)->raycast;
+    return cast->look == RAYCAST_TRANSLUCENT && !control_points_are_straight(&cast->curve);
 }
 
 Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Error *error)
@@ -180,7 +200,6 @@ static void fill_opacity(RaycastBlock *block, const RaycastDef *cast, double spa
     block->ramp_scale = (float)(1 / fmax(cast->ramp[1] - cast->ramp[0], 1e-6));
     block->extinction = (float)(-log(fmax(1 - cast->opacity, 1e-30)) / spacing);
     block->skin_depth = (float)-log(fmax(1 - cast->skin, 1e-30));
-    block->scalar_share = (float)cast->by_scalar;
 }
 
 static void fill_block(RaycastBlock *block, const Volume *volume, const ParticleBuffers *particles,
@@ -202,6 +221,23 @@ static void fill_block(RaycastBlock *block, const Volume *volume, const Particle
     fill_march(block, cast, volume);
     fill_opacity(block, cast, particles->spacing);
     block->near_start = near_is_inside(block, frame) ? frame->camera.near_plane : 0;
+}
+
+/* The texture units of curves. Where particles lack the scalar, opacity is as without it. */
+static void bind_transfer(Raycast *raycast, const Volume *volume, const ParticleBuffers *particles,
+                          const Frame *frame, RaycastBlock *block)
+{
+    static const ControlPoints even = {1, {0}, {1}};
+    const ViewDef *def = frame->def;
+    const VolumeOpacity by = volume_opacity(def);
+    const bool there = by != VOLUME_EVEN && particles->scalar[scalar_of_curve(&def->opacity)].buffer;
+    if (by == VOLUME_EVEN && !raycast_is_curved(def))
+        return;
+    transfer_bind(&raycast->transfer, &volume_def(def)->raycast.curve, there ? &def->opacity.curve : &even);
+    if (by == VOLUME_BY_OWN)
+        glBindTextures(OPACITY_FIELD_UNIT, 2, volume->opacity);
+    block->opacity_low = (float)frame->opacity_range[0];
+    block->opacity_scale = (float)(1 / (frame->opacity_range[1] - frame->opacity_range[0]));
 }
 
 /* The nearest front face and the farthest back face in each pixel. */
@@ -303,6 +339,7 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     RaycastBlock block = {0};
     follow_target(raycast, frame->target);
     fill_block(&block, volume, particles, frame);
+    bind_transfer(raycast, volume, particles, frame, &block);
     glNamedBufferSubData(raycast->block, 0, sizeof block, &block);
     glBindBufferBase(GL_UNIFORM_BUFFER, RAYCAST_BLOCK, raycast->block);
     glBindTextures(FIELD_UNIT, 2, (GLuint[]){volume->field, volume->scalar});

@@ -19,6 +19,9 @@ typedef struct Raycast Raycast;
 Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Error *error);
 void raycast_destroy(Raycast *raycast); /* NULL is allowed */
 
+/* Whether the transfer function has another curve than its ramp: another program. */
+bool raycast_is_curved(const ViewDef *def);
+
 /* Draws into frame->target, within the stage `raycast`. Not before target_begin, and the solids are in the
    target's depth. `particles` tells of spacing only. */
 void raycast_draw(Raycast *raycast, const Volume *volume, const Voxelizer *voxelizer,

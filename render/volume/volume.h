@@ -22,6 +22,8 @@ typedef struct Volume {
                         shaders/volume/field.glsl sums at the sample */
     unsigned scalar; /* the same for sum V W scalar, whose mean is this by F; 0 where none is carried. A
                         texture of its own, since most samples need F alone */
+    unsigned
+        opacity[2]; /* both of another volume on the same grid, for opacity by a scalar of its own; else 0 */
 } Volume;
 
 /* The grid that covers the box and h around it: `cells` along the box's longest side or cells of `cell`

@@ -15,6 +15,13 @@ const char *const volume_axis_names[] = {"x", "y", "z", NULL};
 const char *const raycast_look_names[] = {
     [RAYCAST_OPAQUE] = "opaque", [RAYCAST_WATER] = "water", [RAYCAST_TRANSLUCENT] = "translucent", NULL};
 
+/* Above the ramp, as inside the fluid, the last y holds. */
+const ControlPreset volume_presets[] = {{"ramp", {2, {0, 1}, {0, 1}}},
+                                        {"fog", {2, {0, 1}, {0, 0.2}}},
+                                        {"surface", {4, {0, 0.45, 0.55, 1}, {0, 0, 1, 1}}},
+                                        {"shell", {4, {0, 0.3, 0.7, 1}, {0, 1, 1, 0}}},
+                                        {NULL, {0}}};
+
 const VolumeDef volume_usual = {
     .cells = 128,
     .slice_axis = 2,
@@ -25,6 +32,7 @@ const VolumeDef volume_usual = {
                 .ramp = {0.35, 0.65},
                 .opacity = 0.04,
                 .skin = 0.4,
+                .curve = {2, {0, 1}, {0, 1}},
                 .ior = 1.333,
                 .shadows = true,
                 .jitter = true,
@@ -51,8 +59,8 @@ const Key volume_keys[] = {
     NUMBER("view.volume.skin", L, "", 0, 1, AT(raycast.skin), "opacity of each surface that a ray crosses"),
     NUMBER("view.volume.ramp_from", L, "", 0, 10, AT(raycast.ramp[0]), "the field at which opacity begins"),
     NUMBER("view.volume.ramp_to", L, "", 0, 10, AT(raycast.ramp[1]), "and at which it is full; not above: at once"),
-    NUMBER("view.volume.by_scalar", L, "", 0, 1, AT(raycast.by_scalar),
-           "how much of the opacity goes with view.color_by, from none at the low end of its range to all at the high"),
+    POINTS("view.volume.curve", L, 0, 1, volume_presets, AT(raycast.curve),
+           "the share of the full opacity, by where the field is between these two; the skin goes with its ups and downs"),
     NUMBER("view.volume.level", L | O, "", 0, 10, AT(raycast.level),
            "of the field, where the surface of opaque and water is; a fluid that ends at a plane has 0.5 there"),
     NUMBER("view.volume.ior", L, "", 1, 3, AT(raycast.ior), "index of refraction, of water"),
@@ -77,6 +85,15 @@ const ViewGrade volume_grades[] = {
     {"view.volume.skip", {"false", "true"}, NULL, NULL, true},
     {0},
 };
+
+VolumeOpacity volume_opacity(const ViewDef *def)
+{
+    const VolumeDef *own = volume_def(def);
+    if (def->opacity.by == 0 || own->raycast.look != RAYCAST_TRANSLUCENT || own->show != VOLUME_SHADED)
+        return VOLUME_EVEN;
+    return scalar_of_curve(&def->opacity) == def->color_by && def->color_by != SCALAR_FLUID ? VOLUME_BY_COLOR
+                                                                                            : VOLUME_BY_OWN;
+}
 
 VolumeDef *volume_def(const ViewDef *def)
 {

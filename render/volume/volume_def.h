@@ -37,15 +37,15 @@ typedef struct IN_A_ROOM RaycastDef {
     double threshold; /* opacity at which a ray ends; more than 0, 1: never */
     double
         ramp[2]; /* the field at which opacity begins and where it is full; at once where that is not above */
-    double opacity;     /* full: of fluid one spacing deep, 0 .. 1 */
-    double skin;        /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
-    double by_scalar;   /* how much of the opacity goes with the scalar shown, 0 .. 1 */
-    double ior;         /* index of refraction, of water */
-    double attenuation; /* of water: through which white light becomes the fluid's colour, m; 0: a
-                           fifth of the box's longest side, in two dimensions the layer's depth */
-    bool shadows;       /* of the fluid on itself, by marching toward the light; else by the shadow map */
-    bool jitter;        /* rays start at different parts of a step, so that no bands show */
-    bool skip;          /* empty bricks: else all between the faces of the volume is marched through */
+    double opacity;      /* full: of fluid one spacing deep, 0 .. 1 */
+    double skin;         /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
+    ControlPoints curve; /* on that ramp: the share of the full opacity, 0 .. 1 */
+    double ior;          /* index of refraction, of water */
+    double attenuation;  /* of water: through which white light becomes the fluid's colour, m; 0: a
+                            fifth of the box's longest side, in two dimensions the layer's depth */
+    bool shadows;        /* of the fluid on itself, by marching toward the light; else by the shadow map */
+    bool jitter;         /* rays start at different parts of a step, so that no bands show */
+    bool skip;           /* empty bricks: else all between the faces of the volume is marched through */
 } RaycastDef;
 
 typedef struct IN_A_ROOM VolumeDef {
@@ -60,6 +60,13 @@ typedef struct IN_A_ROOM VolumeDef {
 } VolumeDef;
 
 extern const ViewKind view_volume;
+
+/* How ViewDef.opacity goes with a scalar: not at all, with that of the colours, with one of its own, which
+   needs another volume. */
+typedef enum VolumeOpacity { VOLUME_EVEN, VOLUME_BY_COLOR, VOLUME_BY_OWN } VolumeOpacity;
+VolumeOpacity volume_opacity(const ViewDef *def);
+
+extern const ControlPreset volume_presets[];
 
 /* Those of that def; not const, as memchr's result is not. */
 VolumeDef *volume_def(const ViewDef *def);

@@ -16,6 +16,7 @@ typedef struct VolumeView {
     VolumeSlice slice; /* shown alone: nothing below is there */
     Raycast *raycast;  /* NULL: the slice */
     Casting casting;
+    Voxelizer *opacity;   /* of the scalar by which opacity goes, where that is another; else NULL */
     FluidNumbers numbers; /* where the volume carries fluids; else zero */
 } VolumeView;
 
@@ -27,6 +28,7 @@ static void destroy(void *state)
     fluid_numbers_destroy(&view->numbers);
     casting_destroy(&view->casting);
     voxelizer_destroy(view->voxelizer);
+    voxelizer_destroy(view->opacity);
     free(view);
 }
 
@@ -47,6 +49,13 @@ static bool check(const Subject *subject, const char **key, Error *error)
     return volume_grid_for(def, &space, &grid, error);
 }
 
+static bool has_room(Voxelizer *voxelizer, const VolumeDef *def, const ParticleBuffers *space,
+                     const VolumeGrid *grid, Error *error)
+{
+    return voxelizer_fits(voxelizer, grid, space->support_radius, error) &&
+           voxelizer_prepare(voxelizer, def, grid, error);
+}
+
 /* The box's volume: what the fluid's may become. */
 static bool accepts(void *state, const Subject *subject, Error *error)
 {
@@ -57,8 +66,8 @@ static bool accepts(void *state, const Subject *subject, Error *error)
     if (!(space.spacing > 0))
         return true;
     return volume_grid_for(def, &space, &grid, error) &&
-           voxelizer_fits(view->voxelizer, &grid, space.support_radius, error) &&
-           voxelizer_prepare(view->voxelizer, def, &grid, error);
+           has_room(view->voxelizer, def, &space, &grid, error) &&
+           (!view->opacity || has_room(view->opacity, def, &space, &grid, error));
 }
 
 static bool create_raycast(VolumeView *view, const Subject *subject, Error *error)
@@ -81,6 +90,16 @@ static bool carries(const Subject *subject)
            (subject->def->color_by != SCALAR_FLUID || carries_fluids(subject));
 }
 
+/* Sampled as a texture, also where the field is not. */
+static bool create_opacity(VolumeView *view, const ViewDef *def, Error *error)
+{
+    const VolumeMethod method = volume_def(def)->method;
+    if (volume_opacity(def) != VOLUME_BY_OWN)
+        return true;
+    view->opacity = voxelizer_create(method == VOLUME_DIRECT ? VOLUME_AUTO : method, true, error);
+    return view->opacity != NULL;
+}
+
 static void *create(const Subject *subject, Error *error)
 {
     const ViewDef *def = subject->def;
@@ -91,7 +110,7 @@ static void *create(const Subject *subject, Error *error)
     }
     view->voxelizer = voxelizer_create(volume_def(def)->method, carries(subject), error);
     const bool slice = volume_def(def)->show == VOLUME_SLICE;
-    if (view->voxelizer && accepts(view, subject, error) &&
+    if (view->voxelizer && create_opacity(view, def, error) && accepts(view, subject, error) &&
         (!carries_fluids(subject) || fluid_numbers_create(&view->numbers, error)) &&
         (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
                : create_raycast(view, subject, error)))
@@ -109,18 +128,31 @@ static void cast(void *state, const ParticleBuffers *particles, const Frame *fra
         casting_draw(&view->casting, particles);
 }
 
+static bool make_volume(VolumeView *view, const ParticleBuffers *particles, const ViewDef *def,
+                        Volume *volume)
+{
+    Error error;
+    Volume opacity = {.field = 0};
+    const ParticleBuffers carrying =
+        view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
+    if (view->opacity && !voxelizer_run(view->opacity, volume_def(def), particles,
+                                        scalar_of_curve(&def->opacity), &opacity, &error))
+        return false;
+    if (!voxelizer_run(view->voxelizer, volume_def(def), &carrying, def->color_by, volume, &error))
+        return false;
+    volume->opacity[0] = opacity.field;
+    volume->opacity[1] = opacity.scalar;
+    return true;
+}
+
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     VolumeView *view = state;
     Volume volume;
-    Error error;
     bool made = false;
     GL_STAGE(frame->timer, STAGE_VOXELIZE)
     {
-        const ParticleBuffers carrying =
-            view->numbers.program ? fluid_numbers_add(&view->numbers, particles) : *particles;
-        made = voxelizer_run(view->voxelizer, volume_def(frame->def), &carrying, frame->def->color_by,
-                             &volume, &error);
+        made = make_volume(view, particles, frame->def, &volume);
     }
     if (!made) /* memory that was there at the start is not there now */
         return;
@@ -139,6 +171,8 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
 static void show(const ViewDef *def, Frame *frame)
 {
     const bool steps = volume_def(def)->show == VOLUME_STEPS;
+    if (volume_opacity(def) == VOLUME_EVEN)
+        frame->curves = 0;
     if (!steps && volume_def(def)->show != VOLUME_SLICE)
         return;
     frame->by_fluid = false;
@@ -149,17 +183,23 @@ static void show(const ViewDef *def, Frame *frame)
     frame->beyond[0] = frame->beyond[1] = false;
 }
 
-/* Which colours volume and shaders carry. */
+/* Which colours and opacities volume and shaders carry. */
 static bool same(const Subject *a, const Subject *b)
 {
-    return (a->def->color_by == SCALAR_FLUID) == (b->def->color_by == SCALAR_FLUID) &&
+    return volume_opacity(a->def) == volume_opacity(b->def) &&
+           raycast_is_curved(a->def) == raycast_is_curved(b->def) &&
+           (a->def->color_by == SCALAR_FLUID) == (b->def->color_by == SCALAR_FLUID) &&
            (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
 }
+
+static const KeyOwner translucent = {.key = "view.volume.look", .value = "translucent"};
 
 const ViewKind view_volume = {
     .name = "volume",
     .help = "the fluid's field on a grid of voxels, by raycasting: a surface, or translucent",
     .radius = 0.5,
+    .curves = VIEW_OPACITY,
+    .curves_where = &translucent,
     .create = create,
     .destroy = destroy,
     .keys = volume_keys,

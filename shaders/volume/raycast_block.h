@@ -16,16 +16,17 @@ UNIFORM_BLOCK(RaycastBlock, RAYCAST_BLOCK)
     float brick_side;  /* cells */
     float brick_least; /* field that a brick with fluid exceeds */
     float surface_level;
-    float step_length;  /* m */
-    float far_step;     /* the longest, far from the surface, m */
-    float near_start;   /* depth where all rays start, m; 0: at faces */
-    float ramp_begin;   /* field at which opacity begins */
-    float ramp_scale;   /* 1 / (field at which it is full - ramp_begin) */
-    float extinction;   /* where it is full, 1/m */
-    float skin_depth;   /* optical depth of the skin, where opacity rises from none to full */
-    float scalar_share; /* of opacity, by the scalar */
-    float enough_light; /* share of light at which a ray ends */
-    uint jitter;        /* 1: rays begin at random */
+    float step_length;   /* m */
+    float far_step;      /* the longest, far from the surface, m */
+    float near_start;    /* depth where all rays start, m; 0: at faces */
+    float ramp_begin;    /* field at which opacity begins */
+    float ramp_scale;    /* 1 / (field at which it is full - ramp_begin) */
+    float extinction;    /* where it is full, 1/m */
+    float skin_depth;    /* optical depth of the skin, where opacity rises from none to full */
+    float opacity_low;   /* of the range of the scalar by which opacity goes */
+    float opacity_scale; /* 1 / its width */
+    float enough_light;  /* share of light at which a ray ends */
+    uint jitter;         /* 1: rays begin at random */
 }
 BLOCK_END(RaycastBlock);
 

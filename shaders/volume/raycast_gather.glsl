@@ -20,11 +20,88 @@ struct Piece {
     float body, skin, at;
 };
 
+#if defined CURVED || defined OPACITY
+layout(binding = TRANSFER_UNIT) uniform sampler2D transfer_table; // render/volume/transfer.h
+
+vec4 transfer_at(float x)
+{
+    return textureLod(transfer_table, vec2((clamp(x, 0.0, 1.0) * 255.0 + 0.5) / 256.0, 0.5), 0.0);
+}
+#endif
+
+#ifdef CURVED
+// The field's place on the ramp of the transfer function, and beyond its ends.
+float ramp_of(float f)
+{
+    return (f - ramp_begin) * ramp_scale;
+}
+
+float curve_sum(float x)
+{
+    vec4 here = transfer_at(x);
+    return x <= 0.0 ? 0.0 : here.y + max(x - 1.0, 0.0) * here.x;
+}
+
+// The mean of the curve between two places on the ramp: of fluid on the way from one to the other.
+float body_between(float from, float to)
+{
+    float middle = 0.5 * (from + to);
+    if (abs(to - from) < 1e-3 || min(from, to) >= 1.0 || max(from, to) <= 0.0)
+        return middle <= 0.0 ? 0.0 : transfer_at(middle).x;
+    return (curve_sum(to) - curve_sum(from)) / (to - from);
+}
+
+// How far the curve goes up and down between them.
+float skin_between(float from, float to)
+{
+    return abs((to <= 0.0 ? 0.0 : transfer_at(to).z) - (from <= 0.0 ? 0.0 : transfer_at(from).z));
+}
+#else
 // The field's place on the ramp of the transfer function.
 float ramp_of(float f)
 {
     return clamp((f - ramp_begin) * ramp_scale, 0.0, 1.0);
 }
+
+float body_between(float from, float to)
+{
+    return 0.5 * (from + to);
+}
+
+float skin_between(float from, float to)
+{
+    return abs(to - from);
+}
+#endif
+
+// By a scalar: OPACITY 1 by that of the colours, 2 by one of its own.
+#if !defined OPACITY
+float opacity_at(vec3 at)
+{
+    return 1.0;
+}
+#else
+#if OPACITY == 2
+layout(binding = OPACITY_FIELD_UNIT) uniform sampler3D opacity_field_map;
+layout(binding = OPACITY_SCALAR_UNIT) uniform sampler3D opacity_scalar_map;
+
+float opacity_scalar_at(vec3 at)
+{
+    float field = textureLod(opacity_field_map, at, 0.0).x;
+    return field > 0.0 ? textureLod(opacity_scalar_map, at, 0.0).x / field : 0.0;
+}
+#else
+float opacity_scalar_at(vec3 at)
+{
+    return scalar_at(at);
+}
+#endif
+
+float opacity_at(vec3 at)
+{
+    return transfer_at((opacity_scalar_at(at) - opacity_low) * opacity_scale).w;
+}
+#endif
 
 // Marches on from t, where the field is f, until there is enough to be worth shading. Extinction is taken as linear between samples,
 // and that of the skin goes with the ramp's rise or fall: neither depends on how far apart samples are.
@@ -36,8 +113,8 @@ Piece next_piece(Ray ray, float dt, inout float t, inout float f, inout float ne
     while (t < ray.end && piece.body < enough && piece.skin <= skin_depth * 0.5) {
         next = min(next, ray.end);
         f = field_at(ray_at(ray, next));
-        float after = ramp_of(f), body = 0.5 * (ramp + after) * (next - t) * ray.slant * extinction,
-              skin = abs(after - ramp) * skin_depth;
+        float after = ramp_of(f), body = body_between(ramp, after) * (next - t) * ray.slant * extinction,
+              skin = skin_between(ramp, after) * skin_depth;
         piece.body += body;
         piece.skin += skin;
         piece.at += (body + skin) * 0.5 * (t + next);
@@ -60,7 +137,7 @@ vec4 gather(Ray ray, out float half_way)
         Piece piece = next_piece(ray, dt, t, f, next);
         float depth = piece.body + piece.skin;
         vec3 albedo = albedo_at(ray_at(ray, piece.at), share);
-        float passed = exp(-depth * mix(1.0, share, scalar_share));
+        float passed = exp(-depth * opacity_at(ray_at(ray, piece.at)));
         if (depth > 0.0)
             sum += left * (1.0 - passed) * glow_at(ray, piece.at, albedo, piece.skin / depth);
         left *= passed;

@@ -18,8 +18,9 @@
 #define LIST_SCALARS_STORAGE   10
 
 /* Texture units */
-#define FOUND_UNIT  1
-#define PACKED_UNIT 7
+#define FOUND_UNIT    1
+#define TRANSFER_UNIT 6
+#define PACKED_UNIT   7
 /* the volume's two, bound in this order by one call */
 #define FIELD_UNIT        8
 #define FIELD_SCALAR_UNIT 9
@@ -27,6 +28,9 @@
 #define EXIT_UNIT         11
 #define TARGET_DEPTH_UNIT 12
 #define GREATEST_UNIT     13
+/* another volume for opacity, bound in this order by one call */
+#define OPACITY_FIELD_UNIT  16
+#define OPACITY_SCALAR_UNIT 17
 
 /* Image units */
 #define FIELD_IMAGE        0

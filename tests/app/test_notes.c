@@ -159,6 +159,9 @@ static void a_view_without_curves_is_said(void **state)
                      0);
     assert_int_equal(
         notes_of(column, "view.kind=splat", "view.opacity.by=speed", SCENE_FOR_ONE, &scene).count, 1);
+    const Notes opaque = notes_of(column, "view.kind=volume", "view.opacity.by=speed", SCENE_FOR_ONE, &scene);
+    assert_non_null(
+        strstr(opaque.line[0], "view.opacity.by has no effect; it needs view.volume.look: translucent"));
 }
 
 /* Every row that has an owner is among those. */

@@ -540,7 +540,9 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look,
              volume_def(&v)->raycast.jitter = !volume_def(&v)->raycast.jitter,
              volume_def(&v)->raycast.skip = !volume_def(&v)->raycast.skip,
-             volume_def(&v)->raycast.by_scalar = 0.5);
+             v.opacity.by = 1 + SCALAR_PRESSURE);
+        VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look, v.opacity.by = 1 + (int)v.color_by,
+             volume_def(&v)->raycast.curve = volume_presets[3].points);
     }
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
         VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
@@ -563,10 +565,11 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = false);
     VIEW("volume", volume_def(&v)->method = VOLUME_DIRECT);
     VIEW("volume", volume_def(&v)->method = VOLUME_LAYERS);
-    VIEW("volume", volume_def(&v)->method = VOLUME_SCATTER, volume_def(&v)->raycast.by_scalar = 0.5,
+    VIEW("volume", volume_def(&v)->method = VOLUME_SCATTER,
+         volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT, v.opacity.by = 1 + SCALAR_DENSITY,
          volume_def(&v)->bounds = VOLUME_FLUID);
     VIEW("volume", volume_def(&v)->method = VOLUME_GATHER, volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT,
-         volume_def(&v)->raycast.by_scalar = 0.5);
+         volume_def(&v)->raycast.curve = volume_presets[2].points, v.opacity.by = 1 + (int)v.color_by);
     VIEW("slice", slice_def(&v)->show = SLICE_FLAT);
     VIEW("slice", slice_def(&v)->particles = SLICE_BEHIND);
     VIEW("spheres", trails_def(&v)->show = true, trails_def(&v)->through = 0.5);

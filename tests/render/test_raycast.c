@@ -36,17 +36,40 @@ static void scene_end(RayScene *scene)
     glDeleteTextures(1, &scene->volume.field);
 }
 
-/* Of the field along a ray, m, by many steps. */
-static double integral_of(const double from[3], const double to[3], double end)
+/* The ball's field as a texture has it: linear between the middles of cells. */
+static double sampled_at(const double at[3])
 {
-    enum { STEPS = 4000 };
-    double sum = 0, slant = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
-    for (int i = 0; i < STEPS; i++) {
-        const double t = (i + 0.5) * end / STEPS;
-        const double at[3] = {from[0] + t * to[0], from[1] + t * to[1], from[2] + t * to[2]};
-        sum += ball_at(at, &ball);
+    double share[3], corner[3], sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double cells = (at[k] - whole.corner[k]) / whole.cell - 0.5;
+        corner[k] = floor(cells);
+        share[k] = cells - corner[k];
     }
-    return sum * slant * end / STEPS;
+    for (int n = 0; n < 8; n++) {
+        double weight = 1, place[3];
+        for (int k = 0; k < 3; k++) {
+            const int up = n >> k & 1;
+            weight *= up ? share[k] : 1 - share[k];
+            place[k] = whole.corner[k] + (corner[k] + up + 0.5) * whole.cell;
+        }
+        sum += weight * ball_at(place, &ball);
+    }
+    return sum;
+}
+
+/* Along a ray, m, by many steps: of the field; or of a curve of it as it is sampled, which is 0 where there
+   is no fluid. */
+static double integral_of(const double from[3], const double to[3], double end, const ControlPoints *curve)
+{
+    const int steps = curve ? 2000 : 4000;
+    double sum = 0, slant = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    for (int i = 0; i < steps; i++) {
+        const double t = (i + 0.5) * end / steps;
+        const double at[3] = {from[0] + t * to[0], from[1] + t * to[1], from[2] + t * to[2]};
+        const double field = curve ? sampled_at(at) : ball_at(at, &ball);
+        sum += !curve ? field : field > 0 ? control_points_at(curve, field) : 0;
+    }
+    return sum * slant * end / steps;
 }
 
 /* The surface is where the ball ends, its normal is the ball's. Of a cell's width 1.3 % is lost to cells that
@@ -252,7 +275,7 @@ static void compare_lengths(RayScene *scene, double opacity)
         ray_of(scene, i % scene->width, i / scene->width, from, to);
         if (!ray_meets_sphere(from, to, ball.centre, ball.radius, t, &cosine) || cosine < 0.3)
             continue;
-        const double length = integral_of(from, to, t[1] + 0.3),
+        const double length = integral_of(from, to, t[1] + 0.3, NULL),
                      found = -log(1.0 - pixels[i].color[3]) / per_m;
         if (fabs(found - length) > 0.01 * length)
             fail_msg("pixel %d %d, step %g: %g m of fluid, not %g", i % scene->width, i / scene->width,
@@ -293,6 +316,102 @@ static void the_skin_at_any_step(void **state)
             fail_msg("step %g: opacity %g", steps[i], found);
         free(pixels);
     }
+    scene_end(&scene);
+}
+
+/* The greatest part by which what rays cross of a curve is off. */
+static double worst_of_curve(RayScene *scene, const ControlPoints *curve, double step)
+{
+    double worst = 0;
+    volume_def(&scene->def)->raycast = translucent(0.08);
+    volume_def(&scene->def)->raycast.curve = *curve;
+    volume_def(&scene->def)->raycast.step = step;
+    RayPixel *pixels = ray_drawn(scene, true);
+    for (int i = 0; i < scene->width * scene->height; i += 97) {
+        double from[3], to[3], t[2], cosine = 0;
+        ray_of(scene, i % scene->width, i / scene->width, from, to);
+        if (!ray_meets_sphere(from, to, ball.centre, ball.radius, t, &cosine) || cosine < 0.3)
+            continue;
+        const double found = log(1.0 - pixels[i].color[3]) / log(1 - 0.08) * scene->state.spacing;
+        worst = fmax(worst, fabs(found / integral_of(from, to, t[1] + 0.3, curve) - 1));
+    }
+    free(pixels);
+    return worst;
+}
+
+/* Whatever the curve does between two samples; the last begins at once. What is left is the field, which is
+   no straight line between samples. */
+static void the_curve_at_any_step(void **state)
+{
+    (void)state;
+    static const ControlPoints even = {1, {0}, {0.5}};
+    static const double steps[] = {0.25, 1, 2};
+    static const double bounds[][3] = {
+        {0.0005, 0.0005, 0.003}, {0.0005, 0.003, 0.01}, {0.002, 0.025, 0.09}, {0.015, 0.045, 0.11}};
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    for (int preset = 1; preset < 5; preset++)
+        for (int i = 0; i < 3; i++) {
+            const ControlPoints *curve = preset < 4 ? &volume_presets[preset].points : &even;
+            const double worst = worst_of_curve(&scene, curve, steps[i]);
+            printf("curve %d, steps of %g cells: off by %.4f\n", preset, steps[i], worst);
+            assert_true(worst < bounds[preset - 1][i]);
+        }
+    scene_end(&scene);
+}
+
+/* A shell has a skin on either side: a ray crosses four. */
+static void the_skins_of_a_shell(void **state)
+{
+    (void)state;
+    static const double steps[] = {0.25, 1, 2};
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    for (int i = 0; i < 3; i++) {
+        volume_def(&scene.def)->raycast = translucent(0);
+        volume_def(&scene.def)->raycast.curve = volume_presets[3].points;
+        volume_def(&scene.def)->raycast.skin = 0.2, volume_def(&scene.def)->raycast.step = steps[i];
+        RayPixel *pixels = ray_drawn(&scene, true);
+        const double found = pixels[60 * scene.width + 80].color[3];
+        if (fabs(found - (1 - pow(0.8, 4))) > 0.004)
+            fail_msg("step %g: opacity %g", steps[i], found);
+        free(pixels);
+    }
+    scene_end(&scene);
+}
+
+/* Opacity by a scalar of its own: 7 everywhere, of 0 to 10, through a curve. */
+static void opacity_by_another_scalar(void **state)
+{
+    (void)state;
+    const ControlPoints points = {3, {0, 0.5, 1}, {0, 1, 0}};
+    RayScene scene = ball_scene((double[]){1.3, 1.1, 1.4}, ball.centre, 30);
+    float *field = calloc(64 * 64 * 64, sizeof *field);
+    assert_non_null(field);
+    volume_def(&scene.def)->raycast = translucent(0.08);
+    RayPixel *plain = ray_drawn(&scene, true);
+    glGetTextureImage(scene.volume.field, 0, GL_RED, GL_FLOAT, 64 * 64 * 64 * 4, field);
+    for (int i = 0; i < 64 * 64 * 64; i++)
+        field[i] *= 7;
+    scene.volume.opacity[0] = scene.volume.field;
+    scene.volume.opacity[1] = ray_texture(&whole, field);
+    scene.def.opacity = (ScalarCurve){.by = 1 + SCALAR_PRESSURE, .range = {0, 10}, .curve = points};
+    scene.state.scalar[SCALAR_PRESSURE].buffer = 1; /* is there; nobody reads it */
+    RayPixel *by = ray_drawn(&scene, true);
+    scene.state.scalar[SCALAR_PRESSURE].buffer = 0;
+    RayPixel *lacking = ray_drawn(&scene, true);
+    double worst = 0;
+    for (int i = 0; i < scene.width * scene.height; i++) {
+        const double depth = -log(1 - fmin(plain[i].color[3], 0.999)),
+                     found = -log(1 - fmin(by[i].color[3], 0.999));
+        worst = fmax(worst, fabs(found - 0.6 * depth));
+        assert_true(plain[i].color[3] == lacking[i].color[3]);
+    }
+    printf("optical depths by a scalar are off by %.1e\n", worst);
+    assert_true(worst < 2e-4); /* a texture is read in steps of 1 / 256 of a texel */
+    free(plain);
+    free(by);
+    free(lacking);
+    free(field);
+    glDeleteTextures(1, &scene.volume.opacity[1]);
     scene_end(&scene);
 }
 
@@ -386,6 +505,9 @@ int main(void)
         cmocka_unit_test_teardown(a_volume_full_of_fluid_has_no_holes, no_gl_errors),
         cmocka_unit_test_teardown(the_chord_of_a_ball_at_any_step, no_gl_errors),
         cmocka_unit_test_teardown(the_skin_at_any_step, no_gl_errors),
+        cmocka_unit_test_teardown(the_curve_at_any_step, no_gl_errors),
+        cmocka_unit_test_teardown(the_skins_of_a_shell, no_gl_errors),
+        cmocka_unit_test_teardown(opacity_by_another_scalar, no_gl_errors),
         cmocka_unit_test_teardown(jitter_moves_samples, no_gl_errors),
         cmocka_unit_test_teardown(early_termination, no_gl_errors),
         cmocka_unit_test_teardown(solids_hide_and_are_hidden, no_gl_errors),
