@@ -64,27 +64,26 @@ static void reserve(ParticleCurve *curve, size_t count, size_t floats)
 }
 
 /* No points: the curve is 1. */
-static void set_curve(const ScalarCurve *said, const double range[2], bool there)
+static void set_curve(const ScalarCurve *said, const double range[2], double unit, bool there)
 {
     GLfloat point[2 * CONTROL_POINTS_MAX] = {0};
     const ControlPoints *points = &said->curve;
     for (int k = 0; k < points->count; k++) {
         point[2 * k] = (GLfloat)points->x[k];
-        point[2 * k + 1] = (GLfloat)points->y[k];
+        point[2 * k + 1] = (GLfloat)(points->y[k] / unit);
     }
     glUniform1ui(CURVE_POINTS_AT, there ? (GLuint)points->count : 0);
     glUniform2fv(CURVE_POINT_AT, CONTROL_POINTS_MAX, point);
     glUniform2f(CURVE_RANGE_AT, (GLfloat)range[0], (GLfloat)(1 / (range[1] - range[0])));
 }
 
-static void make(const ParticleCurve *curve, const ScalarCurve *said, const double range[2],
-                 const ParticleBuffers *particles, GLuint binding)
+void particle_curve_run(unsigned program, const ScalarCurve *said, const double range[2], double unit,
+                        const ParticleBuffers *particles)
 {
-    glUseProgram(curve->program);
-    particle_bind(curve->program, particles, scalar_of_curve(said));
-    set_curve(said, range, is_there(said, particles));
+    glUseProgram(program);
+    particle_bind(program, particles, scalar_of_curve(said));
+    set_curve(said, range, unit, is_there(said, particles));
     glUniform1ui(CURVE_PARTICLES_AT, (GLuint)particles->count);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, curve->values);
     work_run(particles->count);
 }
 
@@ -95,12 +94,14 @@ void particle_curves_make(ParticleCurves *curves, const ParticleBuffers *particl
         return;
     if (curves->size.program) {
         reserve(&curves->size, particles->count, 1);
-        make(&curves->size, &def->size, frame->size_range, particles, SHAPES_STORAGE);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, curves->size.values);
+        particle_curve_run(curves->size.program, &def->size, frame->size_range, 1, particles);
     }
     if (curves->opacity.program) {
         reserve(&curves->opacity, particles->count, 2);
         particle_bind_ids(curves->opacity.program, particles);
-        make(&curves->opacity, &def->opacity, frame->opacity_range, particles, VEILS_STORAGE);
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, VEILS_STORAGE, curves->opacity.values);
+        particle_curve_run(curves->opacity.program, &def->opacity, frame->opacity_range, 1, particles);
     }
 }
 

@@ -36,6 +36,11 @@ void particle_curves_destroy(ParticleCurves *curves);
    range. */
 void particle_curves_make(ParticleCurves *curves, const ParticleBuffers *particles, const Frame *frame);
 
+/* Runs a form of shaders/render/particle_curve.comp for that curve over all particles, into what the caller
+   has bound; the curve's y count in units of `unit`. */
+void particle_curve_run(unsigned program, const ScalarCurve *said, const double range[2], double unit,
+                        const ParticleBuffers *particles);
+
 /* Binds them for shaders. */
 void particle_curves_bind(const ParticleCurves *curves);
 

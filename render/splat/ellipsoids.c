@@ -1,5 +1,6 @@
 #include "render/splat/ellipsoids.h"
 
+#include "render/particles/particle_curves.h"
 #include "render/particles/work.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
@@ -8,10 +9,12 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
+#define LEAST "#define LEAST 1e-3\n" /* of the largest: a sphere of no size has no normal */
+
 const char *ellipsoids_defines(const SplatDef *def)
 {
     if (ellipsoids_stretched(def))
-        return "#define ELLIPSOID 1\n";
+        return LEAST "#define ELLIPSOID 1\n";
     const bool paper = def->shape == SPLAT_PAPER;
     if (ellipsoids_wanted(def))
         return paper ? "#define PAPER 1\n#define DROPS 1\n" : "#define DROPS 1\n";
@@ -20,13 +23,24 @@ const char *ellipsoids_defines(const SplatDef *def)
 
 bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error)
 {
-    const char *file = ellipsoids_stretched(def) ? "splat/ellipsoids.comp" : "splat/drops.comp";
+    const bool stretched = ellipsoids_stretched(def);
+    const char *const shapes[] = {stretched ? "splat/ellipsoids.comp" : "splat/drops.comp", NULL};
+    const char *const sizes[] = {"render/particle_curve.comp", NULL};
     *ellipsoids = (Ellipsoids){.def = *def};
-    if (!ellipsoids_wanted(def))
+    if (def->sized) {
+        ellipsoids->scale = program_create("splat sizes", sizes,
+                                           stretched                 ? "#define ELLIPSOID 1\n"
+                                           : ellipsoids_crowded(def) ? LEAST "#define SCALED 1\n"
+                                                                     : LEAST,
+                                           error);
+        if (!ellipsoids->scale)
+            return false;
+    }
+    if (!ellipsoids_crowded(def))
         return true;
     if (!neighbourhood_create(&ellipsoids->neighbourhood, error))
         return false;
-    ellipsoids->program = program_create("splat shapes", (const char *const[]){file, NULL}, NULL, error);
+    ellipsoids->program = program_create("splat shapes", shapes, NULL, error);
     return ellipsoids->program != 0;
 }
 
@@ -34,6 +48,7 @@ void ellipsoids_destroy(Ellipsoids *ellipsoids)
 {
     neighbourhood_destroy(&ellipsoids->neighbourhood);
     glDeleteProgram(ellipsoids->program);
+    glDeleteProgram(ellipsoids->scale);
     glDeleteBuffers(1, &ellipsoids->shapes);
     *ellipsoids = (Ellipsoids){0};
 }
@@ -63,13 +78,19 @@ static double drop_radius(const ParticleBuffers *particles, bool flat)
     return particles->spacing * (flat ? 0.5641896 : 0.6203505); /* pi r^2 = 1; 4/3 pi r^3 = 1 */
 }
 
-void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame)
+double ellipsoids_unit(const ViewDef *def, const ParticleBuffers *particles)
+{
+    return splat_def_made(def).sized ? fmax(particle_curves_reach(def, particles), 0.01) : 1;
+}
+
+static void make_crowded(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame,
+                         double unit)
 {
     const bool flat = frame->slab > 0;
     const float radius = frame->particle_radius;
-    reserve(ellipsoids, particles->count);
     neighbourhood_build(&ellipsoids->neighbourhood, particles);
-    const float drop = ellipsoids->def.drops ? fminf((float)drop_radius(particles, flat), radius) : radius;
+    const float drop =
+        ellipsoids->def.drops ? fminf((float)(unit * drop_radius(particles, flat)), radius) : radius;
     glProgramUniform1f(ellipsoids->program, SUPPORT_RADIUS_AT, (float)particles->support_radius);
     glProgramUniform1f(ellipsoids->program, FULL_SUM_AT, (float)full_sum(particles, flat));
     glProgramUniform1f(ellipsoids->program, CROWD_RADIUS_AT, radius);
@@ -78,6 +99,18 @@ void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, c
         glProgramUniform1ui(ellipsoids->program, SLAB_AT, flat);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, ellipsoids->shapes);
     neighbourhood_run(&ellipsoids->neighbourhood, ellipsoids->program);
+}
+
+void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame)
+{
+    const double unit = ellipsoids_unit(frame->def, particles);
+    reserve(ellipsoids, particles->count);
+    if (ellipsoids_crowded(&ellipsoids->def))
+        make_crowded(ellipsoids, particles, frame, unit);
+    if (!ellipsoids->scale || particles->count == 0)
+        return;
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SHAPES_STORAGE, ellipsoids->shapes);
+    particle_curve_run(ellipsoids->scale, &frame->def->size, frame->size_range, unit, particles);
 }
 
 void ellipsoids_bind(const Ellipsoids *ellipsoids)

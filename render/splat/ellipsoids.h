@@ -14,7 +14,8 @@
 typedef struct Ellipsoids {
     SplatDef def;
     Neighbourhood neighbourhood; /* where ellipsoids_wanted */
-    unsigned program;
+    unsigned program;            /* where ellipsoids_crowded */
+    unsigned scale;              /* program, of sizes by a scalar; else 0 */
     unsigned shapes; /* buffer: see shaders/common/ball.glsl; three vec4 a particle, with drops alone a
                         float */
     size_t capacity;
@@ -22,6 +23,10 @@ typedef struct Ellipsoids {
 
 /* For shaders that include common/ball.glsl; none is longer than 40 characters. */
 const char *ellipsoids_defines(const SplatDef *def);
+
+/* What the radius of a view whose sizes go with a scalar is multiplied by: it is then that of the largest,
+   and all are within it. 1 without. */
+double ellipsoids_unit(const ViewDef *def, const ParticleBuffers *particles);
 
 /* The longest axis of an ellipsoid, in radii of the view: of axes 5 : 1 : 1. */
 #define ELLIPSOID_REACH 2.95

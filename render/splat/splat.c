@@ -126,7 +126,7 @@ static void *splat_create(const Subject *subject, Error *error)
         error_set(error, "out of memory for the view");
         return NULL;
     }
-    splat->def = *splat_def(subject->def);
+    splat->def = splat_def_made(subject->def);
     if (color_table_create(&splat->colors, def->colormap, &def->color_curve, error) &&
         splat_sprites_create(&splat->sprites, &splat->def, error) &&
         ellipsoids_create(&splat->ellipsoids, &splat->def, error) && create_programs(splat, error) &&
@@ -289,8 +289,11 @@ static void splat_radii(const ViewDef *def, const ParticleBuffers *particles, Pa
 {
     if (splat_def(def)->level > 0)
         level_radii(def, particles, radii);
-    else if (ellipsoids_stretched(splat_def(def)))
-        radii->reach = radii->drawn * (float)ELLIPSOID_REACH;
+    else {
+        const float unit = (float)ellipsoids_unit(def, particles);
+        radii->drawn *= unit, radii->shadow *= unit;
+        radii->reach = radii->drawn * (ellipsoids_stretched(splat_def(def)) ? (float)ELLIPSOID_REACH : 1);
+    }
 }
 
 static const ViewShapes *splat_shapes(const ViewDef *def)
@@ -299,10 +302,14 @@ static const ViewShapes *splat_shapes(const ViewDef *def)
     return splat_def(def)->shape == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
 }
 
+static const KeyOwner spheres = {.key = "view.splat.level", .value = "0"};
+
 const ViewKind view_splat = {
     .name = "splat",
     .help = "one smooth surface, blended from spheres",
     .radius = 1, /* a spacing: neighbours at rest overlap so far that no hole is left */
+    .curves = VIEW_SIZE,
+    .curves_where = &spheres,
     .radii = splat_radii,
     .shapes = splat_shapes,
     .create = splat_create,

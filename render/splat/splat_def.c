@@ -79,6 +79,13 @@ SplatDef *splat_def(const ViewDef *def)
     return view_own(def, &view_splat);
 }
 
+SplatDef splat_def_made(const ViewDef *def)
+{
+    SplatDef made = *splat_def(def);
+    made.sized = def->size.by != 0 && !(made.level > 0);
+    return made;
+}
+
 bool splat_culls(const SplatDef *def)
 {
     return def->cull || def->show == SPLAT_CULLED;
@@ -94,9 +101,14 @@ bool ellipsoids_stretched(const SplatDef *def)
     return def->shape == SPLAT_ELLIPSOID && !(def->level > 0);
 }
 
-bool ellipsoids_wanted(const SplatDef *def)
+bool ellipsoids_crowded(const SplatDef *def)
 {
     return ellipsoids_stretched(def) || (def->drops && !(def->level > 0));
+}
+
+bool ellipsoids_wanted(const SplatDef *def)
+{
+    return ellipsoids_crowded(def) || def->sized;
 }
 
 bool splat_shade_wants_thickness(const SplatDef *def)

@@ -38,6 +38,7 @@ typedef struct IN_A_ROOM SplatDef {
     double filter_range;   /* depths farther apart are two surfaces, in radii */
     int filter_iterations; /* each is one pass along x and one along y */
     bool antialias;        /* smooth outlines, and spheres smaller than a pixel */
+    bool sized; /* no key: the size of spheres goes with a scalar (ViewDef.size); set where a view is made */
 } SplatDef;
 
 extern const ViewKind view_splat;
@@ -57,6 +58,10 @@ extern const char *const splat_show_names[];
 extern const char *const splat_shading_names[];
 extern const char *const splat_filter_names[];
 
+/* What a view is made for: the def's own settings, and whether they are sized. At a level above zero spheres
+   have one size. */
+SplatDef splat_def_made(const ViewDef *def);
+
 /* Whether spheres are culled: also where the picture shows what culling left out. */
 bool splat_culls(const SplatDef *def);
 
@@ -65,7 +70,8 @@ bool splat_level_wanted(const SplatDef *def);
 
 /* Neither at a level of the field above zero, which has a shape of its own: particles are spheres there. */
 bool ellipsoids_wanted(const SplatDef *def);
-bool ellipsoids_stretched(const SplatDef *def); /* not drops alone */
+bool ellipsoids_stretched(const SplatDef *def); /* not drops or sizes alone */
+bool ellipsoids_crowded(const SplatDef *def);   /* by their neighbours: not sizes alone */
 
 bool splat_shade_wants_thickness(const SplatDef *def);
 

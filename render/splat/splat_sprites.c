@@ -52,7 +52,10 @@ bool splat_sprites_small(const Frame *frame)
     const double spacings = frame->def->radius > 0 ? frame->def->radius : 1;
     const double drop =
         splat_def(frame->def)->drops ? fmin(0.56 / spacings, 1) : 1; /* a disc's; a ball's is larger */
-    return drop * frame->particle_radius * pixels < 0.8F * frame->farthest;
+    const ScalarCurve *size = &frame->def->size;
+    const double most = fmax(control_points_most(&size->curve), 1e-30);
+    const double least = size->by != 0 ? control_points_least(&size->curve) / most : 1;
+    return least * drop * frame->particle_radius * pixels < 0.8F * frame->farthest;
 }
 
 unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, bool listed,

@@ -1,10 +1,14 @@
 // What of each particle goes with a scalar, by a curve of control points (render/particles/particle_curves.h): its radius or, VEILED,
-// how opaque it is.
+// how opaque it is. SCALED: what of a particle is there already (common/ball.glsl) gets smaller by that.
+// LEAST: nothing is less, where spheres of no size cannot be.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
 #include "common/nan.glsl"
 
+#ifndef LEAST
+#define LEAST 0.0
+#endif
 layout(local_size_x = 64) in;
 layout(location = CURVE_PARTICLES_AT) uniform uint particles;   // how many
 layout(location = CURVE_POINTS_AT) uniform uint points;         // how many; 0: the curve is 1
@@ -13,8 +17,10 @@ layout(location = CURVE_POINT_AT) uniform vec2 point[CURVE_POINTS_MAX];
 #ifdef VEILED
 #include "common/particle_ids.glsl"
 layout(std430, binding = VEILS_STORAGE) writeonly buffer Veils { vec2 veil[]; };
+#elif defined ELLIPSOID
+layout(std430, binding = SHAPES_STORAGE) buffer Shapes { vec4 shape[]; };
 #else
-layout(std430, binding = SHAPES_STORAGE) writeonly buffer Shapes { float shape_radius[]; };
+layout(std430, binding = SHAPES_STORAGE) buffer Shapes { float shape_radius[]; };
 #endif
 
 // Straight lines, constant beyond the ends: lines_at in sim/base/lines.c.
@@ -36,9 +42,13 @@ void main()
     if (index >= particles)
         return;
     float x = (scalar_words[index * scalar_stride] - scalar_range.x) * scalar_range.y;
-    float value = curve_at(is_nan(x) ? 1.0 : x);
+    float value = max(curve_at(is_nan(x) ? 1.0 : x), LEAST);
 #ifdef VEILED
     veil[index] = vec2(value, id_share(index));
+#elif defined ELLIPSOID
+    shape[3u * index].w *= value;
+#elif defined SCALED
+    shape_radius[index] *= value;
 #else
     shape_radius[index] = particle_radius * value;
 #endif

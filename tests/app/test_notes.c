@@ -153,8 +153,9 @@ static void a_view_without_curves_is_said(void **state)
     static Scene scene;
     const Notes slice = notes_of(column, "view.kind=slice", "view.size.by=speed", SCENE_FOR_ONE, &scene);
     assert_int_equal(slice.count, 1);
-    assert_string_equal(slice.line[0],
-                        "--set view.size.by=speed: view.size.by has no effect; it needs view.kind: spheres");
+    assert_string_equal(
+        slice.line[0],
+        "--set view.size.by=speed: view.size.by has no effect; it needs view.kind: spheres or splat");
     assert_int_equal(notes_of(column, "view.kind=spheres", "view.size.by=speed", SCENE_FOR_ONE, &scene).count,
                      0);
     assert_int_equal(

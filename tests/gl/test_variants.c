@@ -512,6 +512,11 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->filter = SPLAT_NARROW_RANGE,
              splat_def(&v)->antialias = true, splat_def(&v)->cull = true);
     }
+    for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape++) {
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, v.size.by = 1 + SCALAR_PRESSURE);
+        VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, v.size.by = 1 + SCALAR_PRESSURE,
+             splat_def(&v)->drops = false);
+    }
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_PAPER; shape++) {
         VIEW("splat", splat_def(&v)->shape = (SplatShape)shape, splat_def(&v)->level = 0.3,
              splat_def(&v)->sprite = SPLAT_POINT);
@@ -562,6 +567,8 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     VIEW("spheres", v.size.by = v.opacity.by = 1 + SCALAR_DENSITY);
     VIEW("splat", splat_def(&v)->cull = true, v.floor = true);
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = true);
+    VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, v.size.by = 1 + SCALAR_PRESSURE);
+    VIEW("splat", v.size.by = 1 + SCALAR_PRESSURE, splat_def(&v)->drops = false);
     VIEW("splat", splat_def(&v)->shape = SPLAT_ELLIPSOID, splat_def(&v)->cull = false);
     VIEW("volume", volume_def(&v)->method = VOLUME_DIRECT);
     VIEW("volume", volume_def(&v)->method = VOLUME_LAYERS);

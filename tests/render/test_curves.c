@@ -168,6 +168,32 @@ static void sizes_are_exact(void **state)
     free(rig);
 }
 
+/* Spheres of the view splat, each with its own size and apart from the others, against those of `spheres`. */
+static void splats_have_the_same_sizes(void **state)
+{
+    (void)state;
+    static float sphere[WIDTH * HEIGHT], splat[WIDTH * HEIGHT];
+    Rig *rig = rig_create(0.12);
+    rig->def.size = bent;
+    rig->def.size.curve = (ControlPoints){4, {0, 0.1, 0.5, 1}, {0, 0, 2, 0.8}};
+    for (int i = 0; i < 18; i++)
+        add(rig, -0.75 + 0.3 * (i % 6), 0.2 + 0.3 * (int)(i / 6), 0, 60 + 26 * i, i);
+    draw(rig, ALL, sphere, NULL);
+    text_set(rig->def.kind, "splat");
+    for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++) {
+        int differ = 0, hits = 0;
+        splat_def(&rig->def)->antialias = false, splat_def(&rig->def)->sprite = (SplatSprite)sprite;
+        draw(rig, ALL, splat, NULL);
+        for (int i = 0; i < WIDTH * HEIGHT; i++) {
+            hits += sphere[i] > 0;
+            differ += (sphere[i] > 0) != (splat[i] > 0) || fabs(sphere[i] - splat[i]) > 1e-3 * sphere[i];
+        }
+        printf("%d of %d pixels differ\n", differ, hits);
+        assert_true(hits > 1000 && differ == 0);
+    }
+    free(rig);
+}
+
 /* A state without the scalar is drawn as without the curve. */
 static void what_is_not_there_changes_nothing(void **state)
 {
@@ -319,6 +345,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(sizes_are_exact, no_gl_errors),
+        cmocka_unit_test_teardown(splats_have_the_same_sizes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_not_there_changes_nothing, no_gl_errors),
         cmocka_unit_test_teardown(doors_cover_as_much_as_is_opaque, no_gl_errors),
         cmocka_unit_test_teardown(a_door_is_of_an_id, no_gl_errors),

@@ -185,6 +185,19 @@ static void test_fluid_legend(void **state)
     check(&golden);
 }
 
+/* Opacity, size and bent colours, and what the legend says of them. */
+static void test_curves(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("curves", 320, 240);
+    golden.def.legend = true;
+    golden.def.opacity.by = golden.def.size.by = 1 + SCALAR_SPEED;
+    golden.def.opacity.curve = (ControlPoints){2, {0.2, 0.6}, {0.1, 1}};
+    golden.def.size.curve = (ControlPoints){3, {0, 0.5, 1}, {1.5, 0.7, 1.2}};
+    golden.def.color_curve = (ControlPoints){3, {0, 0.5, 1}, {1, 0, 1}};
+    check(&golden);
+}
+
 static void test_nothing(void **state)
 {
     (void)state;
@@ -371,7 +384,6 @@ static void test_volume_translucent(void **state)
     cast_volume("volume_translucent", RAYCAST_TRANSLUCENT);
 }
 
-/* The measure itself: one shifted picture must not pass. */
 static void test_trails(void **state)
 {
     (void)state;
@@ -397,6 +409,19 @@ static void test_glyphs(void **state)
     check(&golden);
 }
 
+static void test_volume_curve(void **state)
+{
+    (void)state;
+    Golden golden = golden_create("volume_curve", 160, 120);
+    text_set(golden.def.kind, "volume");
+    volume_def(&golden.def)->raycast.look = RAYCAST_TRANSLUCENT;
+    volume_def(&golden.def)->raycast.curve = volume_presets[3].points;
+    golden.def.color_by = SCALAR_FLUID;
+    golden.def.opacity.by = 1 + SCALAR_SPEED;
+    check(&golden);
+}
+
+/* The measure itself: one shifted picture must not pass. */
 static void test_difference_is_seen(void **state)
 {
     (void)state;
@@ -418,6 +443,8 @@ int main(void)
         cmocka_unit_test_teardown(test_dark_close_fixed_camera, no_gl_errors),
         cmocka_unit_test_teardown(test_legend, no_gl_errors),
         cmocka_unit_test_teardown(test_fluid_legend, no_gl_errors),
+        cmocka_unit_test_teardown(test_curves, no_gl_errors),
+        cmocka_unit_test_teardown(test_volume_curve, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing, no_gl_errors),
         cmocka_unit_test_teardown(test_solids, no_gl_errors),
         cmocka_unit_test_teardown(test_splat, no_gl_errors),
