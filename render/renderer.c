@@ -117,7 +117,9 @@ static ParticleWants wants_of(const ViewDef *def)
 
 unsigned renderer_attributes(const ViewDef *def)
 {
-    const ParticleWants all = {UINT32_MAX, UINT32_MAX, overlays_attributes(NULL)},
+    const unsigned fluid =
+        PARTICLE_SCALAR(SCALAR_FLUID); /* as a number; as a colour it is among the scalars */
+    const ParticleWants all = {UINT32_MAX, UINT32_MAX, fluid | overlays_attributes(NULL)},
                         wants = def ? wants_of(def) : all;
     return wants_attributes(&wants);
 }

@@ -14,7 +14,7 @@ typedef struct Rig {
     WorldDef world;
     ParticleBuffers state;
     size_t count;
-    float position[4 * PARTICLES_MAX], scalar[SCALAR_COUNT][PARTICLES_MAX];
+    float position[4 * PARTICLES_MAX], velocity[4 * PARTICLES_MAX], scalar[SCALAR_STATE_COUNT][PARTICLES_MAX];
 } Rig;
 
 static Rig *rig_create(double spacing)
@@ -38,6 +38,7 @@ static void add(Rig *rig, double x, double y, double z, double pressure, double 
     assert_true(i < PARTICLES_MAX);
     float *at = &rig->position[4 * i];
     at[0] = (float)x, at[1] = (float)y, at[2] = (float)z, at[3] = 1;
+    rig->velocity[4 * i + 1] = (float)pressure; /* velocity_y too */
     rig->scalar[SCALAR_PRESSURE][i] = (float)pressure;
     rig->scalar[SCALAR_SPEED][i] = (float)speed;
     rig->scalar[SCALAR_ID][i] = (float)(7 * i + 3);
@@ -51,8 +52,8 @@ static void draw(Rig *rig, unsigned attributes, float *depth, uint8_t *rgb)
     ParticleBuffers buffers;
     rig->state.count = rig->count;
     Upload *upload = upload_create(rig->count, attributes, &error);
-    ParticleArrays arrays = {.position = rig->position};
-    for (int s = 0; s < SCALAR_COUNT; s++)
+    ParticleArrays arrays = {.position = rig->position, .velocity = rig->velocity};
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         arrays.scalar[s] = rig->scalar[s];
     assert_non_null(upload);
     assert_true(upload_arrays(upload, &arrays, &rig->state, &error) && upload_take(upload, &buffers));
@@ -68,8 +69,8 @@ static void draw(Rig *rig, unsigned attributes, float *depth, uint8_t *rgb)
     upload_destroy(upload);
 }
 
-static const unsigned ALL =
-    PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_SCALAR(SCALAR_PRESSURE) | PARTICLE_SCALAR(SCALAR_ID);
+static const unsigned ALL = PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED) |
+                            PARTICLE_SCALAR(SCALAR_PRESSURE) | PARTICLE_SCALAR(SCALAR_ID);
 
 static double dot(const double a[3], const double b[3])
 {
@@ -215,6 +216,31 @@ static void what_is_not_there_changes_nothing(void **state)
     free(rig);
 }
 
+/* A scalar that no backend writes, and the range of up to a hundred particles: least and greatest. */
+static void a_derived_scalar_does_as_well(void **state)
+{
+    (void)state;
+    static float said[WIDTH * HEIGHT], found[WIDTH * HEIGHT];
+    Rig *rig = rig_create(0.12);
+    scatter(rig, 80);
+    rig->def.size = rig->def.opacity = bent;
+    rig->def.opacity.curve = (ControlPoints){2, {0, 1}, {0.3, 1}};
+    for (int symmetric = 0; symmetric < 2; symmetric++) {
+        const double high = rig->scalar[SCALAR_PRESSURE][79], low = symmetric ? -high : 50;
+        memcpy(rig->def.size.range, (double[]){low, high}, sizeof rig->def.size.range);
+        memcpy(rig->def.opacity.range, (double[]){low, high}, sizeof rig->def.opacity.range);
+        rig->def.size.by = rig->def.opacity.by = 1 + SCALAR_PRESSURE;
+        rig->def.size.range_auto = rig->def.opacity.range_auto = false;
+        draw(rig, ALL, said, NULL);
+        rig->def.size.by = rig->def.opacity.by = 1 + SCALAR_VELOCITY_Y;
+        rig->def.size.range_auto = rig->def.opacity.range_auto = true;
+        rig->def.size.range_symmetric = rig->def.opacity.range_symmetric = symmetric;
+        draw(rig, ALL, found, NULL);
+        assert_memory_equal(said, found, sizeof said);
+    }
+    free(rig);
+}
+
 static int covered(const float *depth)
 {
     int count = 0;
@@ -347,6 +373,7 @@ int main(void)
         cmocka_unit_test_teardown(sizes_are_exact, no_gl_errors),
         cmocka_unit_test_teardown(splats_have_the_same_sizes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_not_there_changes_nothing, no_gl_errors),
+        cmocka_unit_test_teardown(a_derived_scalar_does_as_well, no_gl_errors),
         cmocka_unit_test_teardown(doors_cover_as_much_as_is_opaque, no_gl_errors),
         cmocka_unit_test_teardown(a_door_is_of_an_id, no_gl_errors),
         cmocka_unit_test_teardown(nan_is_seen, no_gl_errors),

@@ -392,6 +392,40 @@ static void the_view_hides_what_is_behind(void **state)
     wind_destroy(wind);
 }
 
+/* A curve that falls is the range's mirror: 0.25 is coloured as 0.75. */
+static void a_curve_bends_their_colors(void **state)
+{
+    (void)state;
+    static uint8_t straight[3 * WIDE * HIGH], bent[3 * WIDE * HIGH];
+    const WorldDef world = bare_world();
+    Error error = {0};
+    ViewDef def = glyphs_view(GLYPHS_PARTICLES);
+    Wind *wind = wind_create(0.1);
+    glyphs_def(&def)->color_by = GLYPHS_BY_SCALAR;
+    glyphs_def(&def)->stride = 1;
+    glyphs_def(&def)->scale = 0.4;
+    add(wind, (double[3]){0, 0.5, 0}, (double[3]){1, 1, 0});
+    upload(wind);
+    def.range[0] = -0.5, def.range[1] = 0.5;
+    Renderer *renderer = renderer_create(&def, &world, WIDE, HIGH, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, &wind->buffers, NULL);
+    renderer_read(renderer, straight);
+    def.color_curve = (ControlPoints){2, {0, 1}, {1, 0}};
+    assert_true(renderer_set_def(renderer, &def, &world, &error));
+    renderer_draw(renderer, &wind->buffers, NULL);
+    renderer_read(renderer, bent);
+    assert_memory_not_equal(straight, bent, sizeof bent);
+    def.range[0] = 0, def.range[1] = 1;
+    assert_true(renderer_set_def(renderer, &def, &world, &error));
+    renderer_draw(renderer, &wind->buffers, NULL);
+    renderer_read(renderer, bent);
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        assert_true(abs(straight[i] - bent[i]) <= 2);
+    renderer_destroy(renderer);
+    wind_destroy(wind);
+}
+
 #define TEST(name) cmocka_unit_test_teardown(name, no_gl_errors)
 
 int main(void)
@@ -401,6 +435,7 @@ int main(void)
         TEST(arrows_stand_on_the_plane),        TEST(the_usual_length_is_a_percentile),
         TEST(the_box_has_a_motion_of_its_own),  TEST(an_arrow_ends_where_it_should),
         TEST(what_is_no_number_is_no_arrow),    TEST(the_view_hides_what_is_behind),
+        TEST(a_curve_bends_their_colors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

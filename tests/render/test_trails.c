@@ -406,6 +406,45 @@ static void hidden_ones_cost_nothing(void **state)
 
 #define TEST(name) cmocka_unit_test_teardown(name, no_gl_errors)
 
+/* A curve that falls is the range's mirror: 0.25 is coloured as 0.75. */
+static void a_curve_bends_their_colors(void **state)
+{
+    (void)state;
+    enum { WIDE = 120, HIGH = 90 };
+    static uint8_t straight[3 * WIDE * HIGH], bent[3 * WIDE * HIGH];
+    Error error = {0};
+    ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    trails_def(&def)->width = 0.1;
+    def.range[0] = -0.5, def.range[1] = 0.5;
+    Renderer *renderer = renderer_create(&def, NULL, WIDE, HIGH, &error);
+    assert_non_null(renderer);
+    for (int i = 0; i < 4; i++) {
+        movers_clear(movers);
+        movers_add(movers, 1, -0.3 + 0.2 * i, 0.5, 0, 0.25);
+        const ParticleBuffers particles = movers_upload(movers, 0.1 * i);
+        if (i == 3) {
+            def.range[0] = 0, def.range[1] = 1;
+            def.color_curve = (ControlPoints){2, {0, 1}, {1, 0}};
+        }
+        renderer_draw(renderer, &particles, NULL);
+        renderer_read(renderer, straight);
+        assert_true(renderer_set_def(renderer, &def, NULL, &error));
+        renderer_draw(renderer, &particles, NULL);
+        renderer_read(renderer, bent);
+    }
+    for (int i = 0; i < 3 * WIDE * HIGH; i++)
+        assert_true(abs(straight[i] - bent[i]) <= 2);
+    def.color_curve = control_points_straight();
+    assert_true(renderer_set_def(renderer, &def, NULL, &error));
+    const ParticleBuffers particles = movers_upload(movers, 0.3);
+    renderer_draw(renderer, &particles, NULL);
+    renderer_read(renderer, straight);
+    assert_memory_not_equal(straight, bent, sizeof bent);
+    renderer_destroy(renderer);
+    movers_destroy(movers);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +462,7 @@ int main(void)
         TEST(a_scalar_that_is_not_there_is_no_number),
         TEST(what_is_nowhere_has_no_point),
         TEST(hidden_ones_cost_nothing),
+        TEST(a_curve_bends_their_colors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

@@ -40,6 +40,26 @@ static void entries_are_view_but_for_what_they_say(void **state)
     assert_ptr_equal(scene_view(&scene, 0), &scene.view);
 }
 
+/* So are those of opacity and size. */
+static void ranges_are_of_their_scalars(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    const char *text =
+        LEAST "view: {opacity: {by: pressure, range: [0, 9]}, size: {by: density, range: symmetric}}\n"
+              "views: [{}, {opacity: {by: speed}}, {opacity: {by: speed, range: [1, 2]}}]\n";
+    assert_true(parse_text(text, NULL, &scene, &error));
+    const ViewDef *one = scene_view(&scene, 0);
+    assert_true(!one->opacity.range_auto && one->opacity.range[1] == 9);
+    assert_true(one->size.range_auto && one->size.range_symmetric);
+    assert_true(scene_view(&scene, 1)->opacity.range_auto);
+    assert_true(!scene_view(&scene, 2)->opacity.range_auto && scene_view(&scene, 2)->opacity.range[1] == 2);
+    assert_true(scene_set_live(&scene, "views[0].opacity.by=vorticity", NULL, &error));
+    assert_true(one->opacity.range_auto && !scene.view.opacity.range_auto);
+    assert_true(parse_set(text, "view.opacity.by=id", &scene, &error));
+    assert_true(scene.view.opacity.range_auto && one->opacity.range_auto);
+}
+
 static void settings_reach_them(void **state)
 {
     (void)state;
@@ -82,6 +102,8 @@ static void what_is_wrong_has_its_place(void **state)
     assert_refused(LEAST "views: [{kind: blob}]\n", "scene.yaml:7:16: views[0].kind cannot be 'blob'");
     assert_refused(LEAST "views: [{}, {range: [2, 1]}]\n",
                    "scene.yaml:7:21: the range's low (2) is not below");
+    assert_refused(LEAST "views: [{}, {size: {by: speed, range: [2, 1]}}]\n",
+                   "scene.yaml:7:39: the range's low (2) is not below");
     assert_refused(LEAST "views: [{slice: {normal: [0, 0, 0]}, kind: slice}]\n",
                    "scene.yaml:7:26: a normal of length 0");
     assert_refused(LEAST "views: [{camera: {from: [1, 1, 1]}}]\n",
@@ -102,6 +124,13 @@ static void what_has_no_effect_is_said(void **state)
     assert_int_equal(notes.count, 1);
     assert_non_null(
         strstr(notes.line[0], ": views[1].slice.isolines has no effect; it needs views[1].kind: slice"));
+    settings.set[0] = "views=[{opacity: {curve: falling}}, {kind: slice, size: {by: speed}}]";
+    assert_true(scene_parse("scene.yaml", LEAST, strlen(LEAST), &settings, &scene, &notes, &error));
+    assert_int_equal(notes.count, 2);
+    assert_non_null(strstr(
+        notes.line[0], ": views[0].opacity.curve has no effect; it needs a scalar (views[0].opacity.by)"));
+    assert_non_null(
+        strstr(notes.line[1], ": views[1].size.by has no effect; it needs views[1].kind: spheres"));
 }
 
 static void print_says_what_differs(void **state)
@@ -123,6 +152,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(entries_are_view_but_for_what_they_say),
+        cmocka_unit_test(ranges_are_of_their_scalars),
         cmocka_unit_test(settings_reach_them),
         cmocka_unit_test(live_settings_reach_them),
         cmocka_unit_test(what_is_wrong_has_its_place),
