@@ -16,6 +16,7 @@ typedef struct Panel {
 
 struct Panels {
     int count, width, height;
+    int marked;          /* -1: none */
     double covered_left; /* part of the width */
     PanelPlace places[PANELS_MAX];
     Panel panels[PANELS_MAX];
@@ -83,7 +84,7 @@ Panels *panels_create(const Subject subjects[], int count, int width, int height
         error_set(error, "out of memory for %d pictures", count);
         return NULL;
     }
-    *panels = (Panels){.count = count, .width = width, .height = height};
+    *panels = (Panels){.count = count, .width = width, .height = height, .marked = -1};
     bool made = place(count, width, height, 0, panels->places, error);
     for (int i = 0; made && i < count; i++) {
         Panel *panel = &panels->panels[i];
@@ -104,6 +105,16 @@ void panels_destroy(Panels *panels)
     for (int i = 0; panels && i < panels->count; i++)
         renderer_destroy(panels->panels[i].renderer);
     free(panels);
+}
+
+Renderer *panels_renderer(const Panels *panels, int index)
+{
+    return panels->panels[index].renderer;
+}
+
+void panels_mark(Panels *panels, int index)
+{
+    panels->marked = index;
 }
 
 int panels_count(const Panels *panels)
@@ -267,6 +278,25 @@ bool panels_read(const Panels *panels, uint8_t *rgb, Error *error)
     return true;
 }
 
+/* Within the default framebuffer. */
+static void fill(const Panels *panels, int x, int y, int width, int height)
+{
+    glScissor(x, panels->height - y - height, width, height);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+static void draw_mark(const Panels *panels, const PanelPlace *at)
+{
+    enum { THICK = 2 };
+    glEnable(GL_SCISSOR_TEST);
+    glClearColor(0.16F, 0.48F, 0.85F, 1);
+    fill(panels, at->x, at->y, at->width, THICK);
+    fill(panels, at->x, at->y + at->height - THICK, at->width, THICK);
+    fill(panels, at->x, at->y, THICK, at->height);
+    fill(panels, at->x + at->width - THICK, at->y, THICK, at->height);
+    glDisable(GL_SCISSOR_TEST);
+}
+
 void panels_present(const Panels *panels)
 {
     const uint8_t *line = line_color(panels);
@@ -281,5 +311,7 @@ void panels_present(const Panels *panels)
         const PanelPlace *at = &panels->places[i];
         renderer_present(panels->panels[i].renderer, at->x, panels->height - at->y - at->height);
     }
+    if (panels->count > 1 && panels->marked >= 0)
+        draw_mark(panels, &panels->places[panels->marked]);
     glViewport(0, 0, panels->width, panels->height);
 }

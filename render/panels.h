@@ -29,6 +29,9 @@ typedef struct Panels Panels;
 Panels *panels_create(const Subject subjects[], int count, int width, int height, Error *error);
 void panels_destroy(Panels *panels); /* NULL is allowed */
 
+/* What draws a panel; the panels own it. */
+Renderer *panels_renderer(const Panels *panels, int index);
+
 int panels_count(const Panels *panels);
 const PanelPlace *panels_places(const Panels *panels);
 
@@ -48,6 +51,8 @@ void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer 
 
 /* Shows a state that is not drawn to the overlays of a panel that follow particles from state to state. */
 void panels_take(Panels *panels, int index, const ParticleBuffers *state);
+/* From the next time that it is presented a frame stands around a panel among several; -1: around none. */
+void panels_mark(Panels *panels, int index);
 
 /* The range of a panel in the last picture, in the unit of its scalar. */
 void panels_range(const Panels *panels, int index, double range[2]);

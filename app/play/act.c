@@ -10,7 +10,9 @@
 
 static void view_changed(Play *play)
 {
-    picture_set_view(&play->picture, &play->model.open.scene, &play->notice);
+    Scene *scene = &play->model.open.scene;
+    views_follow(&play->views, scene);
+    picture_set_view(&play->picture, scene, views_panel(&play->views, scene), &play->notice);
 }
 
 /* Another scene is open: nothing of the one before is in the hand, on its way or in the picture. */
@@ -21,12 +23,13 @@ static void follow_scene(Play *play)
     grip_begin(&play->grip);
     readout_begin(&play->readout);
     play->camera.held = false;
+    views_open(&play->views, &play->model.open.scene, &play->model.file_scene);
     meter_forget(&play->meter);
     play->picture.dirty = true;
     play->overlay.timeline |= !play->model.open.source->simulates;
     snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
     window_title(play->window, title);
-    if (play->picture.renderer)
+    if (play->picture.panels)
         view_changed(play);
 }
 
@@ -77,6 +80,34 @@ static void next_colormap(Play *play)
     snprintf(view->colormap, sizeof view->colormap, "%s", next);
     view_changed(play);
     notice_tell(&play->notice, "colours %s", next);
+}
+
+static void cycle_views(Play *play)
+{
+    Scene *scene = &play->model.open.scene;
+    views_cycle(&play->views, scene);
+    play->camera.held = false;
+    view_changed(play);
+    notice_tell(&play->notice, scene->view_count > 0 ? "%d views: click into one to choose it" : "one view",
+                scene->view_count);
+}
+
+static void link_cameras(Play *play)
+{
+    views_link(&play->views, &play->model.open.scene);
+    view_changed(play);
+    notice_tell(&play->notice,
+                play->views.free ? "each view has a camera of its own" : "cameras move together");
+}
+
+static void choose_view(Play *play, const double at[2])
+{
+    Model *model = &play->model;
+    const int panel = picture_panel_at(&play->picture, at[0], at[1]);
+    if (!views_choose(&play->views, &model->open.scene, &model->file_scene, panel))
+        return;
+    play->camera.held = false;
+    view_changed(play);
 }
 
 static void quit_or_close(Play *play)
@@ -157,6 +188,12 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_NEXT_COLORMAP:
         next_colormap(play);
+        break;
+    case PLAY_VIEWS:
+        cycle_views(play);
+        break;
+    case PLAY_LINK_CAMERAS:
+        link_cameras(play);
         break;
     case PLAY_SCREENSHOT:
         play->files.shoot = true;
@@ -272,6 +309,9 @@ static void act(Play *play, const Ask *ask)
     case ASK_TIME:
         model_pause(&play->model, true);
         model_go_to(&play->model, ask->amount[0]);
+        break;
+    case ASK_CHOOSE:
+        choose_view(play, ask->amount);
         break;
     case ASK_GRAB:
         grab_camera(play);

@@ -16,6 +16,7 @@ typedef enum AskKind {
     ASK_TUNE,    /* device, amount: gain and dead zone */
     ASK_LET_GO,  /* the box stops where it is: what moved it is gone */
     ASK_TIME,    /* amount: s, simulated: to be shown, and to rest there */
+    ASK_CHOOSE,  /* amount: a place in the picture, pixels: the view there becomes the one that all acts on */
     ASK_GRAB,    /* the camera goes into the hand, as it stands */
     ASK_TURN,    /* amount: radians to the right and up, of a camera in the hand */
     ASK_PAN,     /* amount: heights of the picture to the right and up */

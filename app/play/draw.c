@@ -30,11 +30,10 @@ static void draw_marks(Play *play)
 static void draw_fluid(Play *play)
 {
     Picture *picture = &play->picture;
-    const CameraSight sight = play_sight(play);
-    picture_draw(picture, &play->model.particles, sight.covered_left);
+    picture_draw(picture, &play->model.particles, overlay_covered_left(&play->overlay, picture->width));
     events_follow_hand(play);
     picture_present(picture);
-    files_take(&play->files, picture->renderer, picture->width, picture->height, &play->notice);
+    files_take(&play->files, picture->panels, picture->width, picture->height, &play->notice);
     draw_marks(play);
     draw_overlay(play);
 }

@@ -28,6 +28,15 @@ static bool grip_has(Play *play, const WindowEvent *event, bool free)
     return has;
 }
 
+/* The mouse acts in the view under it. */
+static void choose_view(Play *play, const WindowEvent *event)
+{
+    const float *mouse = play->overlay.mouse;
+    const bool acts = (event->kind == WINDOW_BUTTON && event->down) || event->kind == WINDOW_WHEEL;
+    if (acts && play->input.drag == PLAY_NONE && play->model.open.scene.view_count > 0)
+        ask_add(&play->asks, &(Ask){.kind = ASK_CHOOSE, .amount = {mouse[0], mouse[1]}});
+}
+
 static void take_event(Play *play, const WindowEvent *event)
 {
     const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
@@ -36,8 +45,10 @@ static void take_event(Play *play, const WindowEvent *event)
     const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
     play->picture.dirty |=
         readout_event(&play->readout, play->picture.renderer, event, !covered && !play->grip.taken);
-    if (!too_early(play, event->kind) && !covered && !gripped)
-        input_take(&play->input, event, play->picture.height, &play->asks);
+    if (too_early(play, event->kind) || covered || gripped)
+        return;
+    choose_view(play, event);
+    input_take(&play->input, event, play_sight(play).height, &play->asks);
 }
 
 /* Letters and signs count as the user's keyboard has them. */

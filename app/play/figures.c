@@ -138,6 +138,8 @@ void figures_of(const Play *play, PlayFigures *figures)
     add_view(&play->model.open.scene.view, figures);
     add_view_settings(&play->model.open.scene, figures);
     add_readout(&play->readout, figures);
+    figures->views = scene_view_count(&play->model.open.scene);
+    figures->chosen_view = views_panel(&play->views, &play->model.open.scene);
     add_meter(&play->meter, figures);
     add_rates(&play->meter, figures);
 }

@@ -9,15 +9,14 @@
 
 static const double MOVIE_FPS = 30;
 
-static bool read_picture(Renderer *renderer, int width, int height, Image *image, Error *error)
+static bool read_picture(const Panels *panels, int width, int height, Image *image, Error *error)
 {
     if (!image_create(image, width, height))
         return error_set(error, "no memory for a picture");
-    renderer_read(renderer, image->rgb);
-    return true;
+    return panels_read(panels, image->rgb, error);
 }
 
-static void take_screenshot(Files *files, Renderer *renderer, int width, int height, Notice *notice)
+static void take_screenshot(Files *files, const Panels *panels, int width, int height, Notice *notice)
 {
     Image image = {0};
     Output output = {.temp = ""};
@@ -25,7 +24,7 @@ static void take_screenshot(Files *files, Renderer *renderer, int width, int hei
     char path[1024];
     file_name_new(path, "png");
     files->shoot = false;
-    if (read_picture(renderer, width, height, &image, &error) && output_begin(&output, path, &error) &&
+    if (read_picture(panels, width, height, &image, &error) && output_begin(&output, path, &error) &&
         image_write(&image, output.temp, &error) && output_commit(&output, &error))
         notice_tell(notice, "%s: the picture", path);
     else
@@ -86,7 +85,7 @@ static bool add_due(Files *files, const Image *image, Error *error)
     return true;
 }
 
-static void take_frame(Files *files, Renderer *renderer, int width, int height, Notice *notice)
+static void take_frame(Files *files, const Panels *panels, int width, int height, Notice *notice)
 {
     Image image = {0};
     Error error = {{0}};
@@ -94,7 +93,7 @@ static void take_frame(Files *files, Renderer *renderer, int width, int height, 
         files_end(files, notice);
         return;
     }
-    if (!read_picture(renderer, width, height, &image, &error) || !add_due(files, &image, &error)) {
+    if (!read_picture(panels, width, height, &image, &error) || !add_due(files, &image, &error)) {
         video_discard(files->video);
         files->video = NULL;
         notice_error(notice, error.message);
@@ -102,10 +101,10 @@ static void take_frame(Files *files, Renderer *renderer, int width, int height, 
     image_destroy(&image);
 }
 
-void files_take(Files *files, Renderer *renderer, int width, int height, Notice *notice)
+void files_take(Files *files, const Panels *panels, int width, int height, Notice *notice)
 {
     if (files_due(files))
-        take_frame(files, renderer, width, height, notice);
+        take_frame(files, panels, width, height, notice);
     if (files->shoot)
-        take_screenshot(files, renderer, width, height, notice);
+        take_screenshot(files, panels, width, height, notice);
 }

@@ -5,7 +5,7 @@
 
 #include "app/output/video.h"
 #include "app/play/notice.h"
-#include "render/renderer.h"
+#include "render/panels.h"
 
 /* Zero-initialise it. */
 typedef struct Files {
@@ -21,7 +21,7 @@ typedef struct Files {
 bool files_due(const Files *files);
 
 /* Takes what was just drawn, for what waits for it. */
-void files_take(Files *files, Renderer *renderer, int width, int height, Notice *notice);
+void files_take(Files *files, const Panels *panels, int width, int height, Notice *notice);
 
 /* Begins a video of that size, or ends the present one. */
 void files_video(Files *files, int width, int height, Notice *notice);

@@ -14,6 +14,7 @@
 #include "app/play/overlay.h"
 #include "app/play/picture.h"
 #include "app/play/readout.h"
+#include "app/play/views.h"
 #include "app/window/shake.h"
 #include "app/window/window.h"
 
@@ -26,6 +27,7 @@ typedef struct Play {
     PlayCamera camera;
     Grip grip;
     Readout readout;
+    PlayViews views;
     Picture picture;
     Overlay overlay;
     Files files;
@@ -36,11 +38,14 @@ typedef struct Play {
     bool quit;
 } Play;
 
-/* What of the picture the camera fills. */
+/* What of the picture the camera fills: the panel of the chosen view. Several lie beside what covers the
+ * picture. */
 static inline CameraSight play_sight(const Play *play)
 {
-    const int width = play->picture.width;
-    return (CameraSight){width, play->picture.height, overlay_covered_left(&play->overlay, width)};
+    const double covered = overlay_covered_left(&play->overlay, play->picture.width);
+    const PanelPlace at = picture_place(&play->picture, covered);
+    const bool one = play->model.open.scene.view_count == 0;
+    return (CameraSight){at.width, at.height, one ? covered : 0};
 }
 
 /* How the newest state is seen; there must be one. */

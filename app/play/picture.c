@@ -23,11 +23,34 @@ void picture_meet(Picture *picture, const Window *window)
         picture->timer = gl_timer_create(GL_CLOCK_QUERY);
 }
 
+/* What a panel shows: the scene's view is the chosen one. */
+static const ViewDef *shown(const Scene *scene, int chosen, int panel)
+{
+    return panel == chosen ? &scene->view : scene_view(scene, panel);
+}
+
+/* On failure the old ones stay. */
+static bool replace_panels(Picture *picture, const Scene *scene, int width, int height, Error *error)
+{
+    Subject subjects[PANELS_MAX] = {{NULL}};
+    const int count = scene_view_count(scene);
+    for (int i = 0; i < count; i++)
+        subjects[i] = (Subject){shown(scene, count > 1 ? picture->chosen : 0, i), &scene->world};
+    Panels *panels = panels_create(subjects, count, width, height, error);
+    if (!panels)
+        return false;
+    panels_destroy(picture->panels);
+    picture->panels = panels;
+    picture->chosen = picture->chosen < count ? picture->chosen : 0;
+    picture->renderer = panels_renderer(panels, picture->chosen);
+    panels_mark(panels, picture->chosen);
+    return true;
+}
+
 bool picture_start(Picture *picture, const Scene *scene, float letters, Error *error)
 {
     const int width = (int)fmax(picture->width, 1), height = (int)fmax(picture->height, 1);
-    picture->renderer = renderer_create(&scene->view, &scene->world, width, height, error);
-    if (!picture->renderer)
+    if (!replace_panels(picture, scene, width, height, error))
         return false;
     picture->shaders_stamp = shader_source_stamp();
     picture->text = text_create(letters, error);
@@ -38,15 +61,44 @@ void picture_end(Picture *picture)
 {
     text_destroy(picture->text);
     gl_timer_destroy(picture->timer);
-    renderer_destroy(picture->renderer);
+    panels_destroy(picture->panels);
 }
 
-void picture_set_view(Picture *picture, const Scene *scene, Notice *notice)
+void picture_set_view(Picture *picture, const Scene *scene, int chosen, Notice *notice)
 {
     Error error = {{0}};
+    bool set = true;
     picture->dirty = true;
-    if (!renderer_set_def(picture->renderer, &scene->view, &scene->world, &error))
+    picture->chosen = chosen;
+    if (panels_count(picture->panels) != scene_view_count(scene))
+        set = replace_panels(picture, scene, (int)fmax(picture->width, 1), (int)fmax(picture->height, 1),
+                             &error);
+    else
+        for (int i = 0; i < panels_count(picture->panels); i++)
+            set &= panels_set_def(picture->panels, i, shown(scene, chosen, i), &scene->world, &error);
+    if (!set)
         notice_error(notice, error.message);
+    const int there = panels_count(picture->panels);
+    picture->chosen = chosen < there ? chosen : 0;
+    picture->renderer = panels_renderer(picture->panels, picture->chosen);
+    panels_mark(picture->panels, picture->chosen);
+}
+
+PanelPlace picture_place(const Picture *picture, double covered_left)
+{
+    PanelPlace places[PANELS_MAX];
+    const int count = picture->panels ? panels_count(picture->panels) : 1;
+    const int beside = count > 1 ? (int)lround(covered_left * picture->width) : 0;
+    if (!panels_place(count, picture->width - beside, picture->height, places))
+        return (PanelPlace){0, 0, (int)fmax(picture->width, 1), (int)fmax(picture->height, 1)};
+    places[picture->chosen].x += beside;
+    return places[picture->chosen];
+}
+
+int picture_panel_at(const Picture *picture, double x, double y)
+{
+    return picture->panels ? panels_at(panels_places(picture->panels), panels_count(picture->panels), x, y)
+                           : 0;
 }
 
 bool picture_follow_size(Picture *picture, const Window *window, Error *error)
@@ -55,10 +107,13 @@ bool picture_follow_size(Picture *picture, const Window *window, Error *error)
     window_size(window, &width, &height);
     if (width == picture->width && height == picture->height)
         return true;
+    PanelPlace places[PANELS_MAX];
     picture->width = width;
     picture->height = height;
     picture->dirty = true;
-    return width < 1 || height < 1 || renderer_resize(picture->renderer, width, height, error);
+    if (width > 0 && height > 0 && !panels_place(panels_count(picture->panels), width, height, places))
+        picture->width = 0; /* as if it were minimised: so small a window has no room for several views */
+    return picture->width < 1 || height < 1 || panels_resize(picture->panels, width, height, error);
 }
 
 bool picture_follow_scale(Picture *picture, float letters)
@@ -94,24 +149,21 @@ bool picture_shaders_changed(Picture *picture)
 
 bool picture_reload(Picture *picture, const Scene *scene, Error *error)
 {
-    Renderer *renderer = renderer_create(&scene->view, &scene->world, picture->width, picture->height, error);
-    if (!renderer)
-        return false;
-    renderer_destroy(picture->renderer);
-    picture->renderer = renderer;
-    return true;
+    return replace_panels(picture, scene, picture->width, picture->height, error);
 }
 
 void picture_draw(Picture *picture, const ParticleBuffers *particles, double covered_left)
 {
-    renderer_set_covered(picture->renderer, (Covered){.left = covered_left});
-    renderer_draw(picture->renderer, particles, picture->timer);
+    const ParticleBuffers *states[PANELS_MAX] = {particles, particles, particles, particles};
+    Error error;
+    panels_set_covered(picture->panels, covered_left, &error); /* no room: they lie where they were */
+    panels_draw(picture->panels, states, picture->timer);
     gl_timer_frame(picture->timer, &picture->gl_times);
 }
 
 void picture_present(Picture *picture)
 {
-    renderer_present(picture->renderer, 0, 0);
+    panels_present(picture->panels);
 }
 
 void picture_clear(const Picture *picture, const ViewDef *view)

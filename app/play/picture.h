@@ -7,13 +7,15 @@
 #include "app/scene/scene.h"
 #include "app/window/window.h"
 #include "render/frame/text.h"
-#include "render/renderer.h"
+#include "render/panels.h"
 #include "sim/gl/timer.h"
 
 /* Zero-initialise it. */
 typedef struct Picture {
-    Renderer *renderer;
-    GlTimer *timer; /* NULL on a software renderer, where nothing can be measured without waiting */
+    Panels *panels;     /* one for each view that is shown */
+    Renderer *renderer; /* of the chosen view's panel */
+    int chosen;         /* that panel */
+    GlTimer *timer;     /* NULL on a software renderer, where nothing can be measured without waiting */
     StageTimes gl_times;
     Text *text;
     int width, height;      /* of the framebuffer; 0 while the window is minimised */
@@ -33,9 +35,14 @@ void picture_end(Picture *picture);
 /* Height of letters in that window, pixels. */
 float picture_letters(const Window *window);
 
-/* Between two pictures. The view has changed; the window's size may have, or the display's scale: where
-   letters of another height cannot be had the old ones stay. */
-void picture_set_view(Picture *picture, const Scene *scene, Notice *notice);
+/* Where the chosen view's panel lies, beside what covers that part of the width, 0 .. 1, on the left; and
+   which panel is at a place. Pixels. */
+PanelPlace picture_place(const Picture *picture, double covered_left);
+int picture_panel_at(const Picture *picture, double x, double y);
+
+/* Between two pictures. The view has changed, or the panel of the chosen one; the window's size may have, or
+   the display's scale: where letters of another height cannot be had the old ones stay. */
+void picture_set_view(Picture *picture, const Scene *scene, int chosen, Notice *notice);
 bool picture_follow_size(Picture *picture, const Window *window, Error *error);
 bool picture_follow_scale(Picture *picture, float letters); /* whether it has changed */
 

@@ -29,11 +29,12 @@ static json_t *session_json(const PlayFigures *f)
     json_t *devices = json_pack("{s:I, s:f, s:f}", "device_reports", (json_int_t)f->device_reports,
                                 "report_median_ms", f->report_median_ms, "report_p99_ms", f->report_p99_ms);
     json_t *state =
-        json_pack("{s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f, s:f, s:s, s:s, s:s}", "steps",
-                  (json_int_t)f->step, "time", f->time, "simulated_seconds", f->simulated_s, "pictures",
-                  (json_int_t)f->pictures, "scenes_opened", (json_int_t)f->scenes_opened, "color_by",
-                  f->color_by, "colormap", f->colormap, "speed", f->speed, "display_scale", f->display_scale,
-                  "processor", bench_processor(), "compiler", bench_compiler, "options", bench_options);
+        json_pack("{s:i, s:i, s:I, s:f, s:f, s:I, s:I, s:s, s:s, s:f, s:f, s:s, s:s, s:s}", "views", f->views,
+                  "chosen_view", f->chosen_view, "steps", (json_int_t)f->step, "time", f->time,
+                  "simulated_seconds", f->simulated_s, "pictures", (json_int_t)f->pictures, "scenes_opened",
+                  (json_int_t)f->scenes_opened, "color_by", f->color_by, "colormap", f->colormap, "speed",
+                  f->speed, "display_scale", f->display_scale, "processor", bench_processor(), "compiler",
+                  bench_compiler, "options", bench_options);
     json_t *hands = json_pack("{s:b, s:b, s:b, s:b, s:b, s:o, s:o, s:o, s:o, s:i}", "paused", f->paused,
                               "fullscreen", f->fullscreen, "camera_auto", f->camera_auto, "panel", f->panel,
                               "help", f->help, "box_position", vector(f->box_position, 3), "box_orientation",

@@ -39,10 +39,13 @@ static bool fresh(PlayScene *open)
 
 static bool take(PlayScene *open, ParticleBuffers *out)
 {
-    const ViewDef *view = &open->scene.view;
+    const Scene *scene = &open->scene;
+    unsigned attributes = renderer_attributes(&scene->view);
     if (!simulator_here(open->simulator))
         return upload_take(open->upload, out);
-    return simulator_share(open->simulator, renderer_attributes(view), out);
+    for (int i = 0; i < scene->view_count; i++)
+        attributes |= renderer_attributes(&scene->views[i]);
+    return simulator_share(open->simulator, attributes, out);
 }
 
 static bool has(const PlayScene *open, const ViewDef *view, Error *error)

@@ -1,0 +1,95 @@
+"""Several views in the window, by real events: keys, clicks, cameras, files, sizes."""
+import numpy
+
+import command
+from test_window import Window, png_size
+
+LEFT, RIGHT = (120, 180), (360, 180)  # in the panels of 480 x 360
+
+
+class Views(Window):
+    def picture(self):
+        """The window as it is on the screen."""
+        wide = self.display.connection.create_resource_object('window', self.window).get_geometry()
+        data = self.display.picture(self.window)
+        return numpy.frombuffer(data, dtype='u1').reshape(-1, min(wide.width, 480), 4)[:, :, :3]
+
+    def click(self, x, y):
+        self.at(x, y)
+        self.xdo('click', 1)
+        self.shown(0.2)
+
+    def test_one_two_four_and_back(self):
+        self.open('still.yaml', '--set', 'view.legend=false')
+        self.keys('space', 'w')
+        self.shown(0.5)
+        two = self.picture()
+        self.keys('F12', 'w', 'w')
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual((out['views'], out['chosen_view']), (1, 0), self.messages)
+        self.assertEqual(png_size(self.read(self.files('png')[0])), (480, 360))
+        line = two[180, 239:241]
+        self.assertLess(int(line.max()), 60, 'a dark line between the panels')
+        blue = (two[:, :, 0].astype(int) > two[:, :, 2].astype(int) + 60)  # the mark's frame: BGR
+        self.assertGreater(int(blue[:, :2].sum()), 300, 'a frame around the chosen panel')
+
+    def test_what_acts_acts_on_the_panel_that_was_clicked(self):
+        self.open('still.yaml')
+        self.keys('w')
+        self.click(*RIGHT)
+        self.keys('s')
+        self.click(*LEFT)
+        out = self.quit()
+        self.assertEqual((out['views'], out['chosen_view'], out['color_by']), (2, 0, 'speed'))
+        self.open('still.yaml')
+        self.keys('w')
+        self.click(*RIGHT)
+        self.keys('s')
+        out = self.quit()
+        self.assertEqual((out['chosen_view'], out['color_by'], out['view']), (1, 'density', 'splat'))
+
+    def test_cameras_move_together_or_not(self):
+        seen = {}
+        for way in ('linked', 'free'):
+            self.open('still.yaml')
+            self.keys('w', *(['shift+w'] if way == 'free' else []))
+            self.drag(1, [LEFT, (130, 180), (160, 190)])
+            self.click(*RIGHT)
+            seen[way] = self.quit()
+            self.assertEqual(seen[way]['chosen_view'], 1)
+        self.assertFalse(seen['linked']['camera_auto'], 'the right one went along')
+        self.assertTrue(seen['free']['camera_auto'], 'it did not')
+
+    def test_a_drag_turns_the_camera_of_the_panel_it_begins_in(self):
+        self.open('still.yaml')
+        self.keys('w', 'w', 'shift+w')
+        self.drag(1, [(360, 270), (370, 270), (400, 280)])
+        out = self.quit()
+        self.assertEqual((out['chosen_view'], out['camera_auto']), (3, False))
+        self.assertLess(out['camera_from'][0], 0.9)
+
+    def test_a_scenes_own_views(self):
+        self.open('still.yaml', '--set', 'views=[{}, {kind: slice, color_by: density}, {kind: volume}]', '--set',
+                  'solver.backend=compute')
+        self.click(360, 90)
+        out = self.quit()
+        self.assertEqual((out['views'], out['chosen_view'], out['view'], out['color_by']), (3, 1, 'slice', 'density'))
+
+    def test_sizes_and_other_scenes(self):
+        self.open('still.yaml')
+        self.keys('w', 'w')
+        for width, height in (301, 203), (2, 2), (1, 1), (3, 300), (401, 300):
+            self.xdo('windowsize', self.window, width, height)
+            self.shown(0.3)
+        self.keys('F12', 'Tab')
+        self.shown(0.5)
+        self.keys('w', 'r')
+        out = self.quit()
+        self.assertEqual(out['size'], [401, 300])
+        self.assertEqual(out['views'], 2)
+        self.assertEqual(png_size(self.read(self.files('png')[0])), (401, 300))
+
+
+if __name__ == '__main__':
+    command.main()
