@@ -6,8 +6,10 @@
 
 static bool same_camera(const ViewDef *a, const ViewDef *b)
 {
-    return a->camera_auto == b->camera_auto &&
-           (a->camera_auto || memcmp(&a->camera, &b->camera, sizeof a->camera) == 0);
+    bool same = a->camera.fov_deg == b->camera.fov_deg;
+    for (int k = 0; k < 3; k++)
+        same &= a->camera.from[k] == b->camera.from[k] && a->camera.to[k] == b->camera.to[k];
+    return a->camera_auto == b->camera_auto && (a->camera_auto || same);
 }
 
 static void copy_camera(const ViewDef *from, ViewDef *to)
