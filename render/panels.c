@@ -182,11 +182,17 @@ static double legend_part(const Panels *panels, int index)
     return legend_width_pixels(&panel->def, &panel->world, at->height) / at->width;
 }
 
+double panels_legend(const Panels *panels)
+{
+    double widest = 0;
+    for (int i = 0; i < panels->count; i++)
+        widest = fmax(widest, legend_part(panels, i));
+    return widest;
+}
+
 static void cover(Panels *panels)
 {
-    Covered covered = {.left = panels->count > 1 ? 0 : panels->covered_left};
-    for (int i = 0; i < panels->count; i++)
-        covered.right = fmax(covered.right, legend_part(panels, i));
+    const Covered covered = {panels->count > 1 ? 0 : panels->covered_left, panels_legend(panels)};
     for (int i = 0; i < panels->count; i++)
         renderer_set_covered(panels->panels[i].renderer, covered);
 }

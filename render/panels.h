@@ -44,6 +44,9 @@ bool panels_set_title(Panels *panels, int index, const Title *title, Error *erro
    one leaves it free as renderer_set_covered does. */
 bool panels_set_covered(Panels *panels, double left, Error *error);
 
+/* The part of a panel's width that automatic cameras leave free on the right: the widest legend. */
+double panels_legend(const Panels *panels);
+
 /* Draws a state in each panel. Panels whose range follows the state and that show the same scalar have one
    range for all of them, from the least end of theirs to the greatest, so that a colour means the same.
    Automatic cameras leave the widest legend its place, so that boxes that are alike lie alike. */

@@ -2,13 +2,15 @@
 
 #include "render/frame/legend.h"
 
+#include <math.h>
+
 static const double REACH = 0.8; /* of letters' height */
 
 static Covered covered(const Model *model, const CameraSight *sight)
 {
     const Scene *scene = &model->open.scene;
-    return (Covered){sight->covered_left,
-                     legend_width_pixels(&scene->view, &scene->world, sight->height) / sight->width};
+    const double own = legend_width_pixels(&scene->view, &scene->world, sight->height) / sight->width;
+    return (Covered){sight->covered_left, fmax(sight->legend, own)};
 }
 
 void camera_sight(const Model *model, const CameraSight *sight, double letters, Sight *out)

@@ -17,6 +17,7 @@ typedef struct PlayCamera {
 typedef struct CameraSight {
     int width, height;   /* pixels */
     double covered_left; /* of the width, 0 .. 1 */
+    double legend;       /* at least so much of it is left free on the right */
 } CameraSight;
 
 /* The camera as it is now, automatic or in the hand. */

@@ -45,7 +45,8 @@ static inline CameraSight play_sight(const Play *play)
     const double covered = overlay_covered_left(&play->overlay, play->picture.width);
     const PanelPlace at = picture_place(&play->picture, covered);
     const bool one = play->model.open.scene.view_count == 0;
-    return (CameraSight){at.width, at.height, one ? covered : 0};
+    return (CameraSight){at.width, at.height, one ? covered : 0,
+                         play->picture.panels ? panels_legend(play->picture.panels) : 0};
 }
 
 /* How the newest state is seen; there must be one. */

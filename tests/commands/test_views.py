@@ -69,6 +69,30 @@ class Views(Window):
         self.assertEqual((out['chosen_view'], out['camera_auto']), (3, False))
         self.assertLess(out['camera_from'][0], 0.9)
 
+    def test_the_camera_begins_where_it_was(self):
+        """Though the legend of the other panel is wider than that of the one under the mouse."""
+        self.open('still.yaml', '--set', 'views=[{color_by: fluid}, {color_by: speed, range: [0, 1]}]')
+        self.keys('space')
+        self.shown(3)  # until no words are in the picture
+        before = self.picture()
+        self.at(*LEFT)
+        self.xdo('click', 4)
+        self.xdo('click', 5)  # nearer, and back
+        self.shown(0.5)
+        moved = numpy.abs(self.picture().astype(int) - before.astype(int)).max(axis=2) > 40
+        self.assertFalse(self.quit()['camera_auto'])
+        self.assertLess(int(moved.sum()), 200, 'pixels of edges, no more')
+
+    def test_the_chosen_view_stays_in_sight(self):
+        self.open('still.yaml')
+        self.keys('w', 'w')
+        self.click(360, 270)
+        self.keys('s', 'w')
+        self.shown(0.2)
+        self.keys('w')
+        out = self.quit()
+        self.assertEqual((out['views'], out['chosen_view'], out['color_by']), (2, 1, 'density'))
+
     def test_a_scenes_own_views(self):
         self.open('still.yaml', '--set', 'views=[{}, {kind: slice, color_by: density}, {kind: volume}]', '--set',
                   'solver.backend=compute')
