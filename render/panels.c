@@ -252,6 +252,11 @@ void panels_range(const Panels *panels, int index, double range[2])
     renderer_range(panels->panels[index].renderer, range);
 }
 
+void panels_curve_ranges(const Panels *panels, int index, double opacity[2], double size[2])
+{
+    renderer_curve_ranges(panels->panels[index].renderer, opacity, size);
+}
+
 /* Of the line between panels, sRGB: dark on bright backgrounds. */
 static const uint8_t *line_color(const Panels *panels)
 {

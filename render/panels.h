@@ -60,6 +60,9 @@ void panels_mark(Panels *panels, int index);
 /* The range of a panel in the last picture, in the unit of its scalar. */
 void panels_range(const Panels *panels, int index, double range[2]);
 
+/* Those of its opacity and its size, as of renderer_curve_ranges. */
+void panels_curve_ranges(const Panels *panels, int index, double opacity[2], double size[2]);
+
 /* The whole picture as renderer_read and renderer_present have one, with a thin line between panels. */
 bool panels_read(const Panels *panels, uint8_t *rgb, Error *error);
 void panels_present(const Panels *panels);

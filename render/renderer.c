@@ -425,5 +425,5 @@ bool renderer_pick(const Renderer *renderer, const double pixel[2], double at[3]
 
 int renderer_probe(Renderer *renderer, const double (*at)[3], int count, ViewProbe *out)
 {
-    return renderer->view ? view_probe(renderer->view, at, count, out) : 0;
+    return renderer->view ? view_probe(renderer->view, at, count, out) : -1;
 }

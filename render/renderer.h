@@ -82,7 +82,7 @@ void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double s
 void renderer_set_plain(Renderer *renderer, bool plain);
 
 /* The place that the last picture shows at a pixel from the left and the top, and what it shows at places:
-   pick and probe of ViewKind (render/frame/view.h). */
+   pick and probe of ViewKind (render/frame/view.h); -1: the view can tell of none. */
 struct ViewProbe;
 bool renderer_pick(const Renderer *renderer, const double pixel[2], double at[3]);
 int renderer_probe(Renderer *renderer, const double (*at)[3], int count, struct ViewProbe *out);

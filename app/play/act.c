@@ -87,6 +87,7 @@ static void cycle_views(Play *play)
     Scene *scene = &play->model.open.scene;
     views_cycle(&play->views, scene);
     play->camera.held = false;
+    grip_begin(&play->grip);
     view_changed(play);
     notice_tell(&play->notice, scene->view_count > 0 ? "%d views: click into one to choose it" : "one view",
                 scene->view_count);
@@ -227,7 +228,7 @@ static void do_command(Play *play, PlayCommand command, bool held)
         quit_or_close(play);
         break;
     case PLAY_PIN:
-        readout_pin(&play->readout, play->picture.renderer, &play->notice);
+        readout_pin(&play->readout, play->picture.panels, &play->notice);
         break;
     case PLAY_UNPIN:
         play->readout.pin_count = 0;

@@ -6,20 +6,21 @@
 
 static const double REACH = 0.8; /* of letters' height */
 
-static Covered covered(const Model *model, const CameraSight *sight)
+static Covered covered(const Model *model, const ViewDef *view, const CameraSight *sight)
 {
-    const Scene *scene = &model->open.scene;
-    const double own = legend_width_pixels(&scene->view, &scene->world, sight->height) / sight->width;
+    const WorldDef *world = &model->open.scene.world;
+    const double own = legend_width_pixels(view, world, sight->height) / sight->width;
     return (Covered){sight->covered_left, fmax(sight->legend, own)};
 }
 
-void camera_sight(const Model *model, const CameraSight *sight, double letters, Sight *out)
+void camera_sight(const Model *model, const ViewDef *view, const CameraSight *sight, double letters,
+                  Sight *out)
 {
     const ParticleBuffers *particles = &model->particles;
     *out = (Sight){
         .box = particles->box, .width = sight->width, .height = sight->height, .reach = REACH * letters};
-    camera_make(&model->open.scene.view, particles->box_size, &particles->box,
-                (double)sight->width / sight->height, covered(model, sight), &out->camera);
+    camera_make(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
+                covered(model, view, sight), &out->camera);
 }
 
 Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight *sight)
@@ -29,7 +30,7 @@ Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight
     return camera->held && !view->camera_auto
                ? camera->orbit
                : orbit_begin(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
-                             covered(model, sight));
+                             covered(model, view, sight));
 }
 
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight)

@@ -23,8 +23,9 @@ typedef struct CameraSight {
 /* The camera as it is now, automatic or in the hand. */
 Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight *sight);
 
-/* How the picture's state is seen; letters are so many pixels high. */
-void camera_sight(const Model *model, const CameraSight *sight, double letters, Sight *out);
+/* How a view shows the newest state; letters are so many pixels high. */
+void camera_sight(const Model *model, const ViewDef *view, const CameraSight *sight, double letters,
+                  Sight *out);
 
 /* From now on it is in the hand. */
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight);

@@ -11,8 +11,8 @@ static void draw_overlay(Play *play)
                           .gl_times = play->picture.timer ? &play->picture.gl_times : NULL,
                           .movie = play->files.video != NULL};
     const double began = meter_thread_cpu_ms();
-    renderer_range(play->picture.renderer, facts.range);
-    renderer_curve_ranges(play->picture.renderer, facts.opacity_range, facts.size_range);
+    panels_range(play->picture.panels, play->picture.chosen, facts.range);
+    panels_curve_ranges(play->picture.panels, play->picture.chosen, facts.opacity_range, facts.size_range);
     play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
     if (overlay_shown(&play->overlay, &play->model))
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
@@ -21,10 +21,13 @@ static void draw_overlay(Play *play)
 /* What the mouse may take, and what is under it. */
 static void draw_marks(Play *play)
 {
-    const Sight look = play_look(play);
-    grip_draw(&play->grip, &play->model, &look, play->picture.text);
-    play->picture.dirty |=
-        readout_draw(&play->readout, play->picture.renderer, look.width, look.height, play->picture.text);
+    Picture *picture = &play->picture;
+    for (int i = 0; i < panels_count(picture->panels); i++) {
+        const Look look = play_look(play, i);
+        grip_draw(&play->grip, &look, picture->text);
+    }
+    picture->dirty |=
+        readout_draw(&play->readout, picture->panels, picture->width, picture->height, picture->text);
 }
 
 static void draw_fluid(Play *play)

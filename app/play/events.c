@@ -15,23 +15,29 @@ static bool overlay_has(const Play *play, const WindowEvent *event)
            overlay_takes(&play->overlay, &play->model, event);
 }
 
+/* The mouse acts in the panel under it; a handle that is taken is the chosen view's. */
+static int panel_of_mouse(const Play *play)
+{
+    const double *mouse = play->grip.mouse;
+    return play->grip.taken ? play->picture.chosen : picture_panel_at(&play->picture, mouse[0], mouse[1]);
+}
+
 /* Handles in the picture are found by the mouse unless something else has it. */
 static bool grip_has(Play *play, const WindowEvent *event, bool free)
 {
-    const int over = play->grip.over;
+    const Grip before = play->grip;
     if (!play->model.has_particles || !picture_visible(&play->picture))
         return false;
-    const Sight sight = play_look(play);
-    const bool has =
-        grip_event(&play->grip, &play->model, &sight, event, free && play->input.drag == PLAY_NONE);
-    play->picture.dirty |= play->grip.over != over;
+    const Look look = play_look(play, panel_of_mouse(play));
+    const bool has = grip_event(&play->grip, &look, event, free && play->input.drag == PLAY_NONE);
+    play->picture.dirty |= play->grip.over != before.over || play->grip.panel != before.panel;
     return has;
 }
 
-/* The mouse acts in the view under it. */
+/* The view under the mouse becomes the chosen one, before the event does more. */
 static void choose_view(Play *play, const WindowEvent *event)
 {
-    const float *mouse = play->overlay.mouse;
+    const double *mouse = play->grip.mouse;
     const bool acts = (event->kind == WINDOW_BUTTON && event->down) || event->kind == WINDOW_WHEEL;
     if (acts && play->input.drag == PLAY_NONE && play->model.open.scene.view_count > 0)
         ask_add(&play->asks, &(Ask){.kind = ASK_CHOOSE, .amount = {mouse[0], mouse[1]}});
@@ -40,15 +46,19 @@ static void choose_view(Play *play, const WindowEvent *event)
 static void take_event(Play *play, const WindowEvent *event)
 {
     const bool redraw = event->kind == WINDOW_RESIZE || event->kind == WINDOW_EXPOSE;
+    const bool held = play->grip.taken;
     overlay_event(&play->overlay, event);
+    grip_follow(&play->grip, event);
     play->picture.dirty |= redraw || overlay_shown(&play->overlay, &play->model);
     const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
     play->picture.dirty |=
-        readout_event(&play->readout, play->picture.renderer, event, !covered && !play->grip.taken);
-    if (too_early(play, event->kind) || covered || gripped)
+        readout_event(&play->readout, play->picture.panels, event, !covered && !play->grip.taken);
+    if (too_early(play, event->kind) || covered)
         return;
-    choose_view(play, event);
-    input_take(&play->input, event, play_sight(play).height, &play->asks);
+    if (!held)
+        choose_view(play, event);
+    if (!gripped)
+        input_take(&play->input, event, play_sight(play).height, &play->asks);
 }
 
 /* Letters and signs count as the user's keyboard has them. */
@@ -79,8 +89,8 @@ static void drag_grip(Play *play)
     ViewSetting settings[VIEW_SETTINGS_MAX];
     if (!play->grip.taken || !play->model.has_particles || !picture_visible(&play->picture))
         return;
-    const Sight sight = play_look(play);
-    ask_settings(&play->asks, settings, grip_settings(&play->grip, &play->model, &sight, settings));
+    const Look look = play_look(play, play->picture.chosen);
+    ask_settings(&play->asks, settings, grip_settings(&play->grip, &look, settings));
 }
 
 void events_take(Play *play)

@@ -9,49 +9,57 @@ static const uint32_t REST = 0xe8eef4e0, LIT = 0xffc23dff, SHADE = 0x101418b0;
 
 void grip_begin(Grip *grip)
 {
-    *grip = (Grip){.over = 0};
+    grip->over = 0;
+    grip->taken = false;
 }
 
-static const ViewKind *kind_of(const Model *model)
+static int handles_of(const Look *look, Handle handles[HANDLES_MAX])
 {
-    return view_find(model->open.scene.view.kind);
+    const ViewKind *kind = view_find(look->view->kind);
+    return kind && kind->handles ? kind->handles(look->view, look->particles, handles) : 0;
 }
 
-static int handles_of(const Model *model, Handle handles[HANDLES_MAX])
+/* The mouse in the panel's own pixels. */
+static void within(const Grip *grip, const Look *look, double pixel[2])
 {
-    const ViewKind *kind = kind_of(model);
-    return kind && kind->handles ? kind->handles(&model->open.scene.view, &model->particles, handles) : 0;
+    pixel[0] = grip->mouse[0] - look->at.x;
+    pixel[1] = grip->mouse[1] - look->at.y;
 }
 
-static void look_for(Grip *grip, const Model *model, const Sight *sight, bool free)
-{
-    Handle handles[HANDLES_MAX];
-    const int count = free ? handles_of(model, handles) : 0;
-    grip->over = 1 + handle_under(sight, handles, count, grip->mouse);
-}
-
-static bool take(Grip *grip, const Model *model, const Sight *sight)
+static void look_for(Grip *grip, const Look *look, bool free)
 {
     Handle handles[HANDLES_MAX];
-    if (grip->over == 0 || grip->over > handles_of(model, handles))
+    double mouse[2];
+    const int count = free ? handles_of(look, handles) : 0;
+    within(grip, look, mouse);
+    grip->over = 1 + handle_under(&look->sight, handles, count, mouse);
+    grip->panel = look->panel;
+}
+
+static bool take(Grip *grip, const Look *look)
+{
+    Handle handles[HANDLES_MAX];
+    double mouse[2];
+    if (grip->over == 0 || grip->over > handles_of(look, handles))
         return false;
+    within(grip, look, mouse);
     grip->handle = handles[grip->over - 1];
-    sight_ray(sight, grip->mouse, &grip->first);
+    sight_ray(&look->sight, mouse, &grip->first);
     grip->taken = true;
     grip->moved = false;
     return true;
 }
 
 /* A button's event says where the mouse is when it is looked at, on a slow picture long after the press. */
-static void follow_mouse(Grip *grip, const WindowEvent *event)
+void grip_follow(Grip *grip, const WindowEvent *event)
 {
-    if (event->kind == WINDOW_BUTTON && grip->mouse_known)
+    if (event->kind != WINDOW_MOVE && (event->kind != WINDOW_BUTTON || grip->mouse_known))
         return;
     memcpy(grip->mouse, (double[]){event->x, event->y}, sizeof grip->mouse);
     grip->mouse_known |= event->kind == WINDOW_MOVE;
 }
 
-bool grip_event(Grip *grip, const Model *model, const Sight *sight, const WindowEvent *event, bool free)
+bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool free)
 {
     const bool left = event->kind == WINDOW_BUTTON && event->button == GLFW_MOUSE_BUTTON_LEFT;
     if (event->kind == WINDOW_FOCUS && !event->down)
@@ -60,28 +68,26 @@ bool grip_event(Grip *grip, const Model *model, const Sight *sight, const Window
         grip->taken = false;
     if (event->kind != WINDOW_MOVE && event->kind != WINDOW_BUTTON)
         return false;
-    follow_mouse(grip, event);
     grip->moved |= grip->taken;
     if (!grip->taken)
-        look_for(grip, model, sight, free);
+        look_for(grip, look, free);
     const bool bare = !(event->modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL));
-    return grip->taken ? event->kind == WINDOW_BUTTON
-                       : left && event->down && bare && take(grip, model, sight);
+    return grip->taken ? event->kind == WINDOW_BUTTON : left && event->down && bare && take(grip, look);
 }
 
-int grip_settings(Grip *grip, const Model *model, const Sight *sight, ViewSetting settings[VIEW_SETTINGS_MAX])
+int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTINGS_MAX])
 {
-    const ViewKind *kind = kind_of(model);
-    double at[3];
+    const ViewKind *kind = view_find(look->view->kind);
+    double mouse[2], at[3];
     SightRay now;
     if (!grip->taken || !grip->moved || !kind || !kind->drag)
         return 0;
     grip->moved = false;
-    sight_ray(sight, grip->mouse, &now);
+    within(grip, look, mouse);
+    sight_ray(&look->sight, mouse, &now);
     if (!handle_drag(&grip->handle, &grip->first, &now, at))
         return 0;
-    return kind->drag(&model->open.scene.view, &model->particles, grip->over - 1, &grip->handle, at,
-                      settings);
+    return kind->drag(look->view, look->particles, grip->over - 1, &grip->handle, at, settings);
 }
 
 /* Which views have a plane. */
@@ -98,7 +104,7 @@ static void say_none(const Model *model)
 
 int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTINGS_MAX])
 {
-    const ViewKind *kind = kind_of(model);
+    const ViewKind *kind = view_find(model->open.scene.view.kind);
     if (!kind || !kind->step) {
         say_none(model);
         return 0;
@@ -151,14 +157,15 @@ static void draw_handle(const Sight *sight, const Handle *handle, Text *text, ui
     }
 }
 
-void grip_draw(const Grip *grip, const Model *model, const Sight *sight, Text *text)
+void grip_draw(const Grip *grip, const Look *look, Text *text)
 {
     Handle handles[HANDLES_MAX];
-    const int count = handles_of(model, handles);
+    const int count = handles_of(look, handles), lit = grip->panel == look->panel ? grip->over : 0;
     if (count == 0)
         return;
-    text_begin(text, sight->width, sight->height);
+    text_begin_within(text, look->width, look->height,
+                      (int[]){look->at.x, look->at.y, look->at.width, look->at.height});
     for (int i = count - 1; i >= 0; i--) /* the first lies over all */
-        draw_handle(sight, &handles[i], text, i + 1 == grip->over ? LIT : REST);
+        draw_handle(&look->sight, &handles[i], text, i + 1 == lit ? LIT : REST);
     text_end(text);
 }

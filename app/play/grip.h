@@ -2,6 +2,9 @@
    they are of. What it does are live settings, as those of the panel. A handle that is taken keeps the mouse
    from the camera and from the box.
 
+   Of several panels each has the handles of its own view; the mouse acts in the panel under it, and one that
+   is taken is the chosen view's.
+
    Handles are drawn over the window's own picture, not into screenshots and videos. */
 #ifndef SLOSH_PLAY_GRIP_H
 #define SLOSH_PLAY_GRIP_H
@@ -12,13 +15,25 @@
 #include "render/frame/handle.h"
 #include "render/frame/text.h"
 #include "render/frame/view.h"
+#include "render/panels.h"
+
+/* How a panel shows the newest state. */
+typedef struct Look {
+    int panel;
+    PanelPlace at;     /* in the picture, */
+    int width, height; /* of so many pixels */
+    const ViewDef *view;
+    const ParticleBuffers *particles;
+    Sight sight;
+} Look;
 
 typedef struct Grip {
     int over;         /* the handle under the mouse or in the hand, plus 1; 0: none */
+    int panel;        /* where it is */
     bool taken;       /* it is in the hand: */
     Handle handle;    /* as it was then */
     SightRay first;   /* of the mouse then */
-    double mouse[2];  /* pixels */
+    double mouse[2];  /* pixels of the whole picture */
     bool mouse_known; /* by its own events */
     bool moved;       /* since the last grip_settings */
 } Grip;
@@ -26,16 +41,19 @@ typedef struct Grip {
 /* Nothing is held. */
 void grip_begin(Grip *grip);
 
-/* Takes notice of an event; whether it is the grip's alone. `free`: nothing else has the mouse. */
-bool grip_event(Grip *grip, const Model *model, const Sight *sight, const WindowEvent *event, bool free);
+/* The mouse is where an event has it: before all else that the event does. */
+void grip_follow(Grip *grip, const WindowEvent *event);
 
-/* What the drag since the last call asks for; how many settings. */
-int grip_settings(Grip *grip, const Model *model, const Sight *sight,
-                  ViewSetting settings[VIEW_SETTINGS_MAX]);
+/* Takes notice of an event in the panel under the mouse, or in that of the handle that is taken; whether it
+   is the grip's alone. `free`: nothing else has the mouse. */
+bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool free);
 
-/* What a key asks for; 0, with a word to the user, where the view is of no plane. */
+/* What the drag since the last call asks of the panel's view; how many settings. */
+int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTINGS_MAX]);
+
+/* What a key asks of the chosen view; 0, with a word to the user, where the view is of no plane. */
 int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTINGS_MAX]);
 
-void grip_draw(const Grip *grip, const Model *model, const Sight *sight, Text *text);
+void grip_draw(const Grip *grip, const Look *look, Text *text);
 
 #endif

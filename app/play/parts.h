@@ -38,23 +38,34 @@ typedef struct Play {
     bool quit;
 } Play;
 
-/* What of the picture the camera fills: the panel of the chosen view. Several lie beside what covers the
- * picture. */
-static inline CameraSight play_sight(const Play *play)
+/* What of the picture a camera fills: a panel. Several lie beside what covers the picture. */
+static inline CameraSight play_sight_in(const Play *play, int panel)
 {
     const double covered = overlay_covered_left(&play->overlay, play->picture.width);
-    const PanelPlace at = picture_place(&play->picture, covered);
+    const PanelPlace at = picture_place(&play->picture, panel, covered);
     const bool one = play->model.open.scene.view_count == 0;
     return (CameraSight){at.width, at.height, one ? covered : 0,
                          play->picture.panels ? panels_legend(play->picture.panels) : 0};
 }
 
-/* How the newest state is seen; there must be one. */
-static inline Sight play_look(const Play *play)
+/* The same of the chosen view. */
+static inline CameraSight play_sight(const Play *play)
 {
-    const CameraSight sight = play_sight(play);
-    Sight look;
-    camera_sight(&play->model, &sight, text_height(play->picture.text), &look);
+    return play_sight_in(play, play->picture.chosen);
+}
+
+/* How a panel shows the newest state; there must be one. */
+static inline Look play_look(const Play *play, int panel)
+{
+    const CameraSight sight = play_sight_in(play, panel);
+    const Picture *picture = &play->picture;
+    Look look = {.panel = panel,
+                 .at = picture_place(picture, panel, overlay_covered_left(&play->overlay, picture->width)),
+                 .width = picture->width,
+                 .height = picture->height,
+                 .view = views_def(&play->views, &play->model.open.scene, panel),
+                 .particles = &play->model.particles};
+    camera_sight(&play->model, look.view, &sight, text_height(picture->text), &look.sight);
     return look;
 }
 

@@ -42,7 +42,6 @@ static bool replace_panels(Picture *picture, const Scene *scene, int width, int 
     panels_destroy(picture->panels);
     picture->panels = panels;
     picture->chosen = picture->chosen < count ? picture->chosen : 0;
-    picture->renderer = panels_renderer(panels, picture->chosen);
     panels_mark(panels, picture->chosen);
     return true;
 }
@@ -80,19 +79,18 @@ void picture_set_view(Picture *picture, const Scene *scene, int chosen, Notice *
         notice_error(notice, error.message);
     const int there = panels_count(picture->panels);
     picture->chosen = chosen < there ? chosen : 0;
-    picture->renderer = panels_renderer(picture->panels, picture->chosen);
     panels_mark(picture->panels, picture->chosen);
 }
 
-PanelPlace picture_place(const Picture *picture, double covered_left)
+PanelPlace picture_place(const Picture *picture, int panel, double covered_left)
 {
     PanelPlace places[PANELS_MAX];
     const int count = picture->panels ? panels_count(picture->panels) : 1;
     const int beside = count > 1 ? (int)lround(covered_left * picture->width) : 0;
     if (!panels_place(count, picture->width - beside, picture->height, places))
         return (PanelPlace){0, 0, (int)fmax(picture->width, 1), (int)fmax(picture->height, 1)};
-    places[picture->chosen].x += beside;
-    return places[picture->chosen];
+    places[panel].x += beside;
+    return places[panel];
 }
 
 int picture_panel_at(const Picture *picture, double x, double y)

@@ -12,10 +12,9 @@
 
 /* Zero-initialise it. */
 typedef struct Picture {
-    Panels *panels;     /* one for each view that is shown */
-    Renderer *renderer; /* of the chosen view's panel */
-    int chosen;         /* that panel */
-    GlTimer *timer;     /* NULL on a software renderer, where nothing can be measured without waiting */
+    Panels *panels; /* one for each view that is shown */
+    int chosen;     /* the chosen view's */
+    GlTimer *timer; /* NULL on a software renderer, where nothing can be measured without waiting */
     StageTimes gl_times;
     Text *text;
     int width, height;      /* of the framebuffer; 0 while the window is minimised */
@@ -35,9 +34,9 @@ void picture_end(Picture *picture);
 /* Height of letters in that window, pixels. */
 float picture_letters(const Window *window);
 
-/* Where the chosen view's panel lies, beside what covers that part of the width, 0 .. 1, on the left; and
-   which panel is at a place. Pixels. */
-PanelPlace picture_place(const Picture *picture, double covered_left);
+/* Where a panel lies, beside what covers that part of the width, 0 .. 1, on the left; and which panel is at a
+   place, or the nearest one. Pixels. */
+PanelPlace picture_place(const Picture *picture, int panel, double covered_left);
 int picture_panel_at(const Picture *picture, double x, double y);
 
 /* Between two pictures. The view has changed, or the panel of the chosen one; the window's size may have, or

@@ -13,20 +13,34 @@ void readout_begin(Readout *readout)
     *readout = (Readout){.free = false};
 }
 
-bool readout_event(Readout *readout, const Renderer *renderer, const WindowEvent *event, bool free)
+static int panel_under(const Readout *readout, const Panels *panels)
+{
+    return panels_at(panels_places(panels), panels_count(panels), readout->mouse[0], readout->mouse[1]);
+}
+
+/* What the panel under the mouse shows there; false: nothing, or something else has the mouse. */
+static bool pick(const Readout *readout, const Panels *panels, double at[3])
+{
+    const int panel = panel_under(readout, panels);
+    const PanelPlace *place = &panels_places(panels)[panel];
+    const double pixel[2] = {readout->mouse[0] - place->x, readout->mouse[1] - place->y};
+    return readout->free && renderer_pick(panels_renderer(panels, panel), pixel, at);
+}
+
+bool readout_event(Readout *readout, const Panels *panels, const WindowEvent *event, bool free)
 {
     double at[3];
     if (event->kind != WINDOW_MOVE)
         return false;
     memcpy(readout->mouse, (double[]){event->x, event->y}, sizeof readout->mouse);
     readout->free = free;
-    return readout->shown || (free && renderer_pick(renderer, readout->mouse, at));
+    return readout->shown || pick(readout, panels, at);
 }
 
-void readout_pin(Readout *readout, const Renderer *renderer, Notice *notice)
+void readout_pin(Readout *readout, const Panels *panels, Notice *notice)
 {
     double at[3];
-    if (!readout->free || !renderer_pick(renderer, readout->mouse, at))
+    if (!pick(readout, panels, at))
         notice_tell(notice, "there is no value under the mouse that could be pinned");
     else if (readout->pin_count == READOUT_PINS_MAX)
         notice_tell(notice, "%d values are pinned, and no more can be; Shift+M takes them away",
@@ -35,22 +49,14 @@ void readout_pin(Readout *readout, const Renderer *renderer, Notice *notice)
         memcpy(readout->pins[readout->pin_count++], at, sizeof at);
 }
 
-/* Whether all that is asked for is known. */
-static bool read_places(Readout *readout, Renderer *renderer)
+/* Whether all that is asked for is known, or never will be. */
+static bool all_known(const ViewProbe found[], int found_count, const double (*at)[3], int count)
 {
-    double at[VIEW_PROBES_MAX][3];
-    int count = readout->pin_count;
-    memcpy(at, readout->pins, sizeof(double[3]) * (size_t)count);
-    readout->shown = readout->free && renderer_pick(renderer, readout->mouse, at[count]);
-    count += readout->shown;
-    const int found = count ? renderer_probe(renderer, (const double(*)[3])at, count, readout->found) : 0;
-    readout->found_count = found;
-    readout->found_pins = readout->pin_count < found ? readout->pin_count : found;
-    bool all = found == count;
-    for (int i = 0; i < found; i++)
+    bool all = found_count == count;
+    for (int i = 0; i < found_count; i++)
         for (int k = 0; k < 3; k++)
-            all = all && readout->found[i].at[k] == at[i][k];
-    return all;
+            all = all && found[i].at[k] == at[i][k];
+    return all || found_count < 0;
 }
 
 /* "pressure 1234 Pa" */
@@ -86,20 +92,51 @@ static void draw_words(const ViewProbe *probe, int width, int height, Text *text
     text_draw(text, x + gap, y + 0.4F * gap + 1.4F * em, 0.85F, INK, TEXT_LEFT, place);
 }
 
-bool readout_draw(Readout *readout, Renderer *renderer, int width, int height, Text *text)
+static void draw_found(const ViewProbe found[], int count, int pins, const PanelPlace *place, Text *text)
 {
-    const bool all = read_places(readout, renderer);
-    if (readout->found_count == 0)
-        return !all;
-    text_begin(text, width, height);
-    for (int i = 0; i < readout->found_count; i++) {
-        const ViewProbe *probe = &readout->found[i];
-        if (!probe->seen)
+    for (int i = 0; i < count; i++) {
+        const double *pixel = found[i].pixel;
+        if (!found[i].seen)
             continue;
-        if (i < readout->found_pins)
-            text_disc(text, (float)probe->pixel[0], (float)probe->pixel[1], 0.25F * text_height(text), PIN);
-        draw_words(probe, width, height, text);
+        if (i < pins)
+            text_disc(text, (float)pixel[0], (float)pixel[1], 0.25F * text_height(text), PIN);
+        draw_words(&found[i], place->width, place->height, text);
     }
-    text_end(text);
+}
+
+/* The pins in a panel, and `mouse`, where it is not NULL. Whether all is known. */
+static bool draw_panel(Readout *readout, const Panels *panels, int panel, const double *mouse,
+                       const int size[2], Text *text)
+{
+    double at[VIEW_PROBES_MAX][3];
+    ViewProbe found[VIEW_PROBES_MAX];
+    const PanelPlace *place = &panels_places(panels)[panel];
+    int count = readout->pin_count;
+    memcpy(at, readout->pins, sizeof(double[3]) * (size_t)count);
+    if (mouse)
+        memcpy(at[count++], mouse, sizeof at[0]);
+    const double(*asked)[3] = (const double(*)[3])at;
+    const int known = count ? renderer_probe(panels_renderer(panels, panel), asked, count, found) : 0;
+    if (known > 0) {
+        text_begin_within(text, size[0], size[1], (int[]){place->x, place->y, place->width, place->height});
+        draw_found(found, known, readout->pin_count, place, text);
+        text_end(text);
+    }
+    if (panel == panel_under(readout, panels)) {
+        readout->found_count = known > 0 ? known : 0;
+        readout->found_pins = readout->pin_count < known ? readout->pin_count : readout->found_count;
+        memcpy(readout->found, found, sizeof *found * (size_t)readout->found_count);
+    }
+    return all_known(found, known, asked, count);
+}
+
+bool readout_draw(Readout *readout, const Panels *panels, int width, int height, Text *text)
+{
+    double mouse[3];
+    bool all = true;
+    readout->shown = pick(readout, panels, mouse);
+    const int under = readout->shown ? panel_under(readout, panels) : -1;
+    for (int i = 0; i < panels_count(panels); i++)
+        all &= draw_panel(readout, panels, i, i == under ? mouse : NULL, (int[]){width, height}, text);
     return !all;
 }

@@ -1,6 +1,7 @@
 /* What the picture shows under the mouse: value, unit and place beside the cursor, and at places that are
-   pinned. For views that can tell (pick and probe of ViewKind, render/frame/view.h). Drawn over the window's
-   own picture, not into screenshots and videos. */
+   pinned. For views that can tell (pick and probe of ViewKind, render/frame/view.h). Of several panels the
+   one under the mouse tells what is there, and each what it shows at the pins. Drawn over the window's own
+   picture, not into screenshots and videos. */
 #ifndef SLOSH_PLAY_READOUT_H
 #define SLOSH_PLAY_READOUT_H
 
@@ -8,17 +9,17 @@
 #include "app/window/window.h"
 #include "render/frame/text.h"
 #include "render/frame/view.h"
-#include "render/renderer.h"
+#include "render/panels.h"
 
 enum { READOUT_PINS_MAX = VIEW_PROBES_MAX - 1 };
 
 typedef struct Readout {
-    double mouse[2];                  /* pixels */
+    double mouse[2];                  /* pixels of the whole picture */
     bool free;                        /* the mouse is over the picture, and nothing has it */
     bool shown;                       /* the last picture tells what is under it */
     double pins[READOUT_PINS_MAX][3]; /* m, box's frame */
     int pin_count;
-    ViewProbe found[VIEW_PROBES_MAX]; /* of the last picture: pins, then the mouse's */
+    ViewProbe found[VIEW_PROBES_MAX]; /* of the last picture, in the mouse's panel: pins, then the mouse's */
     int found_count, found_pins;
 } Readout;
 
@@ -26,12 +27,13 @@ typedef struct Readout {
 void readout_begin(Readout *readout);
 
 /* Whether a picture is due for it. `free`: nothing else has the mouse. */
-bool readout_event(Readout *readout, const Renderer *renderer, const WindowEvent *event, bool free);
+bool readout_event(Readout *readout, const Panels *panels, const WindowEvent *event, bool free);
 
 /* Pins what is under the mouse, or says why not. */
-void readout_pin(Readout *readout, const Renderer *renderer, Notice *notice);
+void readout_pin(Readout *readout, const Panels *panels, Notice *notice);
 
-/* Reads and draws, behind the renderer's picture. Whether the next picture will know more. */
-bool readout_draw(Readout *readout, Renderer *renderer, int width, int height, Text *text);
+/* Reads and draws, over a picture of that size, behind the panels' own. Whether the next picture will know
+   more. */
+bool readout_draw(Readout *readout, const Panels *panels, int width, int height, Text *text);
 
 #endif

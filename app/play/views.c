@@ -94,3 +94,8 @@ int views_panel(const PlayViews *views, const Scene *scene)
 {
     return scene->view_count > 0 ? views->chosen : 0;
 }
+
+const ViewDef *views_def(const PlayViews *views, const Scene *scene, int panel)
+{
+    return panel == views_panel(views, scene) ? &scene->view : scene_view(scene, panel);
+}

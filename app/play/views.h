@@ -29,6 +29,9 @@ void views_link(PlayViews *views, Scene *scene);
 /* After any change of the chosen view. */
 void views_follow(const PlayViews *views, Scene *scene);
 
+/* What a panel shows. */
+const ViewDef *views_def(const PlayViews *views, const Scene *scene, int panel);
+
 /* The panel of the chosen view. */
 int views_panel(const PlayViews *views, const Scene *scene);
 

@@ -26,6 +26,10 @@ float text_height(const Text *text);
 /* Between these two, in a picture of that size, everything is collected; text_end draws it into the bound
  * framebuffer. */
 void text_begin(Text *text, int width, int height);
+
+/* The same in a part of the picture, `place` x, y, width, height: places count from its upper left corner,
+   and what reaches beyond it is cut off. */
+void text_begin_within(Text *text, int width, int height, const int place[4]);
 void text_end(Text *text);
 
 /* UTF-8 of Latin-1 letters and the superscripts 2 and 3; y is the top of the letters, x the side that `align`

@@ -212,5 +212,5 @@ bool view_pick(const View *view, const double pixel[2], double at[3])
 
 int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out)
 {
-    return view->kind->probe ? view->kind->probe(view->state, at, count, out) : 0;
+    return view->kind->probe ? view->kind->probe(view->state, at, count, out) : -1;
 }

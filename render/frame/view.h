@@ -115,7 +115,7 @@ typedef struct ViewKind {
      * none. */
     bool (*pick)(const void *state, const double pixel[2], double at[3]);
     /* What the last picture shows at at most VIEW_PROBES_MAX places; how many are known. Waits for nothing:
-       on a GPU they may be those of the picture before, with the places of then. */
+       on a GPU they may be those of the picture before, with the places of then. NULL: none is ever known. */
     int (*probe)(void *state, const double (*at)[3], int count, ViewProbe *out);
 } ViewKind;
 
@@ -154,6 +154,7 @@ void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame)
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
 const char *view_note(const View *view);
 bool view_pick(const View *view, const double pixel[2], double at[3]);
+/* -1: none is ever known. */
 int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out);
 
 #endif

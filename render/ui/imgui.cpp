@@ -96,6 +96,7 @@ struct Text {
     ImGuiContext *context;
     ImFont *font;
     ImDrawList *list; // of the picture in progress
+    ImVec2 origin;    // of the part that it draws
 };
 
 Text *text_create(float pixels, Error *error)
@@ -131,19 +132,29 @@ float text_height(const Text *text)
 
 void text_begin(Text *text, int width, int height)
 {
+    const int whole[4] = {0, 0, width, height};
+    text_begin_within(text, width, height, whole);
+}
+
+void text_begin_within(Text *text, int width, int height, const int place[4])
+{
     Current current(text->context);
     ImGui::GetIO().DisplaySize = ImVec2((float)width, (float)height);
     ImGui::GetIO().DeltaTime = 1.0F / 60;
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::NewFrame();
     text->list = ImGui::GetForegroundDrawList();
+    text->list->PushClipRect(ImVec2(0, 0), ImVec2((float)place[2], (float)place[3]));
+    text->origin = ImVec2((float)place[0], (float)place[1]);
 }
 
 // The backend mixes in sRGB, as its font expects; its state goes back as it was.
 void text_end(Text *text)
 {
     Current current(text->context);
+    text->list->PopClipRect();
     ImGui::Render();
+    ImGui::GetDrawData()->DisplayPos = ImVec2(-text->origin.x, -text->origin.y);
     glDisable(GL_FRAMEBUFFER_SRGB);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
     glEnable(GL_FRAMEBUFFER_SRGB);

@@ -20,7 +20,10 @@ DIAGONAL = math.sqrt(3)  # of the box
 ARROW, RING = 0.22 * DIAGONAL, 0.09 * DIAGONAL
 
 
-def pixel(place):
+LEFT, RIGHT = (0, 239), (241, 239)  # panels: where they begin, and how wide they are
+
+
+def pixel(place, panel=(0, WIDTH)):
     """Where a place of a box that stands still is in the picture."""
     back = (EYE - TO) / numpy.linalg.norm(EYE - TO)
     right = numpy.cross([0, 1, 0], back)
@@ -28,7 +31,7 @@ def pixel(place):
     up = numpy.cross(back, right)
     away = numpy.asarray(place, float) - EYE
     scale = HEIGHT / 2 / math.tan(math.radians(FOV / 2)) / -(away @ back)
-    return round(WIDTH / 2 + scale * (away @ right)), round(HEIGHT / 2 - scale * (away @ up))
+    return round(panel[0] + panel[1] / 2 + scale * (away @ right)), round(HEIGHT / 2 - scale * (away @ up))
 
 
 class Handles(Window):
@@ -45,8 +48,8 @@ class Handles(Window):
         own = {path.split('.')[-1]: setting['value'] for path, setting in out['view_settings'].items()}
         return numpy.array(own['point']), numpy.array(own['normal']), own
 
-    def way(self, *places):
-        self.drag(1, [pixel(place) for place in places])
+    def way(self, *places, panel=(0, WIDTH)):
+        self.drag(1, [pixel(place, panel) for place in places])
 
     def test_the_dot_shifts_the_plane_along_its_normal(self):
         self.open('slice.yaml')
@@ -145,6 +148,51 @@ class Handles(Window):
         point, _, own = self.settings()
         self.assertEqual(own['play'], 0)
         self.assertGreater(point[1], 0.32)
+
+    def two(self, second):
+        self.open('slice.yaml', '--set', 'views=[{}, %s]' % second)
+
+    def test_a_handle_is_dragged_in_the_panel_under_the_mouse(self):
+        other, way = numpy.array([0, 0.45, 0]), (0, 0.05, 0.12, 0.2)
+        for last in RIGHT, LEFT:
+            self.two('{slice: {point: [0, 0.45, 0], normal: [0.6, 0, 0.8]}}')
+            self.way(*(other + by * self.normal for by in way), panel=RIGHT)
+            self.drag(1, [(last[0] + 10, 10)])  # a click beside the handles chooses
+            point, normal, _ = self.settings()
+            expected = other + 0.2 * self.normal if last is RIGHT else self.point
+            numpy.testing.assert_allclose(point, expected, atol=0.02)
+            numpy.testing.assert_allclose(normal, self.normal)
+
+    def test_a_handle_in_the_hand_stays_though_the_mouse_leaves_its_panel(self):
+        self.two('{kind: spheres}')
+        self.keys('space')
+        at = pixel(self.point, LEFT)
+        self.drag(1, [at, (at[0] - 20, at[1]), (200, at[1]), (300, at[1]), (at[0], at[1])])
+        out = self.quit()
+        self.assertEqual(out['chosen_view'], 0)
+        numpy.testing.assert_allclose(out['camera_from'], EYE)
+        numpy.testing.assert_allclose(out['view_settings']['view.slice.point']['value'], self.point, atol=0.02)
+
+    def test_values_are_of_the_panel_under_the_mouse_and_pins_of_all(self):
+        pinned, free = [0.08, 0.2, -0.06], [-0.16, 0.15, 0.12]  # on the plane
+        self.two('{color_by: density}')
+        self.keys('space')
+        self.at(*pixel(pinned, RIGHT))
+        self.keys('m')
+        self.at(*pixel(free, LEFT))
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual([(probe['pinned'], probe['name']) for probe in out['readout']],
+                         [(True, 'speed'), (False, 'speed')])
+        for probe, place in zip(out['readout'], (pinned, free)):
+            numpy.testing.assert_allclose(probe['at'], place, atol=0.01)
+        self.two('{color_by: density}')
+        self.keys('space')
+        self.at(*pixel(free, RIGHT))
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual([(probe['what'], probe['name']) for probe in out['readout']], [('value', 'density')])
+        numpy.testing.assert_allclose(out['readout'][0]['at'], free, atol=0.01)
 
 
 if __name__ == '__main__':
