@@ -8,7 +8,7 @@
 #include "app/playback/reel.h"
 #include "app/session/headless.h"
 #include "app/session/studio.h"
-#include "render/renderer.h"
+#include "render/panels.h"
 #include "sim/base/stage.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ typedef struct FileRender {
     const Args *args;
     Scene scene;
     Headless *context;
-    Renderer *renderer;
+    Panels *panels; /* one for each of the scene's views */
     Reel *reel;
     Pictures *pictures;
     Image image;                    /* the last picture, of step `drawn` */
@@ -77,6 +77,18 @@ static bool choose_times(FileRender *render, const Recorded *recorded, PicturesK
                      args->time);
 }
 
+/* What the views colour by. */
+static bool check_views(const Recorded *recorded, const Scene *scene, Error *error)
+{
+    bool ok = true;
+    for (int i = 0; ok && i < scene_view_count(scene); i++) {
+        const ViewDef *view = scene_view(scene, i);
+        const bool colored = strcmp(view->kind, "none") != 0 && view->color_by != SCALAR_FLUID;
+        ok = !colored || recorded_has(recorded, view, error);
+    }
+    return ok;
+}
+
 static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kind, Error *error)
 {
     const Args *args = render->args;
@@ -86,9 +98,7 @@ static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kin
         return false;
     render->scene = recorded->scene;
     render->steps = recorded->steps;
-    const ViewDef *view = &render->scene.view;
-    const bool colored = strcmp(view->kind, "none") != 0 && view->color_by != SCALAR_FLUID;
-    if ((colored && !recorded_has(recorded, view, error)) || !choose_times(render, recorded, *kind, error)) {
+    if (!check_views(recorded, &render->scene, error) || !choose_times(render, recorded, *kind, error)) {
         recorded_close(recorded);
         return false;
     }
@@ -101,15 +111,20 @@ static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kin
 static bool open_all(FileRender *render, Recorded *recorded, Error *error)
 {
     const Args *args = render->args;
-    const ReelSetup setup = {
-        .recorded = recorded, .attributes = renderer_attributes(&render->scene.view), .bytes = KEPT_BYTES};
+    const Scene *scene = &render->scene;
+    const int count = scene_view_count(scene);
+    Subject subjects[PANELS_MAX];
+    ReelSetup setup = {.recorded = recorded, .bytes = KEPT_BYTES};
+    for (int i = 0; i < count; i++) {
+        subjects[i] = (Subject){scene_view(scene, i), &scene->world};
+        setup.attributes |= renderer_attributes(subjects[i].def);
+    }
     render->drawn = SIZE_MAX;
     if (!(render->context = headless_create(args->gpu, error)))
         return false;
     fprintf(stderr, "renderer: %s\n", headless_renderer(render->context));
     return (render->reel = reel_create(&setup, error)) &&
-           (render->renderer = renderer_create(&render->scene.view, &render->scene.world, args->width,
-                                               args->height, error)) &&
+           (render->panels = panels_create(subjects, count, args->width, args->height, error)) &&
            (image_create(&render->image, args->width, args->height) ||
             error_set(error, "out of memory for a picture of %d x %d", args->width, args->height)) &&
            (render->pictures = pictures_create(args->output, args->width, args->height, args->fps, error));
@@ -118,7 +133,7 @@ static bool open_all(FileRender *render, Recorded *recorded, Error *error)
 static void close_all(FileRender *render)
 {
     image_destroy(&render->image);
-    renderer_destroy(render->renderer);
+    panels_destroy(render->panels);
     reel_destroy(render->reel);
     headless_destroy(render->context);
 }
@@ -135,8 +150,10 @@ static bool draw(FileRender *render, double time, Error *error)
         return true;
     if (!reel_take(render->reel, &particles))
         return error_set(error, "%s: Step#%zu is not shown", render->args->scenes[0], status.index);
-    renderer_draw(render->renderer, &particles, NULL);
-    renderer_read(render->renderer, render->image.rgb);
+    const ParticleBuffers *const states[PANELS_MAX] = {&particles, &particles, &particles, &particles};
+    panels_draw(render->panels, states, NULL);
+    if (!panels_read(render->panels, render->image.rgb, error))
+        return false;
     render->drawn = status.index;
     render->particles = particles.count;
     render->time = status.time;

@@ -40,9 +40,12 @@ static bool read_recorded(PlayScene *open, const char *path, const SceneSettings
         return false;
     open->scene = open->recorded->scene;
     snprintf(open->scene.path, sizeof open->scene.path, "%s", path);
-    if (!recorded_has(open->recorded, &open->scene.view, &why)) {
+    for (int i = 0; i < scene_view_count(&open->scene); i++) {
+        ViewDef *view = open->scene.view_count > 0 ? &open->scene.views[i] : &open->scene.view;
+        if (recorded_has(open->recorded, view, &why))
+            continue;
         notes_add(notes, "%.300s; coloured by fluid", why.message);
-        open->scene.view.color_by = SCALAR_FLUID;
+        view->color_by = SCALAR_FLUID;
     }
     return true;
 }

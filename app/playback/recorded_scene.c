@@ -13,10 +13,12 @@
 
 /* ---- settings of the command line ---- */
 
-/* "view.radius" of "view.radius=1" */
+/* As "view.radius=1", "views=[{}, {kind: slice}]" and "views[1].radius=1" are. */
 static bool is_of_view(const char *setting)
 {
-    return strncmp(setting, "view.", strlen("view.")) == 0;
+    return strncmp(setting, "view.", strlen("view.")) == 0 ||
+           strncmp(setting, "views=", strlen("views=")) == 0 ||
+           strncmp(setting, "views[", strlen("views[")) == 0;
 }
 
 static bool check_settings(const char *path, const SceneSettings *settings, Error *error)

@@ -125,6 +125,15 @@ class Views(PlayerTest):
         out = self.quit()
         self.assertEqual(out['color_by'], 'pressure')
         self.assertIn('a.h5part: has no density; what follows from that cannot be shown', self.messages)
+        views = '--set', 'views=[{}, {color_by: density}]'
+        self.open('a.h5part', *views)
+        self.xdo('mousemove', '--window', self.window, 3 * WIDTH // 4, HEIGHT // 2, 'click', 1)
+        self.shown(0.1)
+        self.assertEqual(self.quit()['color_by'], 'fluid')
+        self.assertIn('coloured by fluid', self.messages)
+        code, said = self.slosh('render', 'a.h5part', '-o', 'a.png', '--quiet', *views)
+        self.assertEqual(code, 2)
+        self.assertIn('has no density to colour by', said)
 
     def test_what_has_no_meaning_is_said_once(self):
         self.record()
@@ -202,6 +211,28 @@ class Files(PlayerTest):
             code, said = self.slosh(*arguments)
             self.assertEqual(code, 2, said)
             self.assertIn(words, said)
+
+
+class Panels(PlayerTest):
+    def test_views_beside_each_other(self):
+        """As `render` draws them, those of the settings and those that W adds; a click chooses one."""
+        self.record()
+        own = '--set', 'views=[{}, {kind: slice, color_by: density}]'
+        self.open('a.h5part', *own)
+        self.keys('space', 'r', 'period', 'period')
+        self.assert_time(0.08, *own)
+        self.keys('comma')
+        self.assert_time(0.04, *own)
+        self.at(3 * WIDTH // 4, HEIGHT // 2)
+        self.xdo('click', 1)
+        self.keys('s')
+        out = self.quit()
+        self.assertEqual((out['views'], out['chosen_view'], out['view']), (2, 1, 'slice'))
+        self.assertNotEqual(out['color_by'], 'density')
+        self.open('a.h5part', '--set', 'view.kind=spheres')
+        self.keys('space', 'r', 'w')
+        self.assert_time(0, '--set', 'views=[{kind: spheres}, {kind: splat}]')
+        self.assertEqual(self.quit()['views'], 2)
 
 
 if __name__ == '__main__':
