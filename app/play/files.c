@@ -1,8 +1,8 @@
 #include "app/play/files.h"
 
 #include "app/base/output.h"
+#include "app/output/file_name.h"
 #include "app/output/image.h"
-#include "app/play/file_name.h"
 #include "sim/base/stage.h"
 
 #include <stdio.h>

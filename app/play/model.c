@@ -1,6 +1,6 @@
 #include "app/play/model.h"
 
-#include "app/play/file_name.h"
+#include "app/output/file_name.h"
 #include "app/scene/live.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"

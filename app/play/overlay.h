@@ -5,10 +5,10 @@
 
 #include "app/panel/panel.h"
 #include "app/panel/timeline.h"
+#include "app/panel/widget_input.h"
 #include "app/play/ask.h"
 #include "app/play/meter.h"
 #include "app/play/model.h"
-#include "app/play/widget_input.h"
 #include "app/window/window.h"
 
 typedef struct Overlay {

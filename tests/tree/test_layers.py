@@ -67,7 +67,7 @@ APP = {
     "ablate": "base metric outcome scene term lab",
     "gallery": "base scene session lab",
     "window": "",
-    "panel": "probe scene term hand held session",
+    "panel": "probe scene term hand held session window",
     "play": "base scene recording hand device held output session playback lab window panel",
     "command": "base metric probe outcome yaml scene recording hand device held output session playback case lab stability fit ablate gallery play",
 }

@@ -1,6 +1,6 @@
 /* Names for what the window writes into the present folder. */
-#ifndef SLOSH_PLAY_FILE_NAME_H
-#define SLOSH_PLAY_FILE_NAME_H
+#ifndef SLOSH_OUTPUT_FILE_NAME_H
+#define SLOSH_OUTPUT_FILE_NAME_H
 
 /* slosh-20261121-101500.png, or -2, -3, ... where that is there. */
 void file_name_new(char path[1024], const char *extension);

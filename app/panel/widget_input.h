@@ -2,8 +2,8 @@
    on a slow picture a whole click. So events wait in a queue, and a picture takes as many of them as it can
    tell apart: no button or key goes down and up in one, and the mouse does not leave the place where a button
    changed. Pure. */
-#ifndef SLOSH_PLAY_WIDGET_INPUT_H
-#define SLOSH_PLAY_WIDGET_INPUT_H
+#ifndef SLOSH_PANEL_WIDGET_INPUT_H
+#define SLOSH_PANEL_WIDGET_INPUT_H
 
 #include "app/window/window.h"
 #include "render/ui/ui.h"

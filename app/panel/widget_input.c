@@ -1,4 +1,4 @@
-#include "app/play/widget_input.h"
+#include "app/panel/widget_input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -1,4 +1,4 @@
-#include "app/play/file_name.h"
+#include "app/output/file_name.h"
 
 #include <stdio.h>
 #include <time.h>
