@@ -50,10 +50,11 @@ static bool check(const Subject *subject, const char **key, Error *error)
            error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
 }
 
-/* That of the list's first view, with the slice's colours. */
+/* That of the list's first view, with the slice's colours; a slice draws no opacities and sizes. */
 static void follow_def(SliceView *view, const ViewDef *def)
 {
     view->balls_def = *def;
+    view->balls_def.opacity.by = view->balls_def.size.by = 0;
     snprintf(view->balls_def.kind, sizeof view->balls_def.kind, "%s", view_at(0)->name);
 }
 

@@ -14,8 +14,8 @@
 #define FLUIDS_STORAGE    2
 #define LISTED_STORAGE    3
 #define HALF_STORAGE      3 /* of a pass without a list */
-#define SHOWN_STORAGE     1
 #define VEILS_STORAGE     3 /* of views that list none */
+#define SHOWN_STORAGE     1
 /* those of a neighbourhood, bound in this order by one call */
 #define CELLS_STORAGE  4
 #define IDS_STORAGE    4 /* of passes over all particles */
@@ -38,7 +38,7 @@
 #define BEHIND_COLOR_UNIT 14
 #define BEHIND_DEPTH_UNIT 15
 
-/* Locations of uniforms; views have 16 and up */
+/* Locations of uniforms; views have 16 to 63 */
 #define POSITION_STRIDE_AT  0
 #define SCALAR_STRIDE_AT    1
 #define FLUID_STRIDE_AT     2
@@ -55,11 +55,11 @@
 #define HALF_COUNT_AT       13
 #define SHOWN_STRIDE_AT     14
 #define SHOWN_IS_FLUID_AT   15
-#define ID_STRIDE_AT        12
-#define CURVE_PARTICLES_AT  13
-#define CURVE_POINTS_AT     14
-#define CURVE_RANGE_AT      15
 #define CURVE_POINT_AT      64 /* so many places: */
 #define CURVE_POINTS_MAX    8
+#define CURVE_PARTICLES_AT  72
+#define CURVE_POINTS_AT     73
+#define CURVE_RANGE_AT      74
+#define ID_STRIDE_AT        75
 
 #endif

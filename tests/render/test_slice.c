@@ -467,6 +467,9 @@ static void particles_are_those_of_their_own_view(void **state)
     for (int i = 0; i < 3 * WIDE * HIGH; i++)
         if (abs(alone[i] - both[i]) > 1)
             fail_msg("pixel %d: %d, wanted %d", i / 3, both[i], alone[i]);
+    def.opacity.by = def.size.by = 1 + SCALAR_SPEED; /* of no use, as the slice says */
+    picture_of(&scene, &def, behind);
+    assert_memory_equal(behind, both, sizeof both);
     slice_def(&def)->particles = SLICE_BEHIND;
     slice_def(&def)->point[2] = 5; /* beside the box: no plane, and all particles */
     picture_of(&scene, &def, behind);

@@ -321,7 +321,7 @@ static void room_grows_ahead(void **state)
     (void)state;
     Error error = {0};
     SplatScene scene = splat_scene((double[]){0, 0.5, 3}, (double[]){0, 0.5, 0}, 20, 0.05);
-    Frame frame = {.particle_radius = 0.05F};
+    Frame frame = {.def = &scene.def, .particle_radius = 0.05F};
     Ellipsoids drops;
     ParticleBuffers buffers;
     size_t capacity = 0;
