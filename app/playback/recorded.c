@@ -70,12 +70,38 @@ static bool covers(const Recorded *recorded, const ViewDef *view)
     return (renderer_attributes(view) & ~recorded->attributes) == 0;
 }
 
+static ViewDef without_curves(const ViewDef *view)
+{
+    ViewDef plain = *view;
+    plain.opacity.by = plain.size.by = 0;
+    return plain;
+}
+
+static bool has_curve(const Recorded *recorded, const ViewDef *with, const ScalarCurve *curve,
+                      const char *key, Error *error)
+{
+    const ViewDef plain = without_curves(with);
+    const unsigned reads = renderer_attributes(with) & ~renderer_attributes(&plain);
+    return (reads & ~recorded->attributes) == 0 ||
+           error_set(error, "%s: lacks what %s: %s reads; take another scalar, or none", recorded->path, key,
+                     scalar_name(scalar_of_curve(curve)));
+}
+
+bool recorded_has_curves(const Recorded *recorded, const ViewDef *view, Error *error)
+{
+    ViewDef opacity = without_curves(view), size = opacity;
+    opacity.opacity.by = view->opacity.by;
+    size.size.by = view->size.by;
+    return has_curve(recorded, &opacity, &view->opacity, "view.opacity.by", error) &&
+           has_curve(recorded, &size, &view->size, "view.size.by", error);
+}
+
 bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error)
 {
     char known[256] = "";
-    ViewDef other = *view;
-    if (covers(recorded, view))
-        return true;
+    ViewDef other = without_curves(view);
+    if (covers(recorded, &other))
+        return recorded_has_curves(recorded, view, error);
     for (int s = 0; s < SCALAR_COUNT; s++) {
         other.color_by = (Scalar)s;
         if (covers(recorded, &other))

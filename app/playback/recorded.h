@@ -33,6 +33,9 @@ void recorded_close(Recorded *recorded);
 /* Whether it has what that view reads of a state; false with what it may be coloured by. */
 bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error);
 
+/* The same of that by which its opacity and size go, alone. */
+bool recorded_has_curves(const Recorded *recorded, const ViewDef *view, Error *error);
+
 bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error);
 
 /* The newest step at or before `time` (s, give or take what rounding does to it); the first where none is. */

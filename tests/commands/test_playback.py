@@ -166,6 +166,8 @@ class Refused(PlaybackTest):
                       self.render('a.h5part', 'a.png'))
         self.refused('a.h5part: has no pressure to colour by; view.color_by may be speed, density, compression',
                      '--set', 'view.color_by=pressure')
+        self.refused('a.h5part: lacks what view.size.by: pressure reads; take another scalar, or none',
+                     '--set', 'view.size.by=pressure')
 
     def test_a_step_that_cannot_be_read(self):
         self.run_('--time', '0.1', '--every', '0.02')

@@ -244,6 +244,12 @@ static void what_is_missing_is_told(void **state)
     assert_false(recorded_has(&recorded, &view, &error));
     assert_contains(error.message,
                     "a.h5part: has no pressure to colour by; view.color_by may be speed, density,");
+    view.color_by = SCALAR_SPEED;
+    view.size.by = 1 + SCALAR_VORTICITY;
+    assert_true(recorded_has(&recorded, &view, &error));
+    view.opacity.by = 1 + SCALAR_PRESSURE;
+    assert_false(recorded_has(&recorded, &view, &error));
+    assert_contains(error.message, "a.h5part: lacks what view.opacity.by: pressure reads");
     must(recorded_read(&recorded, 2, PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1, &still, &error), &error);
     assert_true(still.state.count == 7 && !still.arrays.scalar[SCALAR_PRESSURE] &&
                 still.arrays.scalar[SCALAR_DENSITY]);
