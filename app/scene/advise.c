@@ -24,7 +24,7 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
     va_end(arguments);
     const Node *node = tree ? tree_near(tree, path) : NULL;
     if (node && node->said)
-        notes_add(notes, "%s: %s", node->said, what);
+        notes_add(notes, "%.100s%s: %s", node->said, strlen(node->said) > 100 ? "..." : "", what);
     else if (node && tree_at(tree, path))
         notes_add(notes, "%s:%d:%d: %s", tree->path, node->key_line, node->key_column, what);
     else
