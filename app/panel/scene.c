@@ -26,6 +26,7 @@ static const struct {
     const char *path, *why;
 } elsewhere[] = {
     {"title", "words for people: nothing in the picture or the fluid depends on them"},
+    {"view.trails.ids", "numbers of single particles, for scenes and --set"},
     {"view.camera.from", "the mouse moves the camera"},
     {"view.camera.to", "the mouse moves the camera"},
     {"view.camera.fov", "the mouse moves the camera"},

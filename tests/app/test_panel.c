@@ -15,7 +15,7 @@ static const char *const sections[] = {"History", "Colours", "World", "Fluids", 
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 /* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
-static const char *const without_widget[] = {"title", "view.camera.from", "view.camera.to",
+static const char *const without_widget[] = {"title", "view.trails.ids", "view.camera.from", "view.camera.to",
                                              "view.camera.fov"};
 
 /* A session: the scene is changed as the window would change it. */
