@@ -25,8 +25,6 @@ static const struct {
 static const struct {
     const char *path, *why;
 } elsewhere[] = {
-    {"title", "words for people: nothing in the picture or the fluid depends on them"},
-    {"view.trails.ids", "numbers of single particles, for scenes and --set"},
     {"view.camera.from", "the mouse moves the camera"},
     {"view.camera.to", "the mouse moves the camera"},
     {"view.camera.fov", "the mouse moves the camera"},
@@ -34,6 +32,8 @@ static const struct {
 
 static bool is_elsewhere(const Key *key)
 {
+    if (key->type == KEY_TEXT) /* words have no widget: they are for scenes and --set */
+        return true;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(elsewhere[i].path, key->path) == 0)
             return true;
