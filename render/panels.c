@@ -200,16 +200,16 @@ static void cover(Panels *panels)
 /* Of all states that have one of that scalar. */
 static ScalarRange joint_range(const ParticleBuffers states[], int count, int scalar)
 {
-    ScalarRange joint = {.known = false};
+    ScalarRange joint = {.known = true};
     for (int i = 0; i < count; i++) {
         const ScalarRange *own = &states[i].range[scalar];
-        if (!own->known)
+        if (!own->known || !own->any)
             continue;
-        joint.low = joint.known ? fmin(joint.low, own->low) : own->low;
-        joint.high = joint.known ? fmax(joint.high, own->high) : own->high;
-        joint.least = joint.known ? fmin(joint.least, own->least) : own->least;
-        joint.greatest = joint.known ? fmax(joint.greatest, own->greatest) : own->greatest;
-        joint.known = true;
+        joint.low = joint.any ? fmin(joint.low, own->low) : own->low;
+        joint.high = joint.any ? fmax(joint.high, own->high) : own->high;
+        joint.least = joint.any ? fmin(joint.least, own->least) : own->least;
+        joint.greatest = joint.any ? fmax(joint.greatest, own->greatest) : own->greatest;
+        joint.any = true;
     }
     return joint;
 }

@@ -48,7 +48,8 @@ bool panels_set_covered(Panels *panels, double left, Error *error);
 double panels_legend(const Panels *panels);
 
 /* Draws a state in each panel. Panels whose range follows the state and that show the same scalar have one
-   range for all of them, from the least end of theirs to the greatest, so that a colour means the same.
+   range for all of them, from the least end of theirs to the greatest, so that a colour means the same; a
+   state without a number counts for nothing.
    Automatic cameras leave the widest legend its place, so that boxes that are alike lie alike. */
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
 

@@ -75,8 +75,8 @@ static ScalarRange range_of(const Found *found)
     for (int r = 0; r < RANKS; r++)
         at[r] = number_of(found->found[r]);
     if (at[1] < at[2])
-        return (ScalarRange){at[1], at[2], at[0], at[3], true};
-    return (ScalarRange){at[0], at[3], at[0], at[3], true};
+        return (ScalarRange){at[1], at[2], at[0], at[3], true, true};
+    return (ScalarRange){at[0], at[3], at[0], at[3], true, true};
 }
 
 ScalarRange ranges_find(Ranges *ranges, const ParticleAttribute *values, size_t count)

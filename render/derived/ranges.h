@@ -22,7 +22,8 @@ typedef struct Ranges {
 bool ranges_create(Ranges *ranges, Error *error);
 void ranges_destroy(Ranges *ranges);
 
-/* Of the `count` floats there; what is not finite does not count. All 0 where nothing does. Of n values in
+/* Of the `count` floats there; what is not finite does not count. All 0, and not `any`, where nothing
+   does. Of n values in
    order, from 0, the percentiles are number floor((n - 1) / 100) and its mirror: the ends themselves up to
    100 values. */
 ScalarRange ranges_find(Ranges *ranges, const ParticleAttribute *values, size_t count);

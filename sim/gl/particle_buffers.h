@@ -31,7 +31,8 @@ typedef struct ParticleAttribute {
 typedef struct ScalarRange {
     double low, high;       /* the 1st and the 99th percentile; where they are one, as the ends: */
     double least, greatest; /* of all that is a number */
-    bool known;
+    bool known;             /* it was looked for */
+    bool any;               /* something is a number; else all four are 0 and say nothing */
 } ScalarRange;
 
 typedef struct ParticleBuffers {

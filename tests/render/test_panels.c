@@ -153,6 +153,16 @@ static void a_scalar_has_one_range(void **state)
     assert_memory_equal(ranges[0], ranges[1], sizeof ranges[0]);
     assert_true(ranges[0][0] == fmin(own[0][0], own[1][0]));
     assert_true(ranges[0][1] == fmax(own[0][1], own[1][1]));
+    ParticleBuffers empty = stand.states[1];
+    empty.count = 0;
+    panels_draw(panels, (const ParticleBuffers *[]){&stand.states[0], &empty}, NULL);
+    for (int i = 0; i < 2; i++) { /* what has no number pulls no range to 0 */
+        double one[2];
+        panels_range(panels, i, one);
+        assert_memory_equal(one, own[0], sizeof one);
+    }
+    assert_true(own[0][0] > 0);
+    panels_draw(panels, states, NULL);
     ViewDef fixed = def;
     fixed.range_auto = false;
     memcpy(fixed.range, ranges[0], sizeof fixed.range);

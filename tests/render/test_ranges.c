@@ -22,7 +22,7 @@ static ScalarRange by_sorting(const float *values, size_t count)
         return (ScalarRange){.known = true};
     qsort(sorted, known, sizeof *sorted, ascending);
     const size_t open = (known - 1) / 100;
-    ScalarRange range = {sorted[open], sorted[known - 1 - open], sorted[0], sorted[known - 1], true};
+    ScalarRange range = {sorted[open], sorted[known - 1 - open], sorted[0], sorted[known - 1], true, true};
     if (!(range.low < range.high))
         range.low = range.least, range.high = range.greatest;
     return range;
@@ -39,7 +39,7 @@ static void check(Ranges *ranges, const char *what, const float *values, size_t 
     const ScalarRange is = ranges_find(ranges, &attribute, count), wanted = by_sorting(values, count);
     glDeleteBuffers(1, &buffer);
     if (is.low != wanted.low || is.high != wanted.high || is.least != wanted.least ||
-        is.greatest != wanted.greatest || !is.known)
+        is.greatest != wanted.greatest || !is.known || is.any != wanted.any)
         fail_msg("%s: %g %g %g %g, not %g %g %g %g", what, is.least, is.low, is.high, is.greatest,
                  wanted.least, wanted.low, wanted.high, wanted.greatest);
 }
