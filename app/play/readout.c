@@ -53,9 +53,11 @@ void readout_pin(Readout *readout, const Panels *panels, Notice *notice)
 static bool all_known(const ViewProbe found[], int found_count, const double (*at)[3], int count)
 {
     bool all = found_count == count;
-    for (int i = 0; i < found_count; i++)
+    for (int i = 0; i < found_count; i++) {
+        all = all && found[i].now;
         for (int k = 0; k < 3; k++)
             all = all && found[i].at[k] == at[i][k];
+    }
     return all || found_count < 0;
 }
 

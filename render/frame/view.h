@@ -51,6 +51,7 @@ typedef enum ViewStep {
 /* What a picture shows at a place of the box. */
 typedef struct ViewProbe {
     double at[3]; /* m, box's frame */
+    bool now;     /* it is what the last picture shows; else one before it, which the next picture mends */
     bool seen;    /* the place is before the eye: */
     double pixel[2];
     enum {

@@ -11,7 +11,12 @@ enum { PLANE_PROBES_MAX = 16 };
 typedef struct PlaneProbes {
     int count;
     int sample[PLANE_PROBES_MAX][2]; /* column and row; one that is not on the raster has no answer */
-    double at[PLANE_PROBES_MAX][3];  /* the asker's own */
+    /* The asker's own: */
+    double at[PLANE_PROBES_MAX][3];
+    uint64_t run;   /* which sums these are of */
+    unsigned shown; /* what was made of them */
+    double cut;
+    const char *name, *unit; /* of that; static */
 } PlaneProbes;
 
 /* Zero-initialise it. */

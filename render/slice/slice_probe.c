@@ -5,6 +5,8 @@
 #include <math.h>
 #include <string.h>
 
+_Static_assert((int)VIEW_PROBES_MAX <= (int)PLANE_PROBES_MAX, "all that may be asked of a view has room");
+
 /* Where on the rectangle a place is, in samples, and how far off the plane, m. */
 static double on_plane(const PlaneJob *job, const double at[3], double samples[2])
 {
@@ -45,8 +47,8 @@ bool slice_probe_pick(const SliceProbe *probe, const double pixel[2], double at[
             return false;
     }
     on_plane(&probe->job, at, samples);
-    return samples[0] >= 0 && samples[0] <= probe->job.samples[0] && samples[1] >= 0 &&
-           samples[1] <= probe->job.samples[1];
+    return samples[0] >= 0 && samples[0] < probe->job.samples[0] && samples[1] >= 0 &&
+           samples[1] < probe->job.samples[1];
 }
 
 static bool pixel_of(const SliceProbe *probe, const double at[3], double pixel[2])
@@ -61,16 +63,17 @@ static bool pixel_of(const SliceProbe *probe, const double at[3], double pixel[2
     return true;
 }
 
-/* The sample that a place is in; none where the plane is farther from it than half a sample. */
+/* The sample that a place is in; -1, -1 beside the rectangle and where the plane is farther from the place
+   than half a sample. */
 static void sample_of(const PlaneJob *job, const double at[3], int sample[2])
 {
     double samples[2];
     const double side = fmax(job->plane.size[0] / job->samples[0], job->plane.size[1] / job->samples[1]);
-    const bool off = on_plane(job, at, samples) > side / 2;
-    for (int k = 0; k < 2; k++) {
-        const double bounded = fmin(fmax(samples[k], -1), job->samples[k]);
-        sample[k] = off ? -1 : (int)floor(bounded);
-    }
+    bool off = on_plane(job, at, samples) > side / 2;
+    for (int k = 0; k < 2; k++)
+        off |= !(samples[k] >= 0 && samples[k] < job->samples[k]);
+    for (int k = 0; k < 2; k++)
+        sample[k] = off ? -1 : (int)samples[k];
 }
 
 static void answer(const SliceProbe *probe, int index, ViewProbe *out)
@@ -78,22 +81,27 @@ static void answer(const SliceProbe *probe, int index, ViewProbe *out)
     const PlaneProbes *probes = &probe->probe.probes;
     const float *sums = probe->probe.sums[index];
     const double field = (double)sums[1] + sums[2];
-    *out = (ViewProbe){.name = probe->name, .unit = probe->unit};
+    *out = (ViewProbe){.now = probes->run == probe->run, .name = probes->name, .unit = probes->unit};
     memcpy(out->at, probes->at[index], sizeof out->at);
     out->seen = pixel_of(probe, out->at, out->pixel);
     if (probes->sample[index][0] < 0)
         out->what = VIEW_PROBE_OFF;
-    else if (plane_empty(sums) || field < probe->cut)
+    else if (plane_empty(sums) || field < probes->cut)
         out->what = VIEW_PROBE_EMPTY;
     else {
-        out->value = probe->shown == SLICE_FIELD ? field : plane_value(sums, probe->shown == SLICE_RAW);
+        out->value = probes->shown == SLICE_FIELD ? field : plane_value(sums, probes->shown == SLICE_RAW);
         out->what = isnan(out->value) ? VIEW_PROBE_NAN : VIEW_PROBE_VALUE;
     }
 }
 
 int slice_probe_read(SliceProbe *probe, const PlaneSum *sum, const double (*at)[3], int count, ViewProbe *out)
 {
-    PlaneProbes probes = {.count = count < PLANE_PROBES_MAX ? count : PLANE_PROBES_MAX};
+    PlaneProbes probes = {.count = count < PLANE_PROBES_MAX ? count : PLANE_PROBES_MAX,
+                          .run = probe->run,
+                          .shown = probe->shown,
+                          .cut = probe->cut,
+                          .name = probe->name,
+                          .unit = probe->unit};
     if (!probe->drawn)
         return 0;
     for (int i = 0; i < probes.count; i++) {

@@ -6,10 +6,20 @@
 #include "render/plane/plane_probe.h"
 #include "render/slice/slice_def.h"
 
+/* The state that sums are of. */
+typedef struct PlaneFrom {
+    uint64_t step;
+    double time;
+    size_t count;
+    ParticleAttribute position;
+} PlaneFrom;
+
 /* The last picture; zero-initialise it. */
 typedef struct SliceProbe {
     PlaneProbe probe;
-    bool drawn; /* the plane is in it: */
+    bool drawn;   /* the plane is in it: */
+    uint64_t run; /* number of its sums: another where they may be others than in the picture before */
+    PlaneFrom from;
     PlaneJob job;
     Sight sight;
     bool flat;

@@ -276,16 +276,43 @@ static void draw_balls(SliceView *view, const Frame *frame)
     view_draw(view->balls, &view->shown, &own);
 }
 
+static bool same3(const double a[3], const double b[3])
+{
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
+static bool same_plane(const Plane *a, const Plane *b)
+{
+    return same3(a->corner, b->corner) && same3(a->along, b->along) && same3(a->up, b->up) &&
+           a->size[0] == b->size[0] && a->size[1] == b->size[1];
+}
+
+/* A picture that is drawn again, while nothing moves, has the same sums. */
+static bool same_sums(const SliceProbe *probe, const PlaneJob *job, const PlaneFrom *from)
+{
+    const PlaneJob *was = &probe->job;
+    return same_plane(&was->plane, &job->plane) && was->samples[0] == job->samples[0] &&
+           was->samples[1] == job->samples[1] && was->kernel == job->kernel && was->scalar == job->scalar &&
+           was->support == job->support && probe->from.step == from->step && probe->from.time == from->time &&
+           probe->from.count == from->count && probe->from.position.buffer == from->position.buffer &&
+           probe->from.position.offset == from->position.offset;
+}
+
 /* What probes of the picture need to know. */
 static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles,
                      const Frame *frame)
 {
     const SliceDef *def = slice_def(frame->def);
     SliceProbe *probe = &view->probe;
+    const PlaneFrom from = {particles->step, particles->time, particles->count, particles->position};
+    const unsigned shown = what_is_shown(view, frame);
+    if (!same_sums(probe, job, &from) || probe->shown != shown || probe->cut != def->cut)
+        probe->run++;
     probe->job = *job;
+    probe->from = from;
     probe->sight = (Sight){frame->camera, particles->box, frame->width, frame->height, 0};
     probe->flat = def->show == SLICE_FLAT;
-    probe->shown = what_is_shown(view, frame);
+    probe->shown = shown;
     probe->cut = def->cut;
     probe->name = frame->shown;
     probe->unit = frame->shown_unit;

@@ -9,6 +9,7 @@
 #include "render/plane/plane_probe.h"
 #include "render/plane/plane_sum.h"
 #include "render/slice/slice_def.h"
+#include "render/slice/slice_probe.h"
 #include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
 #include "sim/world/method.h"
@@ -505,6 +506,7 @@ static void check_probes(const ViewDef *def, SliceScene *scene)
         assert_true(found[0].seen &&
                     hypot(found[0].pixel[0] - pixel[0], found[0].pixel[1] - pixel[1]) < 0.01);
         assert_int_equal(found[1].what, VIEW_PROBE_OFF);
+        assert_true(found[0].now);
         for (int k = 0; k < 3; k++) /* the middle of its sample */
             place[k] = found[0].at[k] - scene->job.plane.corner[k];
         double share[2] = {0, 0};
@@ -550,6 +552,33 @@ static void probes_say_what_all_particles_sum_up_to(void **state)
     free_scene(&scene);
 }
 
+/* What comes later is told with the name that it had when it was asked for, and as no present value. */
+static void late_sums_keep_their_name(const PlaneJob *job, const PlaneSum *sum)
+{
+    SliceProbe slice = {.drawn = true, .run = 1, .job = *job, .flat = true, .name = "speed", .unit = "m/s"};
+    double at[2][3];
+    ViewProbe found[2];
+    for (int k = 0; k < 3; k++) { /* in the middle, and beside the rectangle */
+        at[0][k] = job->plane.corner[k] + 0.5 * job->plane.size[0] * job->plane.along[k] +
+                   0.3 * job->plane.size[1] * job->plane.up[k];
+        at[1][k] = job->plane.corner[k] - 0.1 * job->plane.along[k];
+    }
+    assert_int_equal(slice_probe_read(&slice, sum, (const double(*)[3])at, 2, found), 0);
+    glFinish();
+    slice.run = 2, slice.name = "pressure", slice.unit = "Pa";
+    assert_int_equal(slice_probe_read(&slice, sum, (const double(*)[3])at, 2, found), 2);
+    assert_string_equal(found[0].name, "speed");
+    assert_string_equal(found[0].unit, "m/s");
+    assert_false(found[0].now);
+    assert_int_equal(found[0].what, VIEW_PROBE_VALUE);
+    assert_int_equal(found[1].what, VIEW_PROBE_OFF);
+    glFinish();
+    assert_int_equal(slice_probe_read(&slice, sum, (const double(*)[3])at, 2, found), 2);
+    assert_string_equal(found[0].name, "pressure");
+    assert_true(found[0].now);
+    plane_probe_destroy(&slice.probe);
+}
+
 /* On a GPU what is asked for is there when the GPU has done it; nothing waits. */
 static void samples_of_the_gpu_come_later(void **state)
 {
@@ -574,6 +603,7 @@ static void samples_of_the_gpu_come_later(void **state)
     assert_memory_equal(probe.sums[2], &all[4 * (46 * SAMPLES + 63)], sizeof(float[4]));
     assert_true(probe.sums[1][1] == 0 && probe.sums[0][1] > 0);
     plane_probe_destroy(&probe);
+    late_sums_keep_their_name(&scene.job, &sum);
     plane_sum_destroy(&sum);
     upload_destroy(upload);
     free_scene(&scene);
