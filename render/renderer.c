@@ -107,7 +107,8 @@ static void want_curve(ParticleWants *wants, const ScalarCurve *curve)
    ids. */
 static ParticleWants wants_of(const ViewDef *def)
 {
-    ParticleWants wants = {.scalars = SCALAR_BIT(def->color_by), .attributes = overlays_attributes(def)};
+    ParticleWants wants = {.scalars = SCALAR_BIT(def->color_by)};
+    overlays_want(def, &wants);
     want_curve(&wants, &def->opacity);
     want_curve(&wants, &def->size);
     if (def->opacity.by != 0)
@@ -119,8 +120,9 @@ unsigned renderer_attributes(const ViewDef *def)
 {
     const unsigned fluid =
         PARTICLE_SCALAR(SCALAR_FLUID); /* as a number; as a colour it is among the scalars */
-    const ParticleWants all = {UINT32_MAX, UINT32_MAX, fluid | overlays_attributes(NULL)},
-                        wants = def ? wants_of(def) : all;
+    ParticleWants all = {UINT32_MAX, UINT32_MAX, fluid};
+    overlays_want(NULL, &all);
+    const ParticleWants wants = def ? wants_of(def) : all;
     return wants_attributes(&wants);
 }
 

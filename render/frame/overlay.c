@@ -27,13 +27,11 @@ void overlays_default(ViewDef *def)
     }
 }
 
-unsigned overlays_attributes(const ViewDef *def)
+void overlays_want(const ViewDef *def, ParticleWants *wants)
 {
-    unsigned attributes = 0;
     for (int i = 0; overlay_list[i]; i++)
         if (!def || shown(def, i))
-            attributes |= overlay_list[i]->attributes;
-    return attributes;
+            overlay_list[i]->wants(def, wants);
 }
 
 double overlays_every(const ViewDef *def, double *before)

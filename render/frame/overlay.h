@@ -17,10 +17,11 @@ typedef struct IN_A_ROOM OverlayShow {
 
 typedef struct OverlayKind {
     const char *name, *help;
-    const Key *keys;     /* of its own settings, ended by a row without a path */
-    const void *def;     /* the struct of these settings with its defaults; it begins as OverlayShow */
-    size_t def_size;     /* bytes; at most VIEW_OWN_SIZE */
-    unsigned attributes; /* of the particles that it reads besides those of the view, PARTICLE_* */
+    const Key *keys; /* of its own settings, ended by a row without a path */
+    const void *def; /* the struct of these settings with its defaults; it begins as OverlayShow */
+    size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
+    /* Adds what it reads of the particles besides what the view does; of a def of NULL what it may read. */
+    void (*wants)(const ViewDef *def, ParticleWants *wants);
     /* How far apart the states may be that it sees, s, and for how long before a picture it must see them, s;
        NULL: that of the picture is enough. */
     double (*every)(const ViewDef *def, double *before);
@@ -53,8 +54,8 @@ void *overlay_own(const ViewDef *def, const OverlayKind *kind);
 /* Fills in the defaults of all overlays' settings. */
 void overlays_default(ViewDef *def);
 
-/* What those shown read of the particles; of a def of NULL what any may read. */
-unsigned overlays_attributes(const ViewDef *def);
+/* Adds what those shown read of the particles; of a def of NULL what any may read. */
+void overlays_want(const ViewDef *def, ParticleWants *wants);
 
 /* The least of what those shown say by OverlayKind.every, and the longest time before a picture; INFINITY
    where the states of pictures are enough. */

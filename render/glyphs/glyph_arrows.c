@@ -33,7 +33,6 @@ void glyph_arrows_destroy(GlyphArrows *arrows)
     glDeleteBuffers(1, &arrows->arrows);
     glDeleteBuffers(1, &arrows->command);
     glDeleteBuffers(1, &arrows->no_scalar);
-    glDeleteBuffers(1, &arrows->no_vector);
     *arrows = (GlyphArrows){0};
 }
 
@@ -43,7 +42,6 @@ static void reserve(GlyphArrows *arrows, size_t count)
     if (!arrows->command) {
         work_buffer_remake(&arrows->command, sizeof(uint32_t[COMMAND_WORDS + GLYPH_BINS]), "glyphs' command");
         work_buffer_remake(&arrows->no_scalar, sizeof(uint32_t[4]), "glyphs without a scalar");
-        work_buffer_remake(&arrows->no_vector, sizeof(uint32_t[4]), "glyphs without a vector");
     }
     if (count <= arrows->capacity)
         return;
@@ -63,28 +61,23 @@ static void begin(const GlyphArrows *arrows)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, arrows->arrows);
 }
 
+/* The vector that is shown; buffer 0: the state has none. */
+static const ParticleAttribute *vector_of(const ParticleBuffers *particles, const Frame *frame)
+{
+    return &particles->vector[glyphs_def(frame->def)->vector];
+}
+
 static void set_vector(const GlyphArrows *arrows, GLuint program, const ParticleBuffers *particles,
                        const Frame *frame)
 {
-    static const ParticleAttribute none;
     const size_t count = particles->count;
     const Scalar shown = frame->def->color_by;
-    const GlyphVector *vector = &glyph_vectors[glyphs_def(frame->def)->vector];
-    const ParticleAttribute *words = vector->of ? vector->of(particles) : &none;
-    const BoxState *box = &particles->box;
-    double velocity[3], turn[3];
-    quat_rotate_inverse(box->orientation, box->velocity, velocity);
-    quat_rotate_inverse(box->orientation, box->angular_velocity, turn);
     particle_bind(program, particles, shown);
     glProgramUniform1ui(program, GLYPH_VECTOR_STRIDE_AT,
-                        particle_bind_one(GLYPH_VECTORS_STORAGE, words, count, arrows->no_vector));
+                        particle_bind_one(GLYPH_VECTORS_STORAGE, vector_of(particles, frame), count, 0));
     glProgramUniform1ui(
         program, SHOWN_STRIDE_AT,
         particle_bind_one(SHOWN_STORAGE, particle_shown(particles, shown), count, arrows->no_scalar));
-    glProgramUniform3f(program, GLYPH_BOX_VELOCITY_AT, (GLfloat)velocity[0], (GLfloat)velocity[1],
-                       (GLfloat)velocity[2]);
-    glProgramUniform3f(program, GLYPH_BOX_TURN_AT, (GLfloat)turn[0], (GLfloat)turn[1], (GLfloat)turn[2]);
-    glProgramUniform1ui(program, GLYPH_IS_BOX_AT, vector->of == NULL);
     glProgramUniform1ui(program, SHOWN_IS_FLUID_AT, shown == SCALAR_FLUID);
 }
 
@@ -198,10 +191,9 @@ static void of_samples(GlyphArrows *arrows, const ParticleBuffers *particles, co
 void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame)
 {
     const GlyphsDef *def = glyphs_def(frame->def);
-    const GlyphVector *vector = &glyph_vectors[def->vector];
     arrows->most = 0;
     arrows->coarser = false;
-    if (particles->count == 0 || (vector->of && !vector->of(particles)->buffer))
+    if (particles->count == 0 || !vector_of(particles, frame)->buffer)
         return;
     if (def->at == GLYPHS_PARTICLES && particles->id.buffer)
         of_particles(arrows, particles, frame);

@@ -12,14 +12,14 @@
 typedef struct GlyphArrows {
     unsigned particles, samples; /* programs */
     Neighbourhood neighbourhood;
-    bool sorts;       /* `neighbourhood` is there: means are asked for */
-    unsigned arrows;  /* buffer: foot and vector, two vec4 an arrow */
-    unsigned command; /* buffer: of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins */
-    unsigned no_scalar, no_vector; /* buffers that stand in for what is not there */
-    size_t capacity;               /* arrows that there is room for */
-    size_t most;                   /* that the last run may have made; 0: none */
-    double apart;                  /* from one to the next, about, m */
-    bool coarser;                  /* than was asked for: there would be too many */
+    bool sorts;         /* `neighbourhood` is there, or what a failure has left of it */
+    unsigned arrows;    /* buffer: foot and vector, two vec4 an arrow */
+    unsigned command;   /* buffer: of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins */
+    unsigned no_scalar; /* buffer: stands in for a scalar that is not there */
+    size_t capacity;    /* arrows that there is room for */
+    size_t most;        /* that the last run may have made; 0: none */
+    double apart;       /* from one to the next, about, m */
+    bool coarser;       /* than was asked for: there would be too many */
 } GlyphArrows;
 
 /* False when a shader does not compile; glyph_arrows_destroy is needed in either case. */

@@ -96,7 +96,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
 static void legend(void *state, const Frame *frame, char *line, size_t size)
 {
     const Glyphs *glyphs = state;
-    const GlyphVector *vector = &glyph_vectors[glyphs_def(frame->def)->vector];
+    const ScalarRow *vector = &vector_list[glyphs_def(frame->def)->vector];
     if (glyphs->arrows.most == 0 || !(glyphs->unit > 0))
         snprintf(line, size, "%s: no arrows", vector->name);
     else
@@ -105,13 +105,21 @@ static void legend(void *state, const Frame *frame, char *line, size_t size)
                  glyphs->arrows.coarser ? "; coarser than view.glyphs.cell, which has too many" : "");
 }
 
+/* Ids choose among particles. */
+static void wants(const ViewDef *def, ParticleWants *wants)
+{
+    wants->vectors |= def ? VECTOR_BIT(glyphs_def(def)->vector) : UINT32_MAX;
+    if (!def || glyphs_def(def)->at == GLYPHS_PARTICLES)
+        wants->attributes |= PARTICLE_ID;
+}
+
 const OverlayKind overlay_glyphs = {
     .name = "glyphs",
     .help = "arrows of a vector",
     .keys = glyphs_keys,
     .def = &glyphs_usual,
     .def_size = sizeof glyphs_usual,
-    .attributes = PARTICLE_ID | PARTICLE_VELOCITY,
+    .wants = wants,
     .create = create,
     .destroy = destroy,
     .draw = draw,

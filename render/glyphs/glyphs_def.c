@@ -6,17 +6,6 @@ static const char *const at_names[] = {
     [GLYPHS_PARTICLES] = "particles", [GLYPHS_GRID] = "grid", [GLYPHS_PLANE] = "plane", NULL};
 static const char *const color_names[] = {[GLYPHS_BY_SCALAR] = "scalar", [GLYPHS_PLAIN] = "plain", NULL};
 
-static const ParticleAttribute *velocity_of(const ParticleBuffers *particles)
-{
-    return &particles->velocity;
-}
-
-const GlyphVector glyph_vectors[] = {
-    {"velocity", "m/s", velocity_of},
-    {"box_velocity", "m/s", NULL},
-    {NULL, NULL, NULL},
-};
-
 const GlyphsDef glyphs_usual = {.stride = 20, .plane_normal = {0, 0, 1}, .color = {0.02, 0.02, 0.025}};
 
 #define AT(field) offsetof(GlyphsDef, field)
@@ -25,7 +14,7 @@ const GlyphsDef glyphs_usual = {.stride = 20, .plane_normal = {0, 0, 1}, .color 
 const Key glyphs_keys[] = {
     MAPPING("view.glyphs", "of the overlay glyphs: arrows of a vector, beside any view"),
     BOOLEAN("view.glyphs.show", L, AT(show), "draw them"),
-    CHOICE_OF("view.glyphs.vector", L | KEY_INDEX, glyph_vectors, AT(vector), "velocity: of the fluid in the box; box_velocity: of the box itself where the arrow stands, by the world's frame"),
+    CHOICE_OF("view.glyphs.vector", L | KEY_INDEX, vector_list, AT(vector), "velocity: of the fluid in the box; vorticity: its curl; pressure_gradient; box_velocity: of the box itself where the fluid is, by the world's frame"),
     CHOICE_OF("view.glyphs.at", L | KEY_INDEX, at_names, AT(at), "particles: at every so many of them; grid, plane: means of the fluid around, evenly spread through the box or on a plane"),
     INTEGER("view.glyphs.stride", L, 1, 1000000, AT(stride), "every so many particles, by their ids, has one"),
     NUMBER("view.glyphs.cell", L, "m", 0, 1000, AT(cell), "from arrow to arrow on a grid or a plane; 0: a 24th of the box's longest side"),

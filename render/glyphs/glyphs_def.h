@@ -8,8 +8,8 @@ typedef enum GlyphsAt { GLYPHS_PARTICLES, GLYPHS_GRID, GLYPHS_PLANE } GlyphsAt;
 typedef enum GlyphsColor { GLYPHS_BY_SCALAR, GLYPHS_PLAIN } GlyphsColor;
 
 typedef struct IN_A_ROOM GlyphsDef {
-    bool show;    /* as OverlayShow */
-    int vector;   /* of glyph_vectors */
+    bool show; /* as OverlayShow */
+    Vector vector;
     GlyphsAt at;  /* where arrows stand */
     int stride;   /* at particles: every so many ids */
     double cell;  /* on a grid or a plane: from one to the next, m; 0: a 24th of the longest side */
@@ -18,15 +18,6 @@ typedef struct IN_A_ROOM GlyphsDef {
     GlyphsColor color_by;
     double color[3]; /* linear RGB */
 } GlyphsDef;
-
-/* A vector that arrows may show: a row is all that a new one takes. */
-typedef struct GlyphVector {
-    const char *name, *unit;
-    /* Where the state has it, vec4 a particle; NULL: it is the box's own motion. */
-    const ParticleAttribute *(*of)(const ParticleBuffers *particles);
-} GlyphVector;
-
-extern const GlyphVector glyph_vectors[]; /* ended by a NULL name */
 
 extern const OverlayKind overlay_glyphs;
 

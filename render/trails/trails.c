@@ -67,13 +67,19 @@ static void legend(void *state, const Frame *frame, char *line, size_t size)
                  store->slots);
 }
 
+static void wants(const ViewDef *def, ParticleWants *wants)
+{
+    (void)def;
+    wants->attributes |= PARTICLE_ID;
+}
+
 const OverlayKind overlay_trails = {
     .name = "trails",
     .help = "paths of particles, faded with age",
     .keys = trails_keys,
     .def = &trails_usual,
     .def_size = sizeof trails_usual,
-    .attributes = PARTICLE_ID,
+    .wants = wants,
     .every = every,
     .create = create,
     .destroy = destroy,

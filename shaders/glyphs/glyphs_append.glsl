@@ -9,14 +9,6 @@ struct Arrow {
 // The first five words are those of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins.
 layout(std430, binding = GLYPH_COMMAND_STORAGE) buffer Command { uint command[5 + GLYPH_BINS]; };
 layout(std430, binding = GLYPH_ARROWS_STORAGE) writeonly buffer Arrows { Arrow arrows[]; };
-layout(location = GLYPH_BOX_VELOCITY_AT) uniform vec3 box_velocity; // of the box's origin, in its axes, m/s
-layout(location = GLYPH_BOX_TURN_AT) uniform vec3 box_turn;         // rad/s
-layout(location = GLYPH_IS_BOX_AT) uniform uint is_box;             // 1: the vector is the box's own motion
-
-vec3 motion_of_box(vec3 at)
-{
-    return box_velocity + cross(box_turn, at);
-}
 
 // What is no number, or no arrow at all, is none.
 void append(vec3 at, vec3 vector, float value)

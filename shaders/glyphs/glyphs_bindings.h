@@ -14,9 +14,6 @@
 #define GLYPH_VECTOR_STRIDE_AT 18
 #define GLYPH_ID_STRIDE_AT     19
 #define GLYPH_EVERY_AT         20 /* ids */
-#define GLYPH_BOX_VELOCITY_AT  21
-#define GLYPH_BOX_TURN_AT      22
-#define GLYPH_IS_BOX_AT        23
 #define GLYPH_IS_FLUID_AT      24
 #define GLYPH_SUPPORT_AT       25
 #define GLYPH_PEAK_AT          26

@@ -19,6 +19,5 @@ void main()
         return;
     vec3 at = particle_position(index);
     uint first = index * vector_stride;
-    vec3 vector = is_box != 0u ? motion_of_box(at) : vec3(vector_words[first], vector_words[first + 1u], vector_words[first + 2u]);
-    append(at, vector, particle_shown(index));
+    append(at, vec3(vector_words[first], vector_words[first + 1u], vector_words[first + 2u]), particle_shown(index));
 }

@@ -65,5 +65,5 @@ void main()
     Mean mean = mean_at(at);
     float value = shown_is_fluid != 0u ? mean.fluid : mean.scalar / mean.scalar_weight;
     if (mean.weight >= 0.25)
-        append(at, is_box != 0u ? motion_of_box(at) : mean.vector / mean.weight, value);
+        append(at, mean.vector / mean.weight, value);
 }

@@ -1,6 +1,7 @@
 /* Overlay `glyphs`: where arrows stand, how long they are, and what they do with numbers that are none. */
 #include "tests/render/fixture.h"
 
+#include "render/derived/derived.h"
 #include "render/glyphs/glyph_arrows.h"
 #include "render/plane/plane_kernel.h"
 
@@ -94,10 +95,16 @@ static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, dou
     const WorldDef world = bare_world();
     const Frame frame = {.def = def, .world = &world, .slab = frame_slab(&wind->buffers)};
     GlyphArrows arrows = {0};
+    Derived derived = {0};
+    ParticleBuffers buffers = wind->buffers;
+    ParticleWants wants = {0};
     uint32_t indices = 0;
+    overlays_want(def, &wants);
+    assert_true(derived_follow(&derived, &wants, &error));
+    derived_fill(&derived, &wants, &(DerivedSpace){.flat = false}, &buffers);
     if (!glyph_arrows_create(&arrows, &error))
         fail_msg("%s", error.message);
-    glyph_arrows_make(&arrows, &wind->buffers, &frame);
+    glyph_arrows_make(&arrows, &buffers, &frame);
     *usual = glyph_arrows_usual(&arrows);
     if (arrows.most > 0)
         glGetNamedBufferSubData(arrows.command, 0, sizeof indices, &indices);
@@ -108,6 +115,7 @@ static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, dou
     if (*count > 0)
         glGetNamedBufferSubData(arrows.arrows, 0, (GLsizeiptr)(*count * sizeof *out), out);
     glyph_arrows_destroy(&arrows);
+    derived_destroy(&derived);
     return out;
 }
 
@@ -251,8 +259,7 @@ static void the_box_has_a_motion_of_its_own(void **state)
                                  .velocity = {0.5, 0, 0},
                                  .angular_velocity = {0, 2, 0}};
     upload(wind);
-    glyphs_def(&def)->vector = 1;
-    assert_string_equal(glyph_vectors[1].name, "box_velocity");
+    glyphs_def(&def)->vector = VECTOR_BOX_VELOCITY;
     Arrow *arrows = arrows_of(wind, &def, &count, &usual);
     assert_int_equal(count, MOST / 20);
     for (size_t i = 0; i < count; i++) {
@@ -262,6 +269,42 @@ static void the_box_has_a_motion_of_its_own(void **state)
     }
     free(arrows);
     wind_destroy(wind);
+}
+
+/* The wind turns as a rigid body about y and shears with z and x: its curl is the same everywhere. */
+static void vorticity_has_arrows(void **state)
+{
+    (void)state;
+    size_t count;
+    double usual;
+    ViewDef def = glyphs_view(GLYPHS_PARTICLES);
+    Wind *wind = wild_wind(0.05);
+    int right = 0;
+    glyphs_def(&def)->vector = VECTOR_VORTICITY;
+    Arrow *arrows = arrows_of(wind, &def, &count, &usual);
+    assert_int_equal(count, MOST / 20);
+    for (size_t i = 0; i < count; i++) { /* of (-z, 0.3 x, x + y): (1, -2, 0.3) */
+        const float *v = arrows[i].vector;
+        right += fabsf(v[0] - 1) < 1e-3F && fabsf(v[1] + 2) < 1e-3F && fabsf(v[2] - 0.3F) < 1e-3F;
+    }
+    assert_true(right > 19 * (int)count / 20);
+    free(arrows);
+    wind_destroy(wind);
+}
+
+/* Only what they read: ids choose among particles, and the box moves without the fluid's velocity. */
+static void glyphs_want_what_they_read(void **state)
+{
+    (void)state;
+    ViewDef def = glyphs_view(GLYPHS_PARTICLES);
+    const unsigned usual = PARTICLE_SCALAR(SCALAR_SPEED);
+    assert_int_equal(renderer_attributes(&def), usual | PARTICLE_ID | PARTICLE_VELOCITY);
+    glyphs_def(&def)->at = GLYPHS_PLANE;
+    assert_int_equal(renderer_attributes(&def), usual | PARTICLE_VELOCITY);
+    glyphs_def(&def)->vector = VECTOR_BOX_VELOCITY;
+    assert_int_equal(renderer_attributes(&def), usual);
+    glyphs_def(&def)->vector = VECTOR_PRESSURE_GRADIENT;
+    assert_int_equal(renderer_attributes(&def), usual | PARTICLE_SCALAR(SCALAR_PRESSURE));
 }
 
 /* ---- pictures ---- */
@@ -431,10 +474,16 @@ static void a_curve_bends_their_colors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(every_so_many_particles_have_one), TEST(means_are_those_over_all_particles),
-        TEST(arrows_stand_on_the_plane),        TEST(the_usual_length_is_a_percentile),
-        TEST(the_box_has_a_motion_of_its_own),  TEST(an_arrow_ends_where_it_should),
-        TEST(what_is_no_number_is_no_arrow),    TEST(the_view_hides_what_is_behind),
+        TEST(every_so_many_particles_have_one),
+        TEST(means_are_those_over_all_particles),
+        TEST(arrows_stand_on_the_plane),
+        TEST(the_usual_length_is_a_percentile),
+        TEST(the_box_has_a_motion_of_its_own),
+        TEST(an_arrow_ends_where_it_should),
+        TEST(vorticity_has_arrows),
+        TEST(glyphs_want_what_they_read),
+        TEST(what_is_no_number_is_no_arrow),
+        TEST(the_view_hides_what_is_behind),
         TEST(a_curve_bends_their_colors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -387,10 +387,13 @@ static void hidden_ones_cost_nothing(void **state)
     Error error = {0};
     ViewDef def = trails_view();
     double before;
-    assert_int_equal(overlays_attributes(&def), PARTICLE_ID);
+    ParticleWants wants = {0}, none = {0};
+    overlays_want(&def, &wants);
+    assert_int_equal(wants.attributes, PARTICLE_ID);
     assert_true(overlays_every(&def, &before) == 0.005 && before == 1);
     trails_def(&def)->show = false;
-    assert_int_equal(overlays_attributes(&def), 0);
+    overlays_want(&def, &none);
+    assert_true(none.attributes == 0 && none.scalars == 0 && none.vectors == 0);
     assert_true(isinf(overlays_every(&def, &before)) && before == 0);
     const WorldDef world = {0};
     const Subject subject = {&def, &world};
