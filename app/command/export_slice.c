@@ -6,6 +6,7 @@
 #include "app/command/export_parts.h"
 #include "app/output/series.h"
 #include "app/output/slice_table.h"
+#include "app/output/snapshot_arrays.h"
 #include "app/output/snapshot_sift.h"
 #include "app/session/headless.h"
 #include "render/plane/plane_kernel.h"
@@ -129,6 +130,27 @@ static bool refuse_others(const Args *args, Error *error)
                      option);
 }
 
+/* Whether the first of the snapshots that are wanted has the scalar; false with those that it has. */
+static bool check_scalar(const SliceExport *export, Error *error)
+{
+    const Scalar wanted = export->wanted.scalar;
+    const size_t first = export->form == SLICE_PVD ? 0 : export->index;
+    char list[512] = "";
+    SnapshotStep step;
+    if (!snapshot_read_shown(export->reader, first, &step, error))
+        return false;
+    const unsigned has = snapshot_attributes(&step);
+    snapshot_step_free(&step);
+    if ((slice_attributes(wanted) & ~has) == 0)
+        return true;
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if ((slice_attributes((Scalar)s) & ~has) == 0)
+            snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "",
+                     scalar_name((Scalar)s));
+    return error_set(error, "%s: Step#%zu has no %s; take --scalar %s", export->args->scenes[0], first,
+                     scalar_name(wanted), *list ? list : "of another file");
+}
+
 static bool understand(SliceExport *export, Error *error)
 {
     const Args *args = export->args;
@@ -146,7 +168,7 @@ static bool understand(SliceExport *export, Error *error)
            find_scalar(args->scalar ? args->scalar : "pressure", &export->wanted.scalar, error) &&
            export_open(args, &export->reader, error) &&
            snapshot_read_scene(export->reader, &export->scene, error) && choose_kernel(export, error) &&
-           export_choose(args, export->reader, &export->index, error);
+           export_choose(args, export->reader, &export->index, error) && check_scalar(export, error);
 }
 
 /* ---- files ---- */
@@ -168,7 +190,7 @@ static bool make_table(SliceExport *export, size_t index, Error *error)
 {
     SnapshotStep step;
     slice_table_free(&export->table);
-    if (!snapshot_read_step(export->reader, index, &step, error))
+    if (!snapshot_read_shown(export->reader, index, &step, error))
         return false;
     const bool made =
         (snapshot_sift(&export->flaws, index, &step) || error_set(error, "out of memory for a snapshot")) &&

@@ -1,5 +1,6 @@
 #include "app/output/slice_table.h"
 
+#include "app/output/snapshot_arrays.h"
 #include "app/scene/value.h"
 #include "app/yaml/yaml.h"
 #include "render/plane/plane_kernel.h"
@@ -50,45 +51,6 @@ bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error)
 }
 
 /* ---- sums ---- */
-
-static float state_scalar(const SnapshotStep *step, Scalar scalar, size_t i)
-{
-    float *const *v = step->velocity;
-    switch (scalar) {
-    case SCALAR_SPEED:
-        return hypotf(hypotf(v[0][i], v[1][i]), v[2][i]);
-    case SCALAR_DENSITY:
-        return step->density[i];
-    case SCALAR_PRESSURE:
-        return step->pressure[i];
-    case SCALAR_COMPRESSION:
-        return step->compression[i];
-    case SCALAR_FLUID:
-        return (float)step->fluid[i];
-    case SCALAR_ID:
-        return (float)step->id[i];
-    default:
-        return NAN;
-    }
-}
-
-/* The particles as a view sees them: x y z and volume, velocities, scalars of the state. */
-static void fill_arrays(const ParticleArrays *arrays, const SnapshotScene *scene, const SnapshotStep *step)
-{
-    const double cell = pow(scene->spacing, scene->dimensions);
-    for (size_t i = 0; i < step->count; i++) {
-        const int of = step->fluid[i];
-        const bool known = of >= 0 && (size_t)of < scene->fluid_count;
-        for (int k = 0; k < 3; k++)
-            arrays->position[4 * i + (size_t)k] = step->position[k][i];
-        arrays->position[4 * i + 3] = known ? (float)(scene->density[of] * cell / step->density[i]) : 0;
-        for (int k = 0; arrays->velocity && k < 3; k++)
-            arrays->velocity[4 * i + (size_t)k] = step->velocity[k][i];
-    }
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
-        for (size_t i = 0; arrays->scalar[s] && i < step->count; i++)
-            arrays->scalar[s][i] = state_scalar(step, (Scalar)s, i);
-}
 
 static void free_arrays(ParticleArrays *arrays)
 {
@@ -189,6 +151,12 @@ static void fill_table(SliceTable *table, const float *sums)
     }
 }
 
+unsigned slice_attributes(Scalar scalar)
+{
+    const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
+    return (int)scalar < SCALAR_STATE_COUNT ? PARTICLE_SCALAR(scalar) : wants_attributes(&wants);
+}
+
 static bool make(SliceMaker *maker, SliceTable *table, const SnapshotScene *scene, const SnapshotStep *step,
                  Error *error)
 {
@@ -199,16 +167,14 @@ static bool make(SliceMaker *maker, SliceTable *table, const SnapshotScene *scen
                           .dimensions = scene->dimensions,
                           .support = scene->support_radius,
                           .scalar = wanted->scalar};
-    const ParticleWants wants = {.scalars = SCALAR_BIT(wanted->scalar)};
-    const bool own = (int)wanted->scalar < SCALAR_STATE_COUNT;
-    const unsigned attributes = own ? PARTICLE_SCALAR(wanted->scalar) : wants_attributes(&wants);
+    const unsigned attributes = slice_attributes(wanted->scalar);
     const ParticleBuffers state = state_of(scene, step);
     ParticleArrays arrays = {0};
     float *sums = NULL;
     bool made = allocate(table, &sums, error) && (make_arrays(&arrays, attributes, step->count) ||
                                                   error_set(error, "out of memory for the particles"));
     if (made) {
-        fill_arrays(&arrays, scene, step);
+        snapshot_arrays(scene, step, SNAPSHOT_MASS_DENSITY, &arrays);
         made = sum_up(maker, &job, &arrays, attributes, scene, &state, sums, error);
     }
     if (made)
@@ -222,6 +188,8 @@ bool slice_table_make(SliceMaker *maker, const SliceWanted *wanted, const Snapsh
                       const SnapshotStep *step, SliceTable *table, Error *error)
 {
     *table = (SliceTable){.wanted = *wanted, .time = step->time};
+    if (slice_attributes(wanted->scalar) & ~snapshot_attributes(step))
+        return error_set(error, "the snapshot at %.9g s has no %s", step->time, scalar_name(wanted->scalar));
     if (!plane_make(scene->box_size, wanted->point, wanted->normal, &table->plane))
         return error_set(error,
                          "--slice: the plane misses the box, which is x %.4g .. %.4g, y 0 .. %.4g, z %.4g .. "

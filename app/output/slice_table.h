@@ -32,6 +32,9 @@ typedef struct SliceTable {
    right. */
 bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error);
 
+/* What of a snapshot it needs besides places: PARTICLE_*. */
+unsigned slice_attributes(Scalar scalar);
+
 /* What one slice leaves to the next: programs and buffers. Zero-initialise it. */
 typedef struct SliceMaker {
     PlaneSum sum;
@@ -43,8 +46,8 @@ typedef struct SliceMaker {
 void slice_maker_destroy(SliceMaker *maker);
 
 /* Makes it in the current OpenGL 4.5 context, with V = mass / density, the mass being that of a spacing^3 at
-   rest. False where the plane misses the box, memory is short, or the driver has no such texture: nothing of
-   the table to free then. */
+   rest. False where the plane misses the box, the snapshot lacks the scalar, memory is short, or the driver
+   has no such texture: nothing of the table to free then. */
 bool slice_table_make(SliceMaker *maker, const SliceWanted *wanted, const SnapshotScene *scene,
                       const SnapshotStep *step, SliceTable *table, Error *error);
 void slice_table_free(SliceTable *table);

@@ -15,8 +15,8 @@ SnapshotFlaws snapshot_flaws(const SnapshotReader *reader, bool strict)
     return flaws;
 }
 
-/* The worst that is wrong with particle i; FLAW_COUNT: nothing. */
-static Flaw flaw_of(const SnapshotFlaws *flaws, const SnapshotStep *step, size_t i)
+/* The worst that is wrong with particle i; FLAW_COUNT: nothing. `dense`: the file has densities. */
+static Flaw flaw_of(const SnapshotFlaws *flaws, const SnapshotStep *step, bool dense, size_t i)
 {
     bool finite = isfinite(step->pressure[i]);
     for (int k = 0; k < 3; k++) {
@@ -27,7 +27,7 @@ static Flaw flaw_of(const SnapshotFlaws *flaws, const SnapshotStep *step, size_t
     }
     if (step->fluid[i] < 0 || (size_t)step->fluid[i] >= flaws->fluids)
         return FLAW_FLUID;
-    if (!(step->density[i] > 0) || !isfinite(step->density[i]))
+    if (dense && (!(step->density[i] > 0) || !isfinite(step->density[i])))
         return FLAW_DENSITY;
     return finite ? FLAW_COUNT : FLAW_NUMBER;
 }
@@ -65,9 +65,10 @@ static bool count_ids(const SnapshotStep *step, size_t *repeated)
 
 bool snapshot_sift(SnapshotFlaws *flaws, size_t index, SnapshotStep *step)
 {
+    const bool dense = !snapshot_step_lacks(step, "density");
     size_t found[FLAW_COUNT + 1] = {0}, kept = 0;
     for (size_t i = 0; i < step->count; i++) {
-        const Flaw flaw = flaw_of(flaws, step, i);
+        const Flaw flaw = flaw_of(flaws, step, dense, i);
         found[flaw]++;
         if (!is_left_out(flaws, flaw))
             move(step, i, kept++);

@@ -1,5 +1,6 @@
 #include "app/playback/recorded.h"
 
+#include "app/output/snapshot_arrays.h"
 #include "app/playback/recorded_scene.h"
 #include "render/renderer.h"
 
@@ -16,35 +17,13 @@ bool recorded_is_file(const char *path)
 
 /* ---- what the file has ---- */
 
-/* X(field of a step, what it is the only source of) */
-#define SOURCES(X)                                                                                           \
-    X("velocity_0", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
-    X("velocity_1", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
-    X("velocity_2", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
-    X("density", PARTICLE_SCALAR(SCALAR_DENSITY))                                                            \
-    X("pressure", PARTICLE_SCALAR(SCALAR_PRESSURE))                                                          \
-    X("compression", PARTICLE_SCALAR(SCALAR_COMPRESSION))                                                    \
-    X("fluid", PARTICLE_FLUID | PARTICLE_SCALAR(SCALAR_FLUID))                                               \
-    X("id", PARTICLE_ID | PARTICLE_SCALAR(SCALAR_ID))
-
-static unsigned attributes_of(const SnapshotStep *step)
-{
-    unsigned has = 0, lacks = 0;
-#define X(name, source)                                                                                      \
-    has |= (source);                                                                                         \
-    lacks |= snapshot_step_lacks(step, name) ? (source) : 0;
-    SOURCES(X)
-#undef X
-    return (has & ~lacks) | PARTICLE_FLUID; /* all are of the first fluid where the file says nothing */
-}
-
 static void tell_lacks(const char *path, const SnapshotStep *step, Notes *notes)
 {
     char words[256] = "";
 #define X(name, source)                                                                                      \
     if (snapshot_step_lacks(step, name))                                                                     \
         snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", *words ? ", " : "", name);
-    SOURCES(X)
+    SNAPSHOT_SOURCES(X)
 #undef X
     if (*words)
         notes_add(notes, "%.160s: has no %s; what follows from that cannot be shown%s", path, words,
@@ -57,7 +36,7 @@ static bool look_at_first(Recorded *recorded, Notes *notes, Error *error)
     SnapshotStep step;
     if (!snapshot_read_shown(recorded->reader, 0, &step, error))
         return false;
-    recorded->attributes = attributes_of(&step);
+    recorded->attributes = snapshot_attributes(&step);
     recorded->first = step.time;
     tell_lacks(recorded->path, &step, notes);
     snapshot_step_free(&step);
@@ -212,54 +191,10 @@ static void describe(const Recorded *recorded, const SnapshotStep *step, Particl
     memcpy(out->gravity, step->gravity, sizeof out->gravity);
 }
 
-static double volume_of(const Recorded *recorded, const SnapshotStep *step, size_t i)
-{
-    const double s = recorded->numbers.spacing;
-    return snapshot_step_lacks(step, "density") ? s * s * s : snapshot_volume(&recorded->numbers, step, i);
-}
-
-static float scalar_of(const SnapshotStep *step, Scalar scalar, size_t i)
-{
-    const float *const *v = (const float *const *)step->velocity;
-    switch (scalar) {
-    case SCALAR_SPEED: /* as sim/world/particles.c has it, to the bit */
-        return sqrtf(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
-    case SCALAR_DENSITY:
-        return step->density[i];
-    case SCALAR_PRESSURE:
-        return step->pressure[i];
-    case SCALAR_COMPRESSION:
-        return step->compression[i];
-    case SCALAR_FLUID:
-        return (float)step->fluid[i];
-    case SCALAR_ID:
-        return (float)(uint32_t)step->id[i];
-    default:
-        return 0;
-    }
-}
-
-static void fill(const Recorded *recorded, const SnapshotStep *step, const ParticleArrays *to)
-{
-    for (size_t i = 0; i < step->count; i++) {
-        for (size_t k = 0; k < 3; k++) {
-            to->position[4 * i + k] = step->position[k][i];
-            to->velocity[4 * i + k] = step->velocity[k][i];
-        }
-        to->position[4 * i + 3] = (float)volume_of(recorded, step, i);
-        to->velocity[4 * i + 3] = 0;
-        to->fluid[i] = (uint32_t)step->fluid[i];
-        to->id[i] = (uint32_t)step->id[i];
-    }
-    for (size_t s = 0; s < sizeof to->scalar / sizeof *to->scalar; s++)
-        for (size_t i = 0; to->scalar[s] && i < step->count; i++)
-            to->scalar[s][i] = scalar_of(step, (Scalar)s, i);
-}
-
 /* A field that only some steps lack would be 0 in these. */
 static bool is_like_first(const Recorded *recorded, const SnapshotStep *step, size_t index, Error *error)
 {
-    return (recorded->attributes & ~attributes_of(step)) == 0 ||
+    return (recorded->attributes & ~snapshot_attributes(step)) == 0 ||
            error_set(error, "%s: Step#%zu lacks what Step#0 has", recorded->path, index);
 }
 
@@ -268,13 +203,11 @@ static bool take(Recorded *recorded, size_t index, unsigned attributes, Snapshot
 {
     if (!is_like_first(recorded, step, index, error))
         return false;
-    for (size_t i = 0; snapshot_step_lacks(step, "density") && i < step->count; i++)
-        step->density[i] = (float)recorded->numbers.density[0]; /* no flaw of the particle's */
     if (!snapshot_sift(&recorded->flaws, index, step) ||
         !still_reserve(out, step->count, attributes & recorded->attributes))
         return error_set(error, "%s: out of memory for %zu particles", recorded->path, step->count);
     describe(recorded, step, &out->state);
-    fill(recorded, step, &out->arrays);
+    snapshot_arrays(&recorded->numbers, step, SNAPSHOT_VOLUME, &out->arrays);
     return true;
 }
 

@@ -44,6 +44,20 @@ class Pictures(PlaybackTest):
                                 'fluids: [{fill: [{block: {min: [-0.5, 0], max: [0, 0.4]}}]}]\n')
         self.compare('flat.yaml', '0.1', 'spheres', 'volume', 'slice')
 
+    def test_areas_at_rest(self):
+        """Without densities a particle of two dimensions has the area of fluid at rest."""
+        self.write('flat.yaml', 'box: {size: [1, 0.6]}\nparticles: {spacing: 0.02}\nsolver: {method: wcsph}\n'
+                                'fluids: [{fill: [{block: {min: [-0.5, 0], max: [0, 0.4]}}]}]\n')
+        self.run_('--time', '0', scene='flat.yaml')
+        more = ['--view', 'slice', '--set', 'view.color_by=speed']
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            file['Step#0/density'][:] = file.attrs['fluid_densities'][0]
+        self.render('a.h5part', 'rest.png', *more)
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#0/density']
+        self.render('a.h5part', 'none.png', *more)
+        self.assert_same_picture('none.png', 'rest.png')
+
     def test_solids_that_move(self):
         self.write('paddle.yaml', command.SCENE.replace('solver:\n', 'solids:\n  - box: {centre: [0.1, 0.7, 0], size: '
                    '[0.1, 0.3, 0.2]}\n    color: [0.1, 0.6, 0.3]\n    motion: [{rock: {axis: [0, 0, 1], angle: 30, '

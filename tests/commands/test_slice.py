@@ -64,7 +64,8 @@ class Slice(CommandTest):
             group, h = file[step], file.attrs['support_radius']
             at = numpy.stack([group[axis][:] for axis in 'xyz'], 1).astype(float)
             mass = numpy.asarray(file.attrs['fluid_densities'])[group['fluid'][:]] * file.attrs['spacing'] ** 3
-            volume, value = mass / group['density'][:].astype(float), scalar(group)
+            density, value = group['density'][:].astype(float), scalar(group)
+            volume = numpy.where(density > 0, mass / numpy.where(density > 0, density, 1), 0)
         weights = [volume * shape(numpy.linalg.norm(at - place, axis=1) / h) / h ** 3 for place in places]
         return numpy.array([[(w * value).sum(), w.sum()] for w in weights])
 
@@ -87,6 +88,34 @@ class Slice(CommandTest):
         self.export('b.csv', '{point: [0.1, 0.5, 0], normal: [0.4, 1, 0]}', '--size', '40x40', '--kernel', 'cusp', '--raw',
                     '--scalar', 'velocity_y')
         self.compare('b.csv', cusp, lambda group: group['velocity_1'][:].astype(float), True)
+
+    def test_densities_of_each_method_and_none(self):
+        """V = mass / density, also where density is not in proportion to the number of particles (mueller); with a density
+        of 0 and less a particle weighs nothing."""
+        for method in ('mueller', 'wcsph'):
+            self.run_scene('--set', f'solver.method={method}', '--time', '0.3')
+            for spoilt in (False, True):
+                if spoilt:
+                    with h5py.File(self.path('a.h5part'), 'r+') as file:
+                        density = file['Step#3/density'][:]
+                        density[::5], density[1::5] = 0, -1000
+                        file['Step#3/density'][:] = density
+                self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic', '--raw', '--scalar', 'speed')
+                self.compare('a.csv', cubic, lambda group: numpy.sqrt(sum(group[f'velocity_{k}'][:].astype(float) ** 2
+                                                                          for k in range(3))), True)
+
+    def test_fields_that_a_file_lacks(self):
+        self.run_scene('--time', '0.1')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            for step in ('Step#0', 'Step#1'):
+                for name in ('velocity_1', 'pressure', 'id'):
+                    del file[step][name]
+        self.export('a.csv', '{}', '--size', '24x16', '--scalar', 'density')
+        for name in ('a.csv', 'a.pvd'):
+            code, said = self.slosh('export', 'a.h5part', '-o', f'no-{name}', '--slice', '{}')
+            self.assertEqual((code, 'has no pressure; take --scalar density, compression, fluid, neighbours' in said),
+                             (2, True), said)
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('no-')])
 
     def derived(self, name, periodic=()):
         """A derived scalar of each particle by its definition: render/derived/derived.h. The box is 1 m wide."""
