@@ -77,15 +77,11 @@ static bool choose_times(FileRender *render, const Recorded *recorded, PicturesK
                      args->time);
 }
 
-/* What the views colour by, and what else goes by a scalar. */
 static bool check_views(const Recorded *recorded, const Scene *scene, Error *error)
 {
     bool ok = true;
-    for (int i = 0; ok && i < scene_view_count(scene); i++) {
-        const ViewDef *view = scene_view(scene, i);
-        const bool colored = strcmp(view->kind, "none") != 0 && view->color_by != SCALAR_FLUID;
-        ok = (!colored || recorded_has(recorded, view, error)) && recorded_has_curves(recorded, view, error);
-    }
+    for (int i = 0; ok && i < scene_view_count(scene); i++)
+        ok = recorded_has(recorded, scene_view(scene, i), error);
     return ok;
 }
 

@@ -28,20 +28,6 @@ static bool read_scene(PlayScene *open, const char *name, const SceneSettings *s
     return ok;
 }
 
-/* Takes away what the run lacks. */
-static void fit_view(const Recorded *recorded, ViewDef *view, Notes *notes)
-{
-    Error why;
-    if (!recorded_has_curves(recorded, view, &why)) {
-        notes_add(notes, "%.300s; drawn without opacity and size", why.message);
-        view->opacity.by = view->size.by = 0;
-    }
-    if (!recorded_has(recorded, view, &why)) {
-        notes_add(notes, "%.300s; coloured by fluid", why.message);
-        view->color_by = SCALAR_FLUID;
-    }
-}
-
 static bool read_recorded(PlayScene *open, const char *path, const SceneSettings *settings, Notes *notes,
                           Error *error)
 {
@@ -53,9 +39,10 @@ static bool read_recorded(PlayScene *open, const char *path, const SceneSettings
         return false;
     open->scene = open->recorded->scene;
     snprintf(open->scene.path, sizeof open->scene.path, "%s", path);
-    for (int i = 0; i < scene_view_count(&open->scene); i++)
-        fit_view(open->recorded, open->scene.view_count > 0 ? &open->scene.views[i] : &open->scene.view,
-                 notes);
+    for (int i = 0; i < scene_view_count(&open->scene); i++) {
+        ViewDef *view = open->scene.view_count > 0 ? &open->scene.views[i] : &open->scene.view;
+        recorded_adapt(open->recorded, view, notes);
+    }
     return true;
 }
 

@@ -2,7 +2,7 @@
 
 #include "app/output/snapshot_arrays.h"
 #include "app/playback/recorded_scene.h"
-#include "render/renderer.h"
+#include "sim/gl/particle_buffers.h"
 
 #include <math.h>
 #include <string.h>
@@ -41,54 +41,6 @@ static bool look_at_first(Recorded *recorded, Notes *notes, Error *error)
     tell_lacks(recorded->path, &step, notes);
     snapshot_step_free(&step);
     return true;
-}
-
-/* Whether the view can be drawn so. */
-static bool covers(const Recorded *recorded, const ViewDef *view)
-{
-    return (renderer_attributes(view) & ~recorded->attributes) == 0;
-}
-
-static ViewDef without_curves(const ViewDef *view)
-{
-    ViewDef plain = *view;
-    plain.opacity.by = plain.size.by = 0;
-    return plain;
-}
-
-static bool has_curve(const Recorded *recorded, const ViewDef *with, const ScalarCurve *curve,
-                      const char *key, Error *error)
-{
-    const ViewDef plain = without_curves(with);
-    const unsigned reads = renderer_attributes(with) & ~renderer_attributes(&plain);
-    return (reads & ~recorded->attributes) == 0 ||
-           error_set(error, "%s: lacks what %s: %s reads; take another scalar, or none", recorded->path, key,
-                     scalar_name(scalar_of_curve(curve)));
-}
-
-bool recorded_has_curves(const Recorded *recorded, const ViewDef *view, Error *error)
-{
-    ViewDef opacity = without_curves(view), size = opacity;
-    opacity.opacity.by = view->opacity.by;
-    size.size.by = view->size.by;
-    return has_curve(recorded, &opacity, &view->opacity, "view.opacity.by", error) &&
-           has_curve(recorded, &size, &view->size, "view.size.by", error);
-}
-
-bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error)
-{
-    char known[256] = "";
-    ViewDef other = without_curves(view);
-    if (covers(recorded, &other))
-        return recorded_has_curves(recorded, view, error);
-    for (int s = 0; s < SCALAR_COUNT; s++) {
-        other.color_by = (Scalar)s;
-        if (covers(recorded, &other))
-            snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",
-                     scalar_name((Scalar)s));
-    }
-    return error_set(error, "%s: has no %s to colour by; view.color_by may be %s", recorded->path,
-                     scalar_name(view->color_by), known);
 }
 
 /* ---- the file ---- */

@@ -30,11 +30,12 @@ bool recorded_open(const char *path, const SceneSettings *settings, Recorded *ou
                    Error *error);
 void recorded_close(Recorded *recorded);
 
-/* Whether it has what that view reads of a state; false with what it may be coloured by. */
+/* Whether it has what that view reads of a state; false with what the view may be coloured by, or the key at
+   fault. */
 bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error);
 
-/* The same of that by which its opacity and size go, alone. */
-bool recorded_has_curves(const Recorded *recorded, const ViewDef *view, Error *error);
+/* Changes the view to one that it has all for; each change is a line of `notes`. */
+void recorded_adapt(const Recorded *recorded, ViewDef *view, Notes *notes);
 
 bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error);
 

@@ -183,6 +183,19 @@ class Refused(PlaybackTest):
         self.refused('a.h5part: lacks what view.size.by: pressure reads; take another scalar, or none',
                      '--set', 'view.size.by=pressure')
 
+    def test_overlays_that_the_file_lacks(self):
+        """Apart from what colours, and also with colours of the fluids."""
+        self.run_('--time', '0')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            for k in range(3):
+                del file['Step#0'][f'velocity_{k}']
+        glyphs = '--set', 'view.color_by=fluid', '--set', 'view.glyphs.show=true'
+        self.refused('a.h5part: view.glyphs.show needs velocities, which the file has not', *glyphs)
+        self.refused('a.h5part: has no speed to colour by; view.color_by may be density, pressure, compression, fluid',
+                     '--set', 'view.color_by=speed', '--set', 'view.glyphs.show=true')
+        self.refused('a.h5part: view.opacity.by needs velocities, which the file has not', '--set', 'view.color_by=density',
+                     '--set', 'view.opacity.by=vorticity')
+
     def test_a_step_that_cannot_be_read(self):
         self.run_('--time', '0.1', '--every', '0.02')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
