@@ -180,7 +180,7 @@ class Refused(PlaybackTest):
                       self.render('a.h5part', 'a.png'))
         self.refused('a.h5part: has no pressure to colour by; view.color_by may be speed, density, compression',
                      '--set', 'view.color_by=pressure')
-        self.refused('a.h5part: lacks what view.size.by: pressure reads; take another scalar, or none',
+        self.refused('a.h5part: view.size.by needs pressure, which the file has not',
                      '--set', 'view.size.by=pressure')
 
     def test_overlays_that_the_file_lacks(self):

@@ -249,7 +249,7 @@ static void what_is_missing_is_told(void **state)
     assert_true(recorded_has(&recorded, &view, &error));
     view.opacity.by = 1 + SCALAR_PRESSURE;
     assert_false(recorded_has(&recorded, &view, &error));
-    assert_contains(error.message, "a.h5part: lacks what view.opacity.by: pressure reads");
+    assert_contains(error.message, "a.h5part: view.opacity.by needs pressure, which the file has not");
     must(recorded_read(&recorded, 2, PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1, &still, &error), &error);
     assert_true(still.state.count == 7 && !still.arrays.scalar[SCALAR_PRESSURE] &&
                 still.arrays.scalar[SCALAR_DENSITY]);
