@@ -137,15 +137,17 @@ static bool make_samples(GlyphArrows *arrows, const ParticleBuffers *particles, 
 {
     const GlyphsDef *def = glyphs_def(frame->def);
     const double *box = particles->box_size, longest = fmax(box[0], fmax(box[1], box[2]));
-    double cell = def->cell > 0 ? def->cell : longest / USUAL_SAMPLES, volume = 1;
+    double cell = def->cell > 0 ? def->cell : longest / USUAL_SAMPLES, samples_there = 1;
     Plane plane;
     if (def->at == GLYPHS_PLANE && !plane_make(box, def->plane_point, def->plane_normal, &plane))
         return false;
-    for (int k = 0; k < 3; k++)
-        volume *= fmax(box[k] / cell, 1);
-    arrows->coarser = volume > SAMPLES_MOST;
+    const double *sides = def->at == GLYPHS_PLANE ? plane.size : box;
+    const int dimensions = def->at == GLYPHS_PLANE ? 2 : 3;
+    for (int k = 0; k < dimensions; k++)
+        samples_there *= fmax(sides[k] / cell, 1);
+    arrows->coarser = samples_there > SAMPLES_MOST;
     if (arrows->coarser)
-        cell *= cbrt(volume / SAMPLES_MOST) * 1.1;
+        cell *= pow(samples_there / SAMPLES_MOST, 1.0 / dimensions) * 1.1;
     arrows->apart = cell;
     if (def->at == GLYPHS_PLANE)
         plane_samples(samples, &plane, cell);

@@ -271,6 +271,20 @@ static void the_box_has_a_motion_of_its_own(void **state)
     wind_destroy(wind);
 }
 
+/* A plane has far fewer samples than the box would have: it is as fine as asked for. */
+static void a_plane_is_as_fine_as_it_should(void **state)
+{
+    (void)state;
+    size_t count;
+    double usual;
+    ViewDef def = glyphs_view(GLYPHS_PLANE);
+    Wind *wind = wild_wind(0.05);
+    glyphs_def(&def)->cell = 0.005; /* 16 million through the box, 80,000 on the plane */
+    free(arrows_of(wind, &def, &count, &usual));
+    assert_true(count > 30000 && count < 60000);
+    wind_destroy(wind);
+}
+
 /* The wind turns as a rigid body about y and shears with z and x: its curl is the same everywhere. */
 static void vorticity_has_arrows(void **state)
 {
@@ -474,17 +488,12 @@ static void a_curve_bends_their_colors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(every_so_many_particles_have_one),
-        TEST(means_are_those_over_all_particles),
-        TEST(arrows_stand_on_the_plane),
-        TEST(the_usual_length_is_a_percentile),
-        TEST(the_box_has_a_motion_of_its_own),
-        TEST(an_arrow_ends_where_it_should),
-        TEST(vorticity_has_arrows),
-        TEST(glyphs_want_what_they_read),
-        TEST(what_is_no_number_is_no_arrow),
-        TEST(the_view_hides_what_is_behind),
-        TEST(a_curve_bends_their_colors),
+        TEST(every_so_many_particles_have_one), TEST(means_are_those_over_all_particles),
+        TEST(arrows_stand_on_the_plane),        TEST(the_usual_length_is_a_percentile),
+        TEST(the_box_has_a_motion_of_its_own),  TEST(an_arrow_ends_where_it_should),
+        TEST(a_plane_is_as_fine_as_it_should),  TEST(vorticity_has_arrows),
+        TEST(glyphs_want_what_they_read),       TEST(what_is_no_number_is_no_arrow),
+        TEST(the_view_hides_what_is_behind),    TEST(a_curve_bends_their_colors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
