@@ -50,7 +50,7 @@ static TrailLook look_of(const TrailStore *store, const Frame *frame)
     look.height = frame->height;
     look.scalar = frame->def->color_by;
     look.drops = store->ring.drops;
-    look.places = store->places;
+    look.made = store->made;
     return look;
 }
 
@@ -67,7 +67,7 @@ static bool same_look(const TrailLook *a, const TrailLook *b)
     return same_numbers(a->box_to_eye, b->box_to_eye, 16) && same_numbers(a->tangent, b->tangent, 2) &&
            same_numbers(a->wrap, b->wrap, 3) && a->near_plane == b->near_plane &&
            a->half_width == b->half_width && a->width == b->width && a->height == b->height &&
-           a->scalar == b->scalar && a->drops == b->drops && a->places == b->places;
+           a->scalar == b->scalar && a->drops == b->drops && a->made == b->made;
 }
 
 static void follow_size(TrailLines *lines, const TrailLook *look)

@@ -18,8 +18,8 @@ typedef struct TrailLook {
     float tangent[2], near_plane, half_width, wrap[3];
     int width, height;
     Scalar scalar;
-    uint64_t drops;  /* of the ring */
-    unsigned places; /* the store's buffer */
+    uint64_t drops; /* of the ring */
+    uint64_t made;  /* of the store */
 } TrailLook;
 
 /* Zero-initialise it. */

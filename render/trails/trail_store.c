@@ -26,7 +26,7 @@ bool trail_store_create(TrailStore *store, const Subject *subject, Error *error)
     const WorldDef *world = subject->world;
     const size_t seeds = world->spacing > 0 ? seed_count(world, world->spacing) : 0;
     store->capacity = world->spacing > 0 ? flow_capacity(world, seeds) : 0;
-    store->flows = store->capacity > seeds || store->capacity == 0;
+    store->least = store->capacity > seeds || store->capacity == 0 ? SLOTS_LEAST : 1;
     store->claim = program_create("trails claim", claim, NULL, error);
     store->take = store->claim ? program_create("trails take", take, NULL, error) : 0;
     return store->take != 0;
@@ -64,8 +64,7 @@ static void count_slots(TrailStore *store, const TrailsDef *def, int points)
     const size_t most = (size_t)fmin(TRAILS_MOST, floor(POINTS_MOST / (double)(points + 1)));
     const size_t wanted = (store->capacity + (size_t)def->stride - 1) / (size_t)def->stride;
     store->stride = wanted > most ? (int)((store->capacity + most - 1) / most) : def->stride;
-    const size_t least = store->flows ? SLOTS_LEAST : 1;
-    store->slots = (int)(wanted > most ? most : wanted > least ? wanted : least);
+    store->slots = (int)(wanted > most ? most : wanted > store->least ? wanted : store->least);
     if (store->listed_count > 0)
         store->slots = store->listed_count;
 }
@@ -96,6 +95,7 @@ static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
     if (has_room(store, def, count))
         return;
     drop_buffers(store);
+    store->made++;
     store->listed_count = trails_listed(def, store->listed);
     if (store->listed_count < 0)
         return;
@@ -170,9 +170,11 @@ void trail_store_bind(const TrailStore *store)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_OWNERS_STORAGE, store->owners);
 }
 
+/* Ids may go on for ever where particles come and go, and the store outlives the scene that it was made for.
+ */
 static bool claim(const TrailStore *store, const ParticleBuffers *particles)
 {
-    if (!store->flows || store->listed_count > 0)
+    if (store->listed_count > 0)
         return false;
     clear(store->claims, 0, (size_t)store->slots, UINT32_MAX);
     glUseProgram(store->claim);

@@ -18,10 +18,11 @@ typedef struct TrailStore {
     unsigned seen;   /* buffer, slots uint: the last owner */
     unsigned claims; /* buffer, slots uint: the least id that wants it */
     unsigned none;   /* buffer: stands in for a scalar that is not there */
+    size_t least;    /* slots that there are in any case */
     int slots;       /* trails that there is room for; 0: no memory, or nothing was taken yet */
     int stride;      /* in ids, at least the def's */
     size_t capacity; /* particles that the slots are for */
-    bool flows;      /* ids may go on for ever */
+    uint64_t made;   /* how often all began anew */
     double box_size[3], spacing; /* of the state taken last, m */
     int listed_count;            /* of `listed`; 0: by stride; -1: no list, and no trails */
     uint32_t listed[TRAILS_LISTED_MAX];
