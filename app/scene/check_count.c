@@ -1,5 +1,6 @@
 /* What the machine can hold, and what there is to hold. */
 #include "app/scene/check_parts.h"
+#include "render/frame/overlay.h"
 #include "render/frame/view.h"
 #include "sim/matter/boundary.h"
 #include "sim/matter/fill.h"
@@ -112,7 +113,8 @@ static bool check_view(const Check *check, const char *path, const ViewDef *view
     const char *key = "view.kind";
     char at[128];
     Error error;
-    if (!kind || !kind->check || kind->check(&subject, &key, &error))
+    const bool drawn = !kind || !kind->check || kind->check(&subject, &key, &error);
+    if (drawn && overlays_check(&subject, &key, &error))
         return true;
     snprintf(at, sizeof at, "%s%s", path, key + strlen("view"));
     return FAIL(check, at, "%s", error.message);

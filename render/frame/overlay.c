@@ -48,6 +48,14 @@ double overlays_every(const ViewDef *def, double *before)
     return least;
 }
 
+bool overlays_check(const Subject *subject, const char **key, Error *error)
+{
+    for (int i = 0; overlay_list[i]; i++)
+        if (shown(subject->def, i) && overlay_list[i]->check && !overlay_list[i]->check(subject, key, error))
+            return false;
+    return true;
+}
+
 /* What is shown now and was not. */
 static bool make(const Overlays *overlays, const Subject *subject, void *made[], Error *error)
 {
@@ -83,6 +91,14 @@ void overlays_destroy(Overlays *overlays)
         if (overlays->state[i])
             overlay_list[i]->destroy(overlays->state[i]);
     *overlays = (Overlays){0};
+}
+
+bool overlays_take_any(const Overlays *overlays)
+{
+    bool any = false;
+    for (int i = 0; overlay_list[i]; i++)
+        any |= overlays->state[i] && overlay_list[i]->take;
+    return any;
 }
 
 void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,

@@ -17,6 +17,8 @@ typedef struct IN_A_ROOM OverlayShow {
 
 typedef struct OverlayKind {
     const char *name, *help;
+    /* As that of ViewKind (render/frame/view.h), asked where it is shown; NULL: all can be drawn. */
+    bool (*check)(const Subject *subject, const char **key, Error *error);
     const Key *keys; /* of its own settings, ended by a row without a path */
     const void *def; /* the struct of these settings with its defaults; it begins as OverlayShow */
     size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
@@ -28,7 +30,7 @@ typedef struct OverlayKind {
     void *(*create)(const Subject *subject, Error *error); /* the state behind it, or NULL with the reason */
     void (*destroy)(void *state);
     /* Each state that is to be drawn or lies between pictures, once, before it is drawn; NULL: it keeps none.
-     */
+       Of what is derived a state between pictures has view.color_by alone. */
     void (*take)(void *state, const ParticleBuffers *particles, const Subject *subject, GlTimer *timer);
     /* Draws colour into frame->target behind the view, within its own stages of frame->timer, and tests
        against the depth there. */
@@ -61,9 +63,15 @@ void overlays_want(const ViewDef *def, ParticleWants *wants);
    where the states of pictures are enough. */
 double overlays_every(const ViewDef *def, double *before);
 
+/* False, with the reason and the key at fault, where one that is shown could not be drawn. */
+bool overlays_check(const Subject *subject, const char **key, Error *error);
+
 /* Makes those that the def shows, and gives up the others. On failure all stays as it was. */
 bool overlays_follow(Overlays *overlays, const Subject *subject, Error *error);
 void overlays_destroy(Overlays *overlays);
+
+/* Whether one of them keeps something of states (OverlayKind.take). */
+bool overlays_take_any(const Overlays *overlays);
 
 /* Shows them a state, once. */
 void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,

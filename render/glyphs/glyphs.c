@@ -105,6 +105,15 @@ static void legend(void *state, const Frame *frame, char *line, size_t size)
                  glyphs->arrows.coarser ? "; coarser than view.glyphs.cell, which has too many" : "");
 }
 
+static bool check(const Subject *subject, const char **key, Error *error)
+{
+    const GlyphsDef *def = glyphs_def(subject->def);
+    const double *normal = def->plane_normal;
+    *key = "view.glyphs.plane_normal";
+    return def->at != GLYPHS_PLANE || normal[0] != 0 || normal[1] != 0 || normal[2] != 0 ||
+           error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
+}
+
 /* Ids choose among particles. */
 static void wants(const ViewDef *def, ParticleWants *wants)
 {
@@ -120,6 +129,7 @@ const OverlayKind overlay_glyphs = {
     .def = &glyphs_usual,
     .def_size = sizeof glyphs_usual,
     .wants = wants,
+    .check = check,
     .create = create,
     .destroy = destroy,
     .draw = draw,

@@ -32,6 +32,15 @@ static void *create(const Subject *subject, Error *error)
     return NULL;
 }
 
+static bool check(const Subject *subject, const char **key, Error *error)
+{
+    uint32_t ids[TRAILS_LISTED_MAX];
+    *key = "view.trails.ids";
+    return trails_listed(trails_def(subject->def), ids) >= 0 ||
+           error_set(error, "\"%s\" is no list of at most %d ids; \"3 17 250\" is one, and all is by stride",
+                     trails_def(subject->def)->ids, TRAILS_LISTED_MAX);
+}
+
 static double every(const ViewDef *def, double *before)
 {
     *before = trails_def(def)->length;
@@ -80,6 +89,7 @@ const OverlayKind overlay_trails = {
     .def = &trails_usual,
     .def_size = sizeof trails_usual,
     .wants = wants,
+    .check = check,
     .every = every,
     .create = create,
     .destroy = destroy,

@@ -106,6 +106,10 @@ static void what_is_wrong_has_its_place(void **state)
                    "scene.yaml:7:39: the range's low (2) is not below");
     assert_refused(LEAST "views: [{slice: {normal: [0, 0, 0]}, kind: slice}]\n",
                    "scene.yaml:7:26: a normal of length 0");
+    assert_refused(LEAST "view: {trails: {show: true, ids: abc}}\n",
+                   "scene.yaml:7:34: \"abc\" is no list of at most 16 ids");
+    assert_refused(LEAST "view: {glyphs: {show: true, at: plane, plane_normal: [0, 0, 0]}}\n",
+                   "scene.yaml:7:54: a normal of length 0");
     assert_refused(LEAST "views: [{camera: {from: [1, 1, 1]}}]\n",
                    "scene.yaml:7:18: views[0].camera.to is missing");
     assert_refused(LEAST "views: [{}, {}, {}, {}, {}]\n",
