@@ -201,18 +201,30 @@ void renderer_destroy(Renderer *renderer)
     free(renderer);
 }
 
-static bool follow_view(Renderer *renderer, const Subject *subject, Error *error)
+/* `view`: for that subject, the renderer's own or a new one. */
+static bool make_view(const Renderer *renderer, const Subject *subject, View **view, Error *error)
 {
     const Subject old = subject_of(renderer);
     const bool none = strcmp(subject->def->kind, "none") == 0;
+    *view = renderer->view;
     if (view_same(&old, subject))
-        return !renderer->view || view_accepts(renderer->view, subject, error);
-    View *view = none ? NULL : view_create(subject, error);
-    if (!view && !none)
-        return false;
-    view_destroy(renderer->view);
-    renderer->view = view;
-    return true;
+        return !*view || view_accepts(*view, subject, error);
+    *view = none ? NULL : view_create(subject, error);
+    return *view || none;
+}
+
+/* View and overlays, or neither: what an overlay has gathered would be lost with it. */
+static bool follow_view(Renderer *renderer, const Subject *subject, Error *error)
+{
+    View *view;
+    const bool followed =
+        make_view(renderer, subject, &view, error) && overlays_follow(&renderer->overlays, subject, error);
+    View *gone = followed ? renderer->view : view;
+    if (view != renderer->view)
+        view_destroy(gone);
+    if (followed)
+        renderer->view = view;
+    return followed;
 }
 
 bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error)
@@ -222,15 +234,10 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *wo
     const bool followed = follow_derived(renderer, def, error) &&
                           follow_letters(renderer, letters, renderer->target.height, error) &&
                           follow_solids(renderer, subject.world, error) &&
-                          overlays_follow(&renderer->overlays, &subject, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
         renderer->def = *def;
         renderer->world = *subject.world;
-    } else {
-        const Subject old = subject_of(renderer);
-        Error none;
-        overlays_follow(&renderer->overlays, &old, &none);
     }
     drop_unused_solids(renderer);
     return followed;
@@ -288,13 +295,18 @@ static bool derives(const ViewDef *def)
     return view_def_ranges(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
 }
 
+static void derive(Renderer *renderer, const ParticleWants *wants, ParticleBuffers *particles)
+{
+    DerivedSpace space = {.flat = frame_slab(particles) > 0};
+    memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
+    derived_fill(&renderer->derived, wants, &space, particles);
+}
+
 void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
 {
     const ParticleWants wants = wants_of(&renderer->def);
     const uint32_t ranged = view_def_ranges(&renderer->def);
-    DerivedSpace space = {.flat = frame_slab(particles) > 0};
-    memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
-    derived_fill(&renderer->derived, &wants, &space, particles);
+    derive(renderer, &wants, particles);
     for (int s = 0; s < SCALAR_COUNT; s++)
         if ((ranged & SCALAR_BIT(s)) && !particles->range[s].known)
             particles->range[s] = ranges_find(&renderer->ranges, &particles->scalar[s], particles->count);
@@ -361,7 +373,15 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
     const Subject subject = subject_of(renderer);
-    const ParticleBuffers with = derived_of(renderer, state, timer);
+    const ParticleWants wants = {.scalars = SCALAR_BIT(renderer->def.color_by)}; /* all that is kept of one */
+    ParticleBuffers with = *state;
+    if (!overlays_take_any(&renderer->overlays))
+        return;
+    if ((int)renderer->def.color_by >= SCALAR_STATE_COUNT)
+        GL_STAGE(timer, STAGE_SCALARS)
+        {
+            derive(renderer, &wants, &with);
+        }
     overlays_take(&renderer->overlays, &with, &subject, timer);
 }
 

@@ -448,12 +448,42 @@ static void a_curve_bends_their_colors(void **state)
     movers_destroy(movers);
 }
 
+/* What was gathered stays where a def is refused. */
+static void a_refused_view_loses_no_trail(void **state)
+{
+    (void)state;
+    enum { WIDE = 120, HIGH = 90 };
+    static uint8_t before[3 * WIDE * HIGH], after[3 * WIDE * HIGH];
+    Error error = {0};
+    ViewDef def = trails_view();
+    Movers *movers = movers_create();
+    Renderer *renderer = renderer_create(&def, NULL, WIDE, HIGH, &error);
+    assert_non_null(renderer);
+    ParticleBuffers particles;
+    for (int i = 0; i < 4; i++) {
+        movers_clear(movers);
+        movers_add(movers, 1, -0.3 + 0.2 * i, 0.5, 0, 0.25);
+        particles = movers_upload(movers, 0.1 * i);
+        renderer_draw(renderer, &particles, NULL);
+    }
+    renderer_read(renderer, before);
+    text_set(def.kind, "blob");
+    trails_def(&def)->show = false;
+    assert_false(renderer_set_def(renderer, &def, NULL, &error));
+    renderer_draw(renderer, &particles, NULL);
+    renderer_read(renderer, after);
+    assert_memory_equal(before, after, sizeof before);
+    renderer_destroy(renderer);
+    movers_destroy(movers);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(particles_are_found_in_any_order),
         TEST(points_are_no_closer_than_asked_for),
         TEST(time_may_go_back),
+        TEST(a_refused_view_loses_no_trail),
         TEST(a_reset_empties_them),
         TEST(a_jump_is_no_path),
         TEST(particles_come_and_go),
