@@ -65,14 +65,21 @@ static bool at_end(const Player *player)
     return player->time >= player->status.last;
 }
 
+/* Whether it would begin anew, at the end. */
+static bool loops(const Player *player)
+{
+    return player->loop && player->status.last > player->status.first;
+}
+
 static void flow(Player *player, double seconds)
 {
     const double length = player->status.last - player->status.first;
+    const double left = fmax(player->status.last - player->time, 0);
+    player->played_s += loops(player) ? seconds : fmin(seconds, left);
     player->time += seconds;
-    player->played_s += seconds;
     if (player->time <= player->status.last)
         return;
-    if (player->loop && length > 0)
+    if (loops(player))
         player->time = player->status.first + fmod(player->time - player->status.last, length);
     else
         player->time = player->status.last;
@@ -112,7 +119,7 @@ static void seek(Player *player)
         return;
     reel_seek(player->reel, player->time, lead_of(player));
     player->asked = player->time;
-    player->wants = false;
+    player->wants = player->status.answered = false;
 }
 
 static void listen(Player *player)
@@ -123,6 +130,8 @@ static void listen(Player *player)
         status->failed = true;
         snprintf(status->message, sizeof status->message, "%s", error.message);
     }
+    if (!status->failed)
+        *player->told = 0;
     if (!status->failed || strcmp(status->message, player->told) == 0)
         return;
     snprintf(player->told, sizeof player->told, "%s", status->message);
@@ -139,8 +148,10 @@ double player_work(Player *player, double now_ms)
     else if (!player->paused)
         flow(player, 1e-3 * passed * player->speed);
     seek(player);
-    if (player->paused || player->steps != 0 || (at_end(player) && !player->loop))
+    if (player->paused || player->steps != 0 || (at_end(player) && !loops(player)))
         return INFINITY;
+    if (!player->status.answered) /* the thread wakes; time goes on meanwhile */
+        return STALL_MS;
     const double left = 1e3 * (player->status.after - player->time) / player->speed;
     return fmin(fmax(left, 1), STALL_MS);
 }

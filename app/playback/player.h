@@ -15,7 +15,7 @@ void player_destroy(Player *player); /* NULL is allowed */
 
 /* Goes on to wall time `now_ms`: the file's time moves by `speed` times as much, at most a quarter of a
    second at once, rests at the end or begins anew there. Returns in how many ms the next step is due;
-   INFINITY: it rests, or it waits for the thread, which wakes. */
+   INFINITY: it rests, or a step waits for the thread, which wakes, as it does while a step is being read. */
 double player_work(Player *player, double now_ms);
 
 void player_pause(Player *player, bool paused);

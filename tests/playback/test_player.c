@@ -58,6 +58,38 @@ static void run(Player *player, double seconds)
     }
 }
 
+static void rest_is_neither_played_nor_polled(void **state)
+{
+    (void)state;
+    PlayerStatus status;
+    const size_t one = 3;
+    Recorded recorded;
+    Player *player = open_player(false);
+    shown(player);
+    player_set_speed(player, 64);
+    run(player, 2);
+    shown(player);
+    player_status(player, &status);
+    assert_true(fabs(status.played_s - 1.9) < 1e-9);
+    assert_true(isinf(player_work(player, now_ms)));
+    player_go_to(player, 0.55);
+    player_set_speed(player, 1);
+    const double due_ms = player_work(player, now_ms); /* the step was asked for just now */
+    assert_true(due_ms >= 40);
+    player_destroy(player);
+    write_file("b.h5part", &one, 1, 0.1);
+    open_recorded(&recorded, "b.h5part", NULL);
+    player = player_create(&recorded, NULL, false, &error);
+    must(player, &error);
+    player_set_loop(player, true);
+    for (int k = 0; k < 200; k++, usleep(1000))
+        player_work(player, now_ms += 10);
+    assert_true(isinf(player_work(player, now_ms)));
+    player_status(player, &status);
+    assert_true(status.played_s == 0);
+    player_destroy(player);
+}
+
 static void time_follows_the_clock(void **state)
 {
     (void)state;
@@ -163,7 +195,8 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, folder_setup, folder_teardown)
     const struct CMUnitTest tests[] = {
-        TEST(time_follows_the_clock), TEST(a_stall_is_left_out), TEST(it_says_when_the_next_step_is_due),
+        TEST(time_follows_the_clock), TEST(rest_is_neither_played_nor_polled),
+        TEST(a_stall_is_left_out),    TEST(it_says_when_the_next_step_is_due),
         TEST(it_begins_anew),         TEST(steps_and_jumps),
     };
     return cmocka_run_group_tests(tests, context_begin, context_end);
