@@ -76,22 +76,43 @@ static bool blame(const Session *session, Error *error)
     return error_set(error, "%s%s", session->prefix, reason.message);
 }
 
-static bool advance(Render *render, int world, double time, Error *error)
+/* One step of a world on its way to the picture at `time`. */
+static bool step(Render *render, int world, double time, Error *error)
 {
     Session *session = &render->sessions[world];
-    const bool interpolates = shoot_interpolates(&render->shoot, session);
-    world_stop_at(session->world, time);
-    while (!session_reached(session, time) && !interrupted()) {
-        if (!shoot_watch(&render->shoot, session, time, error))
-            return blame(session, error);
-        const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
-        const double began = wall_ms();
-        if ((interpolates && last && !shoot_keep(&render->shoot, session, error)) ||
-            !session_step(session, error))
-            return blame(session, error);
-        render->figures.step_seconds[world] += 1e-3 * (wall_ms() - began);
-        progress_update(&render->progress, fraction_done(render));
-    }
+    if (!shoot_watch(&render->shoot, session, time, error))
+        return blame(session, error);
+    const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
+    const double began = wall_ms();
+    if ((shoot_interpolates(&render->shoot, session) && last &&
+         !shoot_keep(&render->shoot, session, error)) ||
+        !session_step(session, error))
+        return blame(session, error);
+    render->figures.step_seconds[world] += 1e-3 * (wall_ms() - began);
+    progress_update(&render->progress, fraction_done(render));
+    return true;
+}
+
+/* The world that is furthest behind of those that are not there yet; -1: all are. */
+static int find_next(const Render *render, double time)
+{
+    int next = -1;
+    for (int i = 0; i < render->plan.world_count; i++)
+        if (!session_reached(&render->sessions[i], time) &&
+            (next < 0 || render->sessions[i].info.time < render->sessions[next].info.time))
+            next = i;
+    return next;
+}
+
+/* All worlds side by side, so that after a signal they are at about one time. */
+static bool advance(Render *render, double time, Error *error)
+{
+    int next;
+    for (int i = 0; i < render->plan.world_count; i++)
+        world_stop_at(render->sessions[i].world, time);
+    while ((next = find_next(render, time)) >= 0 && !interrupted())
+        if (!step(render, next, time, error))
+            return false;
     return true;
 }
 
@@ -123,9 +144,8 @@ static bool take_pictures(Render *render, Error *error)
     const Schedule *schedule = &render->schedule;
     while (render->figures.pictures < schedule->count) {
         const double time = schedule->first + schedule->interval * (double)render->figures.pictures;
-        for (int i = 0; i < render->plan.world_count; i++)
-            if (!advance(render, i, time, error))
-                return false;
+        if (!advance(render, time, error))
+            return false;
         if (interrupted() && render->figures.pictures > 0)
             break;
         if (!take_picture(render, time, error))

@@ -61,7 +61,7 @@ static void tell_range(const RenderPlan *plan)
 /* Where fixed steps of different lengths meet. */
 static void tell_apart(const RenderPlan *plan, const RenderFigures *figures)
 {
-    if (figures->apart > 1e-6 * plan->scenes[0].world.dt)
+    if (!figures->stopped && figures->apart > 1e-6 * plan->scenes[0].world.dt)
         fprintf(stderr,
                 "panels show their first states at or after a picture's time, up to %.3g s apart; "
                 "--interpolate shows all at that very time\n",

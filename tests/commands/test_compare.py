@@ -1,7 +1,9 @@
 """`render --compare`: panels are the pictures of their settings, with one range, at one time; what is wrong starts nothing."""
 import json
+import re
 import signal
 import subprocess
+from time import sleep as wait
 
 import numpy
 
@@ -177,6 +179,20 @@ class Words(CompareTest):
         self.assertRegex(said, r'\nsolver\.step\.dt 0\.2: t = .* s: .*back to')
         self.assertRegex(said, r'\nsolver\.step\.dt 0\.2: the simulation blew up at')
         self.assertRegex(json.loads(self.read('out.json'))['error'], r'^solver\.step\.dt 0\.2: the simulation blew up')
+
+    def test_stopped_within_the_only_picture(self):
+        """Worlds go side by side: none is far ahead of another."""
+        process = self.start('render', 'scene.yaml', '-o', 'out.png', '--time', '1000', '--size', '64x64', '--compare',
+                             'particles=200,300', '--json', 'out.json')
+        process.stderr.readline()
+        wait(1)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, said)
+        times = [float(t) for t in re.findall(r'particles?, ([0-9.e+-]+) s simulated in', said)]
+        self.assertEqual(len(times), 2, said)
+        self.assertGreater(min(times), 0.9 * max(times) - 0.02, said)
+        self.assertNotIn('panels show their first states', said)
 
     def test_stopped_by_a_signal(self):
         process = self.start('render', 'scene.yaml', '-o', 'frames', '--time', '100', '--size', '64x64', '--quiet', '--compare',
