@@ -127,6 +127,46 @@ static bool fit_together(const RenderPlan *plan, Error *error)
                      plan->world_count, particles);
 }
 
+/* The same twice would be a panel twice, or one that shows another value than its name says. */
+static bool check_sweeps(const Args *args, Error *error)
+{
+    for (int i = 0; i < args->sweep_count; i++) {
+        const Sweep *sweep = &args->sweeps[i];
+        for (int k = 0; k < i; k++)
+            if (strcmp(sweep->key, args->sweeps[k].key) == 0)
+                return error_set(error, "--compare %s stands twice; name all its values in one", sweep->key);
+        for (int a = 0; a < sweep->count; a++)
+            for (int b = 0; b < a; b++)
+                if (strcmp(sweep->values[a], sweep->values[b]) == 0)
+                    return error_set(error, "--compare %s has the value %s twice", sweep->key,
+                                     sweep->values[a]);
+    }
+    return true;
+}
+
+static bool sets(const char *setting, const char *key)
+{
+    const size_t length = strlen(key);
+    return strncmp(setting, key, length) == 0 && setting[length] == '=';
+}
+
+/* What the command line sets besides, where each panel has its own. */
+static void tell_idle(const Args *args)
+{
+    const SceneSettings *settings = &args->settings;
+    for (int i = 0; i < args->sweep_count; i++) {
+        const char *key = args->sweeps[i].key;
+        if (strcmp(key, "particles") == 0 && settings->particles > 0)
+            fprintf(stderr, "--particles %zu has no effect: --compare %s decides\n", settings->particles,
+                    key);
+        for (int k = 0; k < settings->count; k++)
+            if (sets(settings->set[k], key))
+                fprintf(stderr, "%s%s has no effect: --compare %s decides\n",
+                        settings->said[k] ? "" : "--set ",
+                        settings->said[k] ? settings->said[k] : settings->set[k], key);
+    }
+}
+
 bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
 {
     static Notes notes[PANELS_MAX];
@@ -137,6 +177,8 @@ bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
                          "slosh render: --compare shows two or four settings side by side, not %zu; name two "
                          "or four values of a key, or two of two keys each",
                          settings);
+    if (!check_sweeps(args, error))
+        return false;
     for (int i = 0; i < plan->setting_count; i++) {
         sweeps_name(args->sweeps, args->sweep_count, (size_t)i, " ", plan->names[i], TITLE_SIZE);
         if (!load(plan, i, &plan->scenes[i], &notes[i], error))
@@ -144,6 +186,7 @@ bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
     }
     if (!lay_out(plan, error))
         return false;
+    tell_idle(args);
     tell_notes(plan, notes);
     return fit_together(plan, error);
 }

@@ -171,6 +171,16 @@ class Words(CompareTest):
         self.assertRegex(said, r'^solver\.method dfsph: scene.yaml:14:3: solver\.sound_speed has no effect')
         self.assertNotIn('solver.method mueller: ', said)
 
+    def test_what_stands_twice(self):
+        for words, arguments in (('--compare gravity has the value 9 twice', ['gravity=9,9']),
+                                 ('--compare solver.method stands twice; name all its values in one',
+                                  ['method=mueller,dfsph', '--compare', 'solver.method=pbf,wcsph'])):
+            code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--compare', *arguments)
+            self.assertEqual((code, words in said, self.entries()), (2, True, []), said)
+        said, _ = self.compare('--compare', 'method=mueller,wcsph', '--method', 'pbf', '--quiet', '--set', 'view.radius=1')
+        self.assertEqual(said.count('has no effect: --compare'), 1)
+        self.assertIn('--method pbf has no effect: --compare solver.method decides\n', said)
+
     def test_trouble_names_its_panel(self):
         code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '1', '--json', 'out.json', '--compare',
                                 'solver.step.dt=0.004,0.2')
