@@ -81,7 +81,8 @@ static const char *taken_by(const char *bytes, size_t size)
         {"slosh recording ", "a recorded session, no scene; slosh replay takes it"},
         {"slosh device recording ", "a recording of motion devices, no scene; --device file:PATH takes it"},
         {"\x89HDF\r\n\x1a\n",
-         "a file of snapshots, no scene; slosh export takes it, and slosh run goes on with one by -o and --resume"},
+         "a file of snapshots, no scene; slosh play, slosh render and slosh export take it, and slosh run goes on with one by -o and "
+         "--resume"},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (size >= strlen(kinds[i].begin) && memcmp(bytes, kinds[i].begin, strlen(kinds[i].begin)) == 0)

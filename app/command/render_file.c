@@ -71,10 +71,14 @@ static bool choose_times(FileRender *render, const Recorded *recorded, PicturesK
         render->wanted = (size_t)args->frames;
     else
         render->wanted = (size_t)fmin(fmax(ceil((until - recorded->first) * args->fps - 1e-6), 1), 1e7);
-    if (!args->time_given || args->time <= recorded->last + 1e-9 * fmax(fabs(recorded->last), 1))
-        return true;
-    return error_set(error, "%s: ends at %.9g s, before --time %.9g", recorded->path, recorded->last,
-                     args->time);
+    const double end = recorded->last + 1e-9 * fmax(fabs(recorded->last), 1),
+                 last = render->first + render->interval * (double)(render->wanted - 1);
+    if (args->time_given && args->time > end)
+        return error_set(error, "%s: ends at %.9g s, before --time %.9g", recorded->path, recorded->last,
+                         args->time);
+    return args->frames == 0 || last <= end ||
+           error_set(error, "%s: ends at %.9g s; the last of --frames %d would be at %.9g s", recorded->path,
+                     recorded->last, (int)args->frames, last);
 }
 
 static bool check_views(const Recorded *recorded, const Scene *scene, Error *error)
@@ -99,6 +103,8 @@ static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kin
         return false;
     }
     notes_print(&notes, stderr);
+    if (args->time_given && args->frames > 0)
+        fprintf(stderr, "--time %.9g has no effect: --frames says how long it lasts\n", args->time);
     return true;
 }
 
@@ -231,6 +237,8 @@ static int show(FileRender *render, Recorded *recorded, Error *error)
     if (open_all(render, recorded, error) && take_pictures(render, error)) {
         code = finish(render, error);
     } else {
+        if (render->reel)
+            reel_print_flaws(render->reel, stderr);
         fail(render, error);
         pictures_discard(render->pictures);
     }

@@ -116,6 +116,10 @@ class Times(PlaybackTest):
         self.assertEqual(len(os.listdir(self.path('few'))), 4)
         self.render('a.h5part', 'three', '--frames', '3')
         self.assertEqual(len(os.listdir(self.path('three'))), 3)
+        self.assertIn('--time 0.3 has no effect: --frames says how long it lasts\n',
+                      self.render('a.h5part', 'three', '--frames', '3', '--time', '0.3'))
+        self.assertEqual(self.render('a.h5part', 'nine', '--frames', '9', '--fps', '10', code=2),
+                         'a.h5part: ends at 0.4 s; the last of --frames 9 would be at 0.8 s\n')
 
     def test_thousands_of_steps(self):
         """The first picture of a file comes as soon as that of a short one: 0.4 s on two busy cores, most of it the
