@@ -362,7 +362,8 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         }
     if (renderer->view) {
         view_draw(renderer->view, particles, &frame);
-        frame.note = view_note(renderer->view);
+        if (renderer->def.legend) /* which waits for what it tells */
+            frame.note = view_note(renderer->view);
     }
     if (!frame.flat)
         overlays_draw(&renderer->overlays, particles, &frame);

@@ -139,7 +139,8 @@ static void draw_curves(Text *text, const Frame *frame, float bottom)
         draw_curve(text, &layout, line, "size", &def->size, frame->size_range);
 }
 
-static void draw_scalar(Text *text, const Frame *frame)
+/* Returns its height in letters, as draw_fluids. */
+static float draw_scalar(Text *text, const Frame *frame)
 {
     enum { HEIGHT_EM = 15 };
     Layout layout = make_layout(text, frame, SCALAR_WIDTH_EM, HEIGHT_EM);
@@ -152,9 +153,7 @@ static void draw_scalar(Text *text, const Frame *frame)
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
     draw_bar(text, frame->def, frame->beyond, x, y0, x + 1.2F * em, y1);
     draw_ticks(text, &layout, frame->range, x + 1.2F * em, y0, y1);
-    if (frame->note)
-        text_draw(text, layout.right, layout.bottom + 0.6F * em, 1, layout.faint, TEXT_RIGHT, frame->note);
-    draw_curves(text, frame, HEIGHT_EM + (frame->note ? 1.4F : 0));
+    return HEIGHT_EM;
 }
 
 static float encode(float linear)
@@ -170,13 +169,14 @@ static uint32_t fluid_rgba(const float linear[3])
     return rgba << 8 | 255;
 }
 
-static void draw_fluids(Text *text, const Frame *frame)
+static float draw_fluids(Text *text, const Frame *frame)
 {
     const WorldDef *world = frame->world;
     float widest = 0;
     for (int i = 0; i < world->fluid_count; i++)
         widest = fmaxf(widest, text_width(text, 1, world->fluids[i].name) / text_height(text));
-    Layout layout = make_layout(text, frame, widest + 3.3F, 1.6F * (float)world->fluid_count + 0.9F);
+    const float height = 1.6F * (float)world->fluid_count + 0.9F;
+    Layout layout = make_layout(text, frame, widest + 3.3F, height);
     float em = layout.em, x = layout.left + 0.8F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     for (int i = 0; i < world->fluid_count; i++) {
@@ -184,7 +184,7 @@ static void draw_fluids(Text *text, const Frame *frame)
         text_rectangle(text, x, y, x + em, y + em, 0.5F * em, fluid_rgba(world->fluids[i].color));
         text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, world->fluids[i].name);
     }
-    draw_curves(text, frame, 1.6F * (float)world->fluid_count + 0.9F);
+    return height;
 }
 
 void legend_line(Text *text, const Frame *frame, float x, float y, const char *line)
@@ -199,8 +199,14 @@ void legend_draw(Text *text, const Frame *frame, double time)
     char label[40];
     snprintf(label, sizeof label, "%.2f s", time);
     legend_line(text, frame, em, (float)frame->height - 2 * em, label);
-    if (!frame->by_fluid)
-        draw_scalar(text, frame);
-    else if (frame->world->fluid_count > 0)
-        draw_fluids(text, frame);
+    float bottom = !frame->by_fluid                ? draw_scalar(text, frame)
+                   : frame->world->fluid_count > 0 ? draw_fluids(text, frame)
+                                                   : 0;
+    if (frame->note) {
+        const Layout layout = make_layout(text, frame, 0, bottom);
+        text_draw(text, layout.right, layout.bottom + 0.6F * em, 1, layout.faint, TEXT_RIGHT, frame->note);
+        bottom += 1.4F;
+    }
+    if (bottom > 0)
+        draw_curves(text, frame, bottom);
 }

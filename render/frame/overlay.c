@@ -4,6 +4,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 void *overlay_own(const ViewDef *def, const OverlayKind *kind)
@@ -130,7 +131,9 @@ void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame)
     int lines = 0;
     for (int i = 0; overlay_list[i]; i++) {
         char line[160] = "";
-        if (overlays->state[i] && overlay_list[i]->legend)
+        if (overlays->state[i] && frame->flat && lines == 0)
+            snprintf(line, sizeof line, "no overlays on a flat slice");
+        else if (overlays->state[i] && !frame->flat && overlay_list[i]->legend)
             overlay_list[i]->legend(overlays->state[i], frame, line, sizeof line);
         if (*line)
             legend_line(text, frame, em, (float)frame->height - (3.6F + 1.6F * (float)lines++) * em, line);

@@ -101,7 +101,8 @@ typedef struct ViewKind {
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* What the legend is to say of the picture that was drawn, static; NULL: nothing. May be NULL. */
+    /* What the legend is to say of the picture that was drawn, static; may wait for it. NULL: nothing. May be
+       NULL. */
     const char *(*note)(const void *state);
     /* What of it the mouse may take in the window, at most HANDLES_MAX; how many. NULL: nothing. */
     int (*handles)(const ViewDef *def, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);

@@ -98,18 +98,13 @@ static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *part
     glDisable(GL_BLEND);
 }
 
-/* What the query of the run before has found, where that is known without waiting. */
-static void take_query(PlaneSum *sum)
+bool plane_sum_none(const PlaneSum *sum)
 {
-    GLuint known = 0, any = 0;
-    if (!sum->query) {
-        glGenQueries(1, &sum->query);
-        return;
-    }
-    glGetQueryObjectuiv(sum->query, GL_QUERY_RESULT_AVAILABLE, &known);
-    if (known)
-        glGetQueryObjectuiv(sum->query, GL_QUERY_RESULT, &any);
-    sum->none = known && !any;
+    GLuint any = 0;
+    if (!sum->asked)
+        return sum->none;
+    glGetQueryObjectuiv(sum->query, GL_QUERY_RESULT, &any);
+    return !any;
 }
 
 /* The CPU's sums become the texture. */
@@ -138,6 +133,7 @@ bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *pa
     if (!plane_sum_prepare(sum, job->kernel, error) || !follow_samples(sum, job->samples, error))
         return false;
     fill(sum, job); /* which what shows the sums reads too */
+    sum->asked = false;
     sum->by_rows = some && by_rows(job);
     if (sum->by_rows)
         return add_rows(sum, job, particles, error);
@@ -145,7 +141,9 @@ bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *pa
     sum->none = !some;
     if (!some)
         return true;
-    take_query(sum);
+    if (!sum->query)
+        glGenQueries(1, &sum->query);
+    sum->asked = true;
     draw(sum, job, particles);
     return true;
 }

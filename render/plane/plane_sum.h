@@ -23,9 +23,10 @@ typedef struct PlaneSum {
     int samples[2]; /* of the texture */
     QuadIndices quads;
     PlaneRows rows;
-    bool by_rows;   /* the last run: rows.out has its sums too */
-    bool none;      /* no particle reaches the rectangle: of the last run, on a GPU of the one before */
-    unsigned query; /* of that, on a GPU */
+    bool by_rows; /* the last run: rows.out has its sums too */
+    bool none;    /* no particle reaches the rectangle, where the last run has not asked a GPU: */
+    bool asked;   /* the query, which has it then */
+    unsigned query;
 } PlaneSum;
 
 /* Makes its shaders for a kernel of plane_kernels; false when one does not compile: the last ones stay. */
@@ -35,6 +36,9 @@ bool plane_sum_prepare(PlaneSum *sum, int kernel, Error *error);
    either case. The texture is this one's, up to the next run. The scalar must be among the attributes. */
 bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error);
 void plane_sum_destroy(PlaneSum *sum);
+
+/* Whether no particle reaches the rectangle; waits for the last run on a GPU. */
+bool plane_sum_none(const PlaneSum *sum);
 
 /* The sums of the last run, 4 floats a sample, rows from the bottom up; waits for them. */
 void plane_sum_read(const PlaneSum *sum, float *out);

@@ -322,7 +322,9 @@ static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers
 static const char *note(const void *state)
 {
     const SliceView *view = state;
-    return !view->probe.drawn ? "the plane misses the box" : view->sum.none ? "no fluid on the plane" : NULL;
+    return !view->probe.drawn           ? "the plane misses the box"
+           : plane_sum_none(&view->sum) ? "no fluid on the plane"
+                                        : NULL;
 }
 
 static bool pick(const void *state, const double pixel[2], double at[3])

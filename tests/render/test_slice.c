@@ -633,11 +633,8 @@ static void a_plane_without_fluid_is_said(void **state)
         scene.job.by = cases[i].by_quads ? PLANE_QUADS : PLANE_ROWS;
         plane_make(scene.state.box_size, (double[3]){0, cases[i].height, 0}, (double[3]){0, 1, 0},
                    &scene.job.plane);
-        for (int run = 0; run < 2; run++) {
-            assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
-            glFinish();
-        }
-        assert_int_equal(sum.none, cases[i].none);
+        assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
+        assert_int_equal(plane_sum_none(&sum), cases[i].none);
         plane_sum_destroy(&sum);
     }
     upload_destroy(upload);
