@@ -257,18 +257,19 @@ void panels_curve_ranges(const Panels *panels, int index, double opacity[2], dou
     renderer_curve_ranges(panels->panels[index].renderer, opacity, size);
 }
 
-/* Of the line between panels, sRGB: dark on bright backgrounds. */
-static const uint8_t *line_color(const Panels *panels)
+/* Of the line between panels, sRGB. */
+static void line_color(const Panels *panels, uint8_t rgb[3])
 {
-    static const uint8_t dark[3] = {0x1c, 0x22, 0x2a}, bright[3] = {0xf2, 0xf4, 0xf6};
-    const double *back = panels->panels[0].def.background;
-    return 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18 ? dark : bright;
+    const uint32_t ink = legend_ink(&panels->panels[0].def);
+    for (int k = 0; k < 3; k++)
+        rgb[k] = (uint8_t)(ink >> (24 - 8 * k));
 }
 
 bool panels_read(const Panels *panels, uint8_t *rgb, Error *error)
 {
     const size_t width = (size_t)panels->width, height = (size_t)panels->height;
-    const uint8_t *line = line_color(panels);
+    uint8_t line[3];
+    line_color(panels, line);
     if (panels->count == 1) {
         renderer_read(panels->panels[0].renderer, rgb);
         return true;
@@ -310,7 +311,8 @@ static void draw_mark(const Panels *panels, const PanelPlace *at)
 
 void panels_present(const Panels *panels)
 {
-    const uint8_t *line = line_color(panels);
+    uint8_t line[3];
+    line_color(panels, line);
     if (panels->count > 1) {
         const GLfloat color[4] = {line[0] / 255.0F, line[1] / 255.0F, line[2] / 255.0F, 1};
         glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */

@@ -49,7 +49,7 @@ double panels_legend(const Panels *panels);
 
 /* Draws a state in each panel. Panels whose range follows the state and that show the same scalar have one
    range for all of them, from the least end of theirs to the greatest, so that a colour means the same; a
-   state without a number counts for nothing.
+   state without a number counts for nothing. One that is symmetric about 0 is so about the joint range.
    Automatic cameras leave the widest legend its place, so that boxes that are alike lie alike. */
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
 

@@ -59,19 +59,29 @@ void legend_unit(const char *unit, char out[32])
     out[used] = 0;
 }
 
+bool legend_ink_is_dark(const ViewDef *def)
+{
+    const double *back = def->background;
+    return 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18;
+}
+
+uint32_t legend_ink(const ViewDef *def)
+{
+    return legend_ink_is_dark(def) ? 0x1c222aff : 0xf2f4f6ff;
+}
+
 static Layout make_layout(const Text *text, const Frame *frame, float width_em, float height_em)
 {
-    const double *back = frame->def->background;
-    bool light = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18;
+    const uint32_t ink = legend_ink(frame->def);
     float em = text_height(text), right = (float)frame->width - em;
     return (Layout){.em = em,
                     .left = right - width_em * em,
                     .right = right,
                     .top = em,
                     .bottom = em + height_em * em,
-                    .ink = light ? 0x1c222aff : 0xf2f4f6ff,
-                    .faint = light ? 0x1c222a90 : 0xf2f4f690,
-                    .panel = light ? 0xffffffa0 : 0x10141880};
+                    .ink = ink,
+                    .faint = (ink & 0xffffff00) | 0x90,
+                    .panel = legend_ink_is_dark(frame->def) ? 0xffffffa0 : 0x10141880};
 }
 
 static uint32_t map_color(const uint8_t *rgb, int i)

@@ -14,6 +14,10 @@ void legend_unit(const char *unit, char out[32]);
 
 void legend_draw(Text *text, const Frame *frame, double time);
 
+/* The colour of words over a picture of that def, 0xRRGGBBff in sRGB: dark on bright backgrounds. */
+uint32_t legend_ink(const ViewDef *def);
+bool legend_ink_is_dark(const ViewDef *def);
+
 /* A line of words at that place, pixels from the left and the top, in the legend's faint ink. */
 void legend_line(Text *text, const Frame *frame, float x, float y, const char *line);
 

@@ -35,10 +35,8 @@ int title_rows(const Title *title, int height)
 
 void title_draw(Text *text, const Title *title, const Frame *frame)
 {
-    const double *back = frame->def->background;
-    const bool light = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18;
-    const uint32_t ink = light ? 0x1c222aff : 0xf2f4f6ff, faint = light ? 0x1c222ab0 : 0xf2f4f6b0,
-                   panel = light ? 0xffffffd0 : 0x101418c0;
+    const uint32_t ink = legend_ink(frame->def), faint = (ink & 0xffffff00) | 0xb0,
+                   panel = legend_ink_is_dark(frame->def) ? 0xffffffd0 : 0x101418c0;
     const float em = text_height(text), around = AROUND * em, x = em + around;
     const float legend = (float)legend_width_pixels(frame->def, frame->world, frame->height);
     const float room = (float)frame->width - legend - 2 * em - 2 * around;
