@@ -27,7 +27,10 @@ static bool check_scene(const char *scene, const Args *args, Error *error)
 static bool check_recorded(const char *file, const Args *args, Error *error)
 {
     Recorded recorded;
-    const char *option = args->record ? "--record" : args->device ? "--device" : NULL;
+    const char *option = args->record       ? "--record"
+                         : args->device     ? "--device"
+                         : args->past_given ? "--past"
+                                            : NULL;
     if (option)
         return error_set(error, "%s makes no sense for %s: nothing is simulated", option, file);
     if (!recorded_open(file, &args->settings, &recorded, NULL, error))

@@ -206,6 +206,7 @@ static bool parse_value(const Parser *parser, const OptionRow *option, const cha
         return *text || fail(parser, "%s needs a name after it, not an empty one", option->name);
     case OPTION_NUMBER:
         parser->args->time_given |= strcmp(option->name, "--time") == 0;
+        parser->args->past_given |= strcmp(option->name, "--past") == 0;
         parser->args->seconds_given |= strcmp(option->name, "--seconds") == 0;
         return parse_number(parser, option, text, false, out);
     case OPTION_COUNT:

@@ -97,9 +97,10 @@ typedef struct Args {
     bool views;        /* chart: pictures instead of runs */
     bool ablate;       /* bench: the scene without each of its terms */
     bool seconds_given;
-    double seconds;            /* of play or micro; more than 0; default 20 */
-    const char *record;        /* FILE, or NULL; of devices: raw reports */
-    double past;               /* MiB of states to step back to; default 256 */
+    double seconds;     /* of play or micro; more than 0; default 20 */
+    const char *record; /* FILE, or NULL; of devices: raw reports */
+    double past;        /* MiB of states to step back to; default 256 */
+    bool past_given;
     const char *device;        /* "file:PATH", or NULL: what is plugged in */
     bool watch;                /* devices: live values */
     const char *mapping;       /* FILE, or NULL: the user's own, or what is built in */

@@ -207,6 +207,7 @@ class Files(PlayerTest):
         for arguments, words in ((['text.h5part'], 'text.h5part: is no file of snapshots'),
                                  (['missing.h5part'], 'missing.h5part: cannot be read: No such file'),
                                  (['a.h5part', '--record', 'a.rec'], '--record makes no sense for a.h5part: nothing is simulated'),
+                                 (['a.h5part', '--past', '10'], '--past makes no sense for a.h5part: nothing is simulated'),
                                  (['a.h5part', '--backend', 'cpu'], '--backend cpu makes no sense for a.h5part')):
             code, said = self.slosh(*arguments)
             self.assertEqual(code, 2, said)
