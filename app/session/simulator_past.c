@@ -13,7 +13,7 @@ void simulator_past_begin(Simulator *simulator)
     WorldInfo info;
     simulator->behind = false;
     simulator->at = 0;
-    simulator->told_short = simulator->told_other = false;
+    simulator->told_short = simulator->told_other = simulator->told_long = simulator->told_none = false;
     if (!simulator->past || !simulator->world)
         return;
     world_info(simulator->world, &info);
@@ -261,11 +261,11 @@ static void jump_done(Simulator *simulator, double began)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-static void tell_none(Simulator *simulator, const char *words)
+static void tell_once(Simulator *simulator, bool *told, const char *words)
 {
-    if (!simulator->told_other)
+    if (!*told)
         simulator_tell(simulator, false, words);
-    simulator->told_other = true;
+    *told = true;
 }
 
 /* The settings that wait, which were asked for before; what is left of a frame. */
@@ -291,9 +291,11 @@ void simulator_travel(Simulator *simulator, Work *work)
         return;
     }
     if (!simulator->past || simulator->recording_lost) {
-        tell_none(simulator, simulator->past
-                                 ? "the session is too long to go back in; a reset begins a new one"
-                                 : "nothing is kept to go back to (--past 0)");
+        if (simulator->past)
+            tell_once(simulator, &simulator->told_long,
+                      "the session is too long to go back in; a reset begins a new one");
+        else
+            tell_once(simulator, &simulator->told_none, "nothing is kept to go back to (--past 0)");
         jump_done(simulator, began);
         return;
     }
@@ -302,7 +304,7 @@ void simulator_travel(Simulator *simulator, Work *work)
         leave(simulator);
     const uint64_t place = place_of(simulator, &work->wish);
     if (!same_bits(simulator) && place < past_last(simulator->past))
-        tell_none(simulator,
+        tell_once(simulator, &simulator->told_other,
                   "what is simulated again differs in the last bits; solver.reproducible: true in the "
                   "scene gives the same ones");
     pthread_mutex_lock(&simulator->lock);

@@ -107,7 +107,7 @@ struct Simulator {
     bool behind;         /* there are later places: time follows the recording, */
     size_t next;         /* whose command this is the next one then */
     Newest newest;       /* then */
-    bool told_short, told_other;
+    bool told_short, told_other, told_long, told_none;
     Upload *upload;
     void (*wake)(void);
     uint64_t taken; /* commands */
