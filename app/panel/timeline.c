@@ -116,14 +116,10 @@ static float draw_words(Ui *ui, const float area[4], const TimelineData *data)
 static void draw_line(Ui *ui, const float area[4], const TimelineData *data, TimelineEvents *events)
 {
     static const float LEAST_EM = 24; /* of words and bar */
-    const float em = ui_pixels(ui), name = data->name ? ui_words_width(ui, data->name) + em : 0;
+    const float em = ui_pixels(ui);
     float bar[4] = {draw_buttons(ui, area, data, events), area[1], area[2], area[3]};
     if (bar[2] - bar[0] > LEAST_EM * em)
         bar[2] = draw_words(ui, area, data) - em;
-    if (name > 0 && bar[2] - bar[0] - name > 0.5F * LEAST_EM * em) {
-        ui_words(ui, bar[0], area[1] + LETTERS_EM * em, INK, data->name);
-        bar[0] += name;
-    }
     bar[0] = floorf(bar[0]);
     bar[2] = fmaxf(floorf(bar[2]), bar[0] + 1);
     draw_bar(ui, bar, data, events);

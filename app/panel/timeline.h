@@ -12,11 +12,10 @@
 #include <stdbool.h>
 
 typedef struct TimelineData {
-    double from, to;  /* s, from <= to: what can be shown now */
-    double now;       /* s: what the picture shows; one beyond the ends is drawn at the nearer end */
-    bool playing;     /* time runs: the first button says pause, else play */
-    bool grows;       /* more is added at `to` while time runs there: a simulation, not a file */
-    const char *name; /* whose time it is, before the bar; NULL: nothing */
+    double from, to; /* s, from <= to: what can be shown now */
+    double now;      /* s: what the picture shows; one beyond the ends is drawn at the nearer end */
+    bool playing;    /* time runs: the first button says pause, else play */
+    bool grows;      /* more is added at `to` while time runs there: a simulation, not a file */
 } TimelineData;
 
 typedef struct TimelineEvents {

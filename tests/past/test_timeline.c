@@ -94,7 +94,7 @@ static void all_stands_in_the_window(void **state)
         const int width = widths[i / 2];
         Desk *desk = open_line(&line, width, i % 2 ? 26 : 13);
         line.left = i % 2 && width > 1000 ? 400 : 0;
-        line.data = (TimelineData){.from = 1234.56, .to = 2345.67, .now = 5000, .name = "a_file.h5part"};
+        line.data = (TimelineData){.from = 1234.56, .to = 2345.67, .now = 5000};
         desk->input.changed = true;
         desk_frames(desk, 5);
         for (int k = 0; k < desk->seen_count; k++) {
