@@ -103,7 +103,7 @@ static void what_is_short_is_known(void **state)
 {
     (void)state;
     Bench bench;
-    bench_open(&bench, 300000);
+    bench_open(&bench, sizeof(Scene) + 236000);
     frames(&bench, 100, 60);
     assert_true(past_first(bench.past) == 0 && !past_figures(bench.past).dropped);
     assert_true(longest_jump(bench.past) > 2);
