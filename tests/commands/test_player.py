@@ -199,7 +199,9 @@ class Files(PlayerTest):
         self.keys('period')
         self.assert_time(0.24)
         self.quit()
-        self.assertEqual(self.messages.count("a.h5part: Step#5: 'y' is missing or of another length\n"), 1)
+        # each time that it is met: by the key, and perhaps as it began to play
+        told = self.messages.count("a.h5part: Step#5: 'y' is missing or of another length\n")
+        self.assertIn(told, (1, 2))
 
     def test_refused(self):
         self.record()
