@@ -89,10 +89,11 @@ class BadInput(CommandTest):
         self.assertEqual(code, 0, said)
 
     def test_files_of_other_commands(self):
-        for text, takes in (('slosh recording 1\nprogram 0.1\n', 'slosh replay'), ('\x89HDF\r\n\x1a\n', 'slosh export'),
-                            ('slosh device recording 1\n', '--device file:PATH')):
+        for text, takes in (('slosh recording 1\nprogram 0.1\n', 'slosh replay takes it'),
+                            ('\x89HDF\r\n\x1a\n', 'slosh play, slosh render and slosh export take it'),
+                            ('slosh device recording 1\n', '--device file:PATH takes it')):
             self.write('other', text.encode('latin-1'))
-            self.refused('other', 'other: ', f'no scene; {takes} takes it', commands=COMMANDS[:2])
+            self.refused('other', 'other: ', f'no scene; {takes}', commands=COMMANDS[:2])
 
     def test_a_scene_that_is_nearly_named(self):
         self.refused('dam_brake', 'dam_brake: no such file', "did you mean 'dam_break'", commands=COMMANDS[:2])

@@ -80,11 +80,14 @@ class Panels(CompareTest):
 
     def test_worlds_on_a_gpu_take_turns(self):
         """Each binds all that it reads."""
-        _, result = self.compare('--compare', 'backend=cpu,compute,fragment,compute', '--set', 'view.range=[0, 2]',
-                                 size='301x301', time='0.04')
-        whole = self.picture('out.png')
+        scale = ('--set', 'view.range=[0, 2]')
+        _, result = self.compare('--compare', 'backend=compute,fragment', *scale, time='0.04')
         for panel in result['panels']:
-            self.assert_panel(whole, panel, '--backend', panel['run']['backend'], '--set', 'view.range=[0, 2]', time='0.04')
+            self.assert_panel(self.picture('out.png'), panel, '--backend', panel['run']['backend'], *scale, time='0.04')
+        compute = ('--backend', 'compute', *scale)
+        _, result = self.compare('--compare', 'solver.step.substeps=2,4', *compute, time='0.04')
+        for panel, substeps in zip(result['panels'], (2, 4)):
+            self.assert_panel(self.picture('out.png'), panel, '--set', f'solver.step.substeps={substeps}', *compute, time='0.04')
 
     def test_pictures_of_one_time(self):
         steps = ['--compare', 'solver.step.dt=0.004,0.006', '--fps', '50']
