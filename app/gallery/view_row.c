@@ -91,8 +91,8 @@ bool view_rows_write(const ViewRows *rows, const char *path, Error *error)
         for (int i = 0; i < rows->count; i++) {
             const ViewRow *row = &rows->row[i];
             if (isfinite(row->ms))
-                fprintf(file, "%016" PRIx64 ",%s,%s,%s,%.17g,%.17g,%.17g\n", row->key, row->view, row->settings,
-                        row->clock, row->ms, row->error, row->structure);
+                fprintf(file, "%016" PRIx64 ",%s,%s,%s,%.17g,%.17g,%.17g\n", row->key, row->view,
+                        row->settings, row->clock, row->ms, row->error, row->structure);
         }
         const bool whole = !ferror(file);
         if (fclose(file) == 0 && whole)
