@@ -10,10 +10,12 @@
 
 #include <stdbool.h>
 
-/* Four floats an entry, at x = i / (CONTROL_TABLE_SIZE - 1). Before 0 the curve is 0: a curve that begins
+enum { TRANSFER_ENTRIES = 256 };
+
+/* Four floats an entry, at x = i / (TRANSFER_ENTRIES - 1). Before 0 the curve is 0: a curve that begins
    above it has risen by that at once. */
 void transfer_fill(const ControlPoints *curve, const ControlPoints *opacity,
-                   float table[4 * CONTROL_TABLE_SIZE]);
+                   float table[4 * TRANSFER_ENTRIES]);
 
 /* The table as a texture, RGBA32F, linear. */
 typedef struct Transfer {

@@ -52,12 +52,6 @@ double control_points_least(const ControlPoints *points)
     return least;
 }
 
-void control_points_bake(const ControlPoints *points, float table[CONTROL_TABLE_SIZE])
-{
-    for (int i = 0; i < CONTROL_TABLE_SIZE; i++)
-        table[i] = (float)control_points_at(points, (double)i / (CONTROL_TABLE_SIZE - 1));
-}
-
 void control_points_move(ControlPoints *points, int at, double x, double y)
 {
     const double low = at > 0 ? points->x[at - 1] + CONTROL_POINTS_GAP : 0;

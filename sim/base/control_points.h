@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-enum { CONTROL_POINTS_MAX = 8, CONTROL_TABLE_SIZE = 256 };
+enum { CONTROL_POINTS_MAX = 8 };
 
 typedef struct ControlPoints {
     int count;                    /* 1 and more */
@@ -38,10 +38,6 @@ double control_points_at(const ControlPoints *points, double x);
 /* The greatest and the least y. */
 double control_points_most(const ControlPoints *points);
 double control_points_least(const ControlPoints *points);
-
-/* The curve at x = i / (CONTROL_TABLE_SIZE - 1). Between two entries a line is off by at most the change of
-   slope at a point there, times 1 / (4 * 255). */
-void control_points_bake(const ControlPoints *points, float table[CONTROL_TABLE_SIZE]);
 
 /* What the panel does. Moves a point; its neighbours stop it `CONTROL_POINTS_GAP` before them. */
 #define CONTROL_POINTS_GAP 0.002

@@ -39,25 +39,6 @@ static void lines_go_through_their_points(void **state)
     assert_true(control_points_most(&points) == 3 && control_points_least(&points) == 0);
 }
 
-/* Between two entries by no more than the header says. */
-static void a_table_is_the_curve(void **state)
-{
-    (void)state;
-    const ControlPoints points = {4, {0.1, 0.25, 0.3, 0.9}, {0.2, 1, 0, 3}};
-    const double bend = (1 - 0.2) / 0.15 + 1 / 0.05; /* the greatest change of slope */
-    float table[CONTROL_TABLE_SIZE];
-    double worst = 0;
-    control_points_bake(&points, table);
-    for (int i = 0; i < CONTROL_TABLE_SIZE; i++)
-        assert_true(table[i] == (float)control_points_at(&points, i / 255.0));
-    for (double x = 0; x < 1; x += 1e-4) {
-        const int i = (int)(255 * x);
-        const double share = 255 * x - i, value = (1 - share) * table[i] + share * table[i + 1];
-        worst = fmax(worst, fabs(value - control_points_at(&points, x)));
-    }
-    assert_true(worst > 0 && worst < bend / (4 * 255) + 1e-6);
-}
-
 static void presets_are_curves(void **state)
 {
     (void)state;
@@ -192,7 +173,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_go_through_their_points),
-        cmocka_unit_test(a_table_is_the_curve),
         cmocka_unit_test(presets_are_curves),
         cmocka_unit_test(points_are_edited),
         cmocka_unit_test(a_scene_has_curves),
