@@ -155,49 +155,26 @@ static void reached(const PlaneDisc *disc, int axis, double half, int samples, i
     *end = whole_of(floor(at + half) + 1, samples);
 }
 
-static void reached_bands(const PlaneDisc *disc, const PlaneJob *job, double reach, size_t *first,
-                          size_t *end)
+typedef struct Work {
+    PlaneRows *rows;
+    const PlaneJob *job;
+} Work;
+
+static BinSpan reached_bands(const void *context, size_t i)
 {
+    const Work *work = context;
+    const PlaneJob *job = work->job;
+    const PlaneDisc *disc = &work->rows->discs[i];
+    const double reach = job->support * job->samples[1] / job->plane.size[1];
     int row, row_end;
     reached(disc, 1, (double)sqrtf(positive(1 - disc->away)) * reach, job->samples[1], &row, &row_end);
-    *first = (size_t)row / BAND;
-    *end = row < row_end ? (size_t)(row_end - 1) / BAND + 1 : *first;
+    const size_t first = (size_t)row / BAND;
+    return (BinSpan){first, row < row_end ? (size_t)(row_end - 1) / BAND + 1 : first};
 }
 
 static size_t bands_of(const PlaneJob *job)
 {
     return ((size_t)job->samples[1] + BAND - 1) / BAND;
-}
-
-/* A counting sort: `begin` first counts the members of each band, then says where the next one goes. */
-static bool sort_by_band(PlaneRows *rows, const PlaneJob *job)
-{
-    const size_t bands = bands_of(job);
-    const double reach = job->support * job->samples[1] / job->plane.size[1];
-    size_t first, end, total = 0;
-    if (!grow((void **)&rows->begin, &rows->begin_capacity, bands + 1, sizeof *rows->begin))
-        return false;
-    memset(rows->begin, 0, (bands + 1) * sizeof *rows->begin);
-    for (size_t i = 0; i < rows->count; i++) {
-        reached_bands(&rows->discs[i], job, reach, &first, &end);
-        for (size_t b = first; b < end; b++)
-            rows->begin[b]++;
-    }
-    for (size_t b = 0; b <= bands; b++) {
-        const size_t here = rows->begin[b];
-        rows->begin[b] = total;
-        total += here;
-    }
-    if (!grow((void **)&rows->member, &rows->member_capacity, total, sizeof *rows->member))
-        return false;
-    for (size_t i = 0; i < rows->count; i++) {
-        reached_bands(&rows->discs[i], job, reach, &first, &end);
-        for (size_t b = first; b < end; b++)
-            rows->member[rows->begin[b]++] = (uint32_t)i;
-    }
-    memmove(rows->begin + 1, rows->begin, bands * sizeof *rows->begin);
-    rows->begin[0] = 0;
-    return true;
 }
 
 /* ---- the sums of a band ---- */
@@ -359,11 +336,6 @@ static void interleave(const PlaneRows *rows, int row, int samples)
     }
 }
 
-typedef struct Work {
-    PlaneRows *rows;
-    const PlaneJob *job;
-} Work;
-
 static void sum_band(const Work *work, size_t number)
 {
     PlaneRows *rows = work->rows;
@@ -378,8 +350,8 @@ static void sum_band(const Work *work, size_t number)
     for (int k = 0; k < 3; k++)
         memset(rows->sums[k] + rows->stride * (size_t)first, 0,
                rows->stride * (size_t)(end - first) * sizeof(float));
-    for (size_t m = rows->begin[number]; m < rows->begin[number + 1]; m++)
-        add_disc(&band, &rows->discs[rows->member[m]]);
+    for (size_t m = rows->bands.begin[number]; m < rows->bands.begin[number + 1]; m++)
+        add_disc(&band, &rows->discs[rows->bands.member[m]]);
     for (int row = first; row < end; row++)
         interleave(rows, row, job->samples[0]);
 }
@@ -408,7 +380,8 @@ static bool reserve(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers 
 bool plane_rows_run(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
 {
     Work work = {rows, job};
-    if (!reserve(rows, job, particles) || !list_discs(rows, job, particles) || !sort_by_band(rows, job))
+    if (!reserve(rows, job, particles) || !list_discs(rows, job, particles) ||
+        !bins_fill(&rows->bands, bands_of(job), rows->count, reached_bands, &work))
         return error_set(error, "no memory for a slice of %d x %d samples through %zu particles",
                          job->samples[0], job->samples[1], particles->count);
     parallel_ranges(parallel_processors(), bands_of(job), 1, sum_bands, &work);
@@ -419,8 +392,7 @@ void plane_rows_free(PlaneRows *rows)
 {
     free(rows->read);
     free(rows->discs);
-    free(rows->begin);
-    free(rows->member);
+    bins_free(&rows->bands);
     free(rows->out);
     for (int k = 0; k < 3; k++)
         free(rows->sums[k]);

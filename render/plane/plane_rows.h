@@ -6,6 +6,7 @@
 #define SLOSH_PLANE_ROWS_H
 
 #include "render/plane/plane_job.h"
+#include "sim/base/bins.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
 
@@ -17,10 +18,8 @@ typedef struct PlaneRows {
     size_t read_capacity;         /* floats */
     PlaneDisc *discs;             /* of the particles that reach the rectangle */
     size_t count, discs_capacity; /* of discs */
-    size_t *begin;                /* first member of each band, and their end */
-    uint32_t *member;             /* discs of the bands, one after the other */
-    size_t begin_capacity, member_capacity;
-    float *sums[3]; /* as the channels of PlaneSum.sums, rows of `stride` floats */
+    Bins bands;                   /* discs by band of rows */
+    float *sums[3];               /* as the channels of PlaneSum.sums, rows of `stride` floats */
     size_t sums_capacity[3], stride;
     float *out; /* 4 floats a sample, rows from the bottom up */
     size_t out_capacity;

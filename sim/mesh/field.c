@@ -4,7 +4,6 @@
 #include "sim/kernel/kernel.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { SLAB = 8 }; /* slices: a slab of 128^2 of them stays in a core's cache */
@@ -76,73 +75,30 @@ static void reached(const FieldParticles *particles, const VolumeGrid *grid, int
     *end = whole_above(at + reach, grid->size[axis]);
 }
 
-/* The slabs that a particle reaches into: first <= s < end. */
-static void reached_slabs(const FieldParticles *particles, const VolumeGrid *grid, size_t i, size_t *first,
-                          size_t *end)
-{
-    int slice = 0, slice_end = 0;
-    if (counts(particles, i))
-        reached(particles, grid, 2, particles->position[4 * i + 2], &slice, &slice_end);
-    *first = (size_t)slice / SLAB;
-    *end = slice < slice_end ? (size_t)(slice_end - 1) / SLAB + 1 : *first;
-}
-
-static bool grow(void **array, size_t *capacity, size_t count, size_t width)
-{
-    if (count <= *capacity)
-        return true;
-    void *larger = realloc(*array, count * width);
-    if (!larger)
-        return false;
-    *array = larger;
-    *capacity = count;
-    return true;
-}
-
-void field_slabs_free(FieldSlabs *slabs)
-{
-    free(slabs->begin);
-    free(slabs->member);
-    *slabs = (FieldSlabs){0};
-}
-
-/* A counting sort: `begin` first counts the members of each slab, then says where the next one goes. */
-static bool sort(FieldSlabs *slabs, size_t count, const FieldParticles *particles, const VolumeGrid *grid)
-{
-    size_t first, end, total = 0;
-    if (!grow((void **)&slabs->begin, &slabs->slab_capacity, count + 1, sizeof *slabs->begin))
-        return false;
-    memset(slabs->begin, 0, (count + 1) * sizeof *slabs->begin);
-    for (size_t i = 0; i < particles->count; i++) {
-        reached_slabs(particles, grid, i, &first, &end);
-        for (size_t s = first; s < end; s++)
-            slabs->begin[s]++;
-    }
-    for (size_t s = 0; s <= count; s++) {
-        const size_t here = slabs->begin[s];
-        slabs->begin[s] = total;
-        total += here;
-    }
-    if (!grow((void **)&slabs->member, &slabs->member_capacity, total, sizeof *slabs->member))
-        return false;
-    for (size_t i = 0; i < particles->count; i++) {
-        reached_slabs(particles, grid, i, &first, &end);
-        for (size_t s = first; s < end; s++)
-            slabs->member[slabs->begin[s]++] = (uint32_t)i;
-    }
-    memmove(slabs->begin + 1, slabs->begin, count * sizeof *slabs->begin);
-    slabs->begin[0] = 0;
-    return true;
-}
-
 /* ---- the sums of a slab ---- */
 
 typedef struct Sum {
     const FieldParticles *particles;
     const VolumeGrid *grid;
-    const FieldSlabs *slabs;
+    const Bins *slabs;
     float *field, *weighted;
 } Sum;
+
+/* The slabs that particle i reaches into. */
+static BinSpan reached_slabs(const void *context, size_t i)
+{
+    const Sum *sum = context;
+    int slice = 0, slice_end = 0;
+    if (counts(sum->particles, i))
+        reached(sum->particles, sum->grid, 2, sum->particles->position[4 * i + 2], &slice, &slice_end);
+    const size_t first = (size_t)slice / SLAB;
+    return (BinSpan){first, slice < slice_end ? (size_t)(slice_end - 1) / SLAB + 1 : first};
+}
+
+void field_slabs_free(FieldSlabs *slabs)
+{
+    bins_free(&slabs->bins);
+}
 
 /* A particle as a row of the grid sees it: V W = most (1 - q^2)^3, q = r / h; Müller 2003, eq. 20. */
 typedef struct Bump {
@@ -261,9 +217,9 @@ bool field_sum(const FieldParticles *particles, const VolumeGrid *grid, int thre
                float *field, float *weighted, Error *error)
 {
     const size_t count = ((size_t)grid->size[2] + SLAB - 1) / SLAB;
-    if (!sort(slabs, count, particles, grid))
+    Sum sum = {particles, grid, &slabs->bins, field, particles->scalar ? weighted : NULL};
+    if (!bins_fill(&slabs->bins, count, particles->count, reached_slabs, &sum))
         return error_set(error, "no memory to sum the field of %zu particles", particles->count);
-    Sum sum = {particles, grid, slabs, field, particles->scalar ? weighted : NULL};
     parallel_ranges(threads, count, 1, sum_slab, &sum);
     return true;
 }

@@ -4,11 +4,11 @@
 #ifndef SLOSH_FIELD_H
 #define SLOSH_FIELD_H
 
+#include "sim/base/bins.h"
 #include "sim/base/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
 
 /* Cubic cells; the value i, j, k belongs to corner + cell (i + 1/2, j + 1/2, k + 1/2) and stands at
    i + size[0] (j + size[1] k). */
@@ -34,9 +34,7 @@ bool field_bounds(const FieldParticles *particles, double low[3], double high[3]
 /* Which particles reach into which slab of the grid, kept from sum to sum so that each needs no new memory.
    Zero-initialise it. */
 typedef struct FieldSlabs {
-    size_t slab_capacity, member_capacity;
-    size_t *begin;    /* slabs + 1: of each slab in `member` */
-    uint32_t *member; /* particles, ascending in each slab */
+    Bins bins;
 } FieldSlabs;
 
 void field_slabs_free(FieldSlabs *slabs); /* a zeroed one is allowed */

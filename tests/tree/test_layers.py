@@ -25,33 +25,38 @@ SIM = {
     "box": "base kernel",
     "matter": "base kernel box",
     "mesh": "base kernel",
+    "surface": "base kernel mesh",
     "world": "base kernel box matter",
     "cpu": "base kernel box matter world",
     "viscosity": "base kernel box matter world cpu",
+    "change": "base kernel box matter world cpu",
 }
 METHODS = own_folders("sim", "Method method")
 SIM["incompressible"] = "base kernel box matter world cpu"
 SIM |= {name: "base kernel box matter world cpu incompressible" for name in METHODS}
 SIM_INSIDE = {f"sim/{name}" for name in ["cpu", "incompressible", *METHODS]}  # for no other floor
-GL = {"": "", "compute": "", "fragment": ""}
+GL = {"": "", "compute": "", "fragment": "", "surface": ""}
+BACKENDS = {"sim/gl/compute", "sim/gl/fragment"}  # other floors know them by name only
 RENDER = {
     "frame": "",
     "particles": "frame",
     "derived": "particles",
     "plane": "particles",
+    "probe": "frame particles plane",
     "ui": "frame",
 }
 VIEWS = own_folders("render", "ViewKind view")
 OVERLAYS = own_folders("render", "OverlayKind overlay")
 RENDER |= {name: "frame particles plane" for name in [*VIEWS, *OVERLAYS]}
-RENDER[""] = " ".join(["frame particles derived plane ui", *VIEWS, *OVERLAYS])
+RENDER[""] = " ".join(["frame particles derived plane probe ui", *VIEWS, *OVERLAYS])
 APP = {
     "base": "",
     "metric": "base",
     "probe": "base metric",
     "outcome": "base metric",
     "yaml": "base",
-    "scene": "base metric probe yaml",
+    "volume": "base yaml",
+    "scene": "base metric probe yaml volume",
     "term": "scene",
     "recording": "base yaml scene",
     "hand": "base scene",
@@ -60,6 +65,8 @@ APP = {
     "output": "base yaml scene",
     "session": "base metric probe outcome scene recording hand held output",
     "playback": "base yaml scene output session",
+    "trace": "base yaml scene output",
+    "beside": "base scene recording output session playback",
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",
     "stability": "base outcome scene session lab",
@@ -68,12 +75,12 @@ APP = {
     "gallery": "base scene session lab",
     "window": "",
     "panel": "probe scene term hand held session window",
-    "play": "base scene recording hand device held output session playback lab window panel",
-    "command": "base metric probe outcome yaml scene recording hand device held output session playback case lab stability fit ablate gallery play",
+    "play": "base scene recording hand device held output session playback beside lab window panel",
+    "command": "base metric probe outcome yaml scene recording hand device held output session playback beside trace case lab stability fit ablate gallery play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]
-DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "recording", "device", "window"}  # rooms of app without render and sim/gl
+DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "volume", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
 # What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`.
@@ -101,7 +108,7 @@ def may():
     for floor, table, below in FLOORS:
         rooms[floor] = [folder(floor, room) for room in table]
         under = [where for name in below for where in rooms[name]]
-        under = [where for where in under if not where.startswith("sim/gl/")]  # backends: by name only
+        under = [where for where in under if where not in BACKENDS]
         if floor != "sim/gl":
             under = [where for where in under if where not in SIM_INSIDE]
         for room, names in table.items():

@@ -1,0 +1,12 @@
+// Points take the value that a field has where they are.
+#include "surface/field.glsl"
+layout(local_size_x = SURFACE_GROUP) in;
+layout(std430, binding = SURFACE_STORAGE) buffer Points { float points[]; };
+layout(location = SURFACE_RANGE_AT) uniform uvec2 range; // the first word, points
+
+void main()
+{
+    uint i = gl_GlobalInvocationID.x, at = range.x + SURFACE_WORDS * i;
+    if (i < range.y)
+        points[at + 5u] = field_at(vec3(points[at], points[at + 1u], points[at + 2u])).value;
+}

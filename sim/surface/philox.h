@@ -1,0 +1,86 @@
+/* Random numbers that are a function of a counter: no state, so threads and lanes need not agree on an order.
+   Philox 4x32 with ten rounds. After: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel random numbers: as
+   easy as 1, 2, 3", 2011. */
+#ifndef SLOSH_PHILOX_H
+#define SLOSH_PHILOX_H
+
+#include "sim/surface/lanes.h"
+
+typedef uint32_t LaneWords __attribute__((vector_size(4 * LANES)));
+
+/* What a stream of counters is for: the fourth word of its counters, so that no two share numbers. */
+typedef enum PhiloxUse { PHILOX_WALK, PHILOX_LINES, PHILOX_SPHERES, PHILOX_TRIANGLES } PhiloxUse;
+
+typedef struct PhiloxKey {
+    uint32_t word[2];
+} PhiloxKey;
+
+static inline PhiloxKey philox_key(uint64_t seed)
+{
+    return (PhiloxKey){{(uint32_t)seed, (uint32_t)(seed >> 32)}};
+}
+
+/* The four words of a counter; in place. */
+static inline void philox(PhiloxKey key, uint32_t word[4])
+{
+    for (int round = 0; round < 10; round++) {
+        const uint64_t a = (uint64_t)0xD2511F53 * word[0], b = (uint64_t)0xCD9E8D57 * word[2];
+        const uint32_t next[4] = {(uint32_t)(b >> 32) ^ word[1] ^ key.word[0], (uint32_t)b,
+                                  (uint32_t)(a >> 32) ^ word[3] ^ key.word[1], (uint32_t)a};
+        for (int k = 0; k < 4; k++)
+            word[k] = next[k];
+        key.word[0] += 0x9E3779B9;
+        key.word[1] += 0xBB67AE85;
+    }
+}
+
+/* The high and the low half of a * b in each lane. */
+LANES_INLINE void philox_product(LaneWords a, uint32_t b, LaneWords *high, LaneWords *low)
+{
+    *low = a * b;
+    for (int k = 0; k < LANES; k++)
+        (*high)[k] = (uint32_t)((uint64_t)a[k] * b >> 32);
+}
+
+/* The same for eight counters. */
+LANES_INLINE void philox_lanes(PhiloxKey key, LaneWords word[4])
+{
+    for (int round = 0; round < 10; round++) {
+        LaneWords high[2], low[2];
+        philox_product(word[0], 0xD2511F53, &high[0], &low[0]);
+        philox_product(word[2], 0xCD9E8D57, &high[1], &low[1]);
+        word[0] = high[1] ^ word[1] ^ key.word[0];
+        word[1] = low[1];
+        word[2] = high[0] ^ word[3] ^ key.word[1];
+        word[3] = low[0];
+        key.word[0] += 0x9E3779B9;
+        key.word[1] += 0xBB67AE85;
+    }
+}
+
+/* Uniform in 0 .. 1, neither of them a result: the upper 23 bits. */
+static inline float philox_uniform(uint32_t word)
+{
+    return ((float)(word >> 9) + 0.5F) * 0x1p-23F;
+}
+
+LANES_INLINE Lanes philox_uniform_lanes(LaneWords word)
+{
+    return (lanes_number((LaneMask)(word >> 9)) + lanes(0.5F)) * lanes(0x1p-23F);
+}
+
+/* Three normal numbers of mean 0 and variance 1 a lane, of four words. After: G. Box, M. Muller, "A note on
+   the generation of random normal deviates", 1958. */
+LANES_INLINE void philox_normal_lanes(const LaneWords word[4], Lanes normal[3])
+{
+    Lanes sine, cosine;
+    const Lanes r = lanes_sqrt(lanes(-2) * lanes_log(philox_uniform_lanes(word[0])));
+    lanes_turn(philox_uniform_lanes(word[1]), &sine, &cosine);
+    normal[0] = r * cosine;
+    normal[1] = r * sine;
+    const Lanes other = lanes_sqrt(lanes(-2) * lanes_log(philox_uniform_lanes(word[2])));
+    lanes_turn(philox_uniform_lanes(word[3]), &sine, &cosine);
+    normal[2] = other * cosine;
+}
+
+#endif

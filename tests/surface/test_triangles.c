@@ -1,0 +1,159 @@
+/* Points on the triangles of marching cubes: uniform, near the surface, not on what closes the mesh. */
+#include "fixture.h"
+
+#include "sim/surface/polygons.h"
+
+static SurfaceRequest on_triangles(const LevelField *field, double area, double points)
+{
+    SurfaceRequest request = request_for(field, area, points);
+    request.sampler = SURFACE_TRIANGLES;
+    return request;
+}
+
+static void triangles_get_points_by_area(void **state)
+{
+    (void)state;
+    const LevelField field = level_sphere(origin, 0.5);
+    SurfacePoints points = {0};
+    const SurfaceRequest request = on_triangles(&field, M_PI, 1e6);
+    const SurfaceResult result = sample(&request, &points);
+    assert_true(result.reached);
+    check_near(result.area / M_PI, 1, 2e-3, "area");
+    const Evenness even = evenness(points.point, points.count, 1, sphere_patch, 10);
+    check_near(even.worst, 0, 0.04, "the worst of 100 patches"); /* four standard errors */
+    /* one set of twenty: independent, so its counts are binomial */
+    const Evenness set = evenness(points.point, points.count, 20, sphere_patch, 60);
+    check_near(set.chi_square, 3599, 3 * sqrt(2 * 3599.0), "chi-square of one set");
+    for (size_t i = 0; i < points.count; i += 7) {
+        const float *p = points.point[i].position, *c = p;
+        float normal[3];
+        const double r = sqrt((double)(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]));
+        check_near(r, 0.5, 7e-4, "distance"); /* the longest edge^2 / 8 R */
+        surface_normal_unpack(points.point[i].normal, normal);
+        check_near((double)-(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]) / r, 1, 2e-3, "normal");
+    }
+    surface_points_free(&points);
+}
+
+static void an_open_surface_stays_open(void **state)
+{
+    (void)state;
+    const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, up[3] = {1, 2, 3};
+    const LevelField field = level_plane(low, high, origin, up);
+    SurfacePoints points = {0};
+    SurfaceRequest request = on_triangles(&field, 1, 1e4);
+    const double area = sample(&request, &points).area;
+    request.sampler = SURFACE_WALK;
+    request.density *= 10;
+    check_near(area / sample(&request, &points).area, 1, 0.03, "area");
+    for (size_t i = 0; i < points.count; i++) {
+        const float *p = points.point[i].position;
+        assert_true(fabsf(p[0]) <= 0.50001F && fabsf(p[1]) <= 0.50001F && fabsf(p[2]) <= 0.50001F);
+        check_near((double)(p[0] + 2 * p[1] + 3 * p[2]), 0, 1e-4, "on the plane");
+    }
+    surface_points_free(&points);
+}
+
+static void threads_make_no_difference(void **state)
+{
+    (void)state;
+    const LevelField field = level_torus(origin, 0.3, 0.1);
+    SurfacePoints points[2] = {0};
+    SurfaceRequest request = on_triangles(&field, 1, 1e5);
+    for (int k = 0; k < 2; k++) {
+        request.threads = k + 1;
+        sample(&request, &points[k]);
+    }
+    assert_int_equal(points[0].count, points[1].count);
+    assert_memory_equal(points[0].point, points[1].point, points[0].count * sizeof *points[0].point);
+    surface_points_free(&points[0]);
+    surface_points_free(&points[1]);
+}
+
+/* So thin that there is no point: said, and nothing is touched. */
+static void too_thin_for_a_point(void **state)
+{
+    (void)state;
+    const LevelField field = level_torus(origin, 0.3, 0.1);
+    SurfacePoints points = {0};
+    SurfaceResult result = {.reached = true};
+    Error error;
+    const SurfaceRequest request = on_triangles(&field, 1, 1e-7);
+    assert_true(surface_sample(&request, &points, &result, &error));
+    assert_int_equal(points.count, 0);
+    assert_false(result.reached);
+    check_near(result.area, 4 * M_PI * M_PI * 0.03, 0.01, "area");
+    surface_points_free(&points);
+}
+
+/* A unit square in the plane y = 0.25, of triangles as unequal as 1 : 32: strips along x, each of two. */
+enum { STRIPS = 6 };
+
+static void make_strips(Polygons *strips)
+{
+    Error error;
+    assert_true(polygons_reserve(strips, 2 * STRIPS + 2, 2 * STRIPS, &error));
+    for (uint32_t i = 0; i <= STRIPS; i++)
+        for (uint32_t k = 0; k < 2; k++) {
+            const float x = (ldexpf(1, (int)i) - 1) / (ldexpf(1, STRIPS) - 1);
+            const float place[3] = {x - 0.5F, 0.25F, (float)k - 0.5F}, up[3] = {0, 2, 0};
+            memcpy(strips->place[2 * i + k], place, sizeof place);
+            memcpy(strips->normal[2 * i + k], up, sizeof up);
+        }
+    for (uint32_t i = 0; i < STRIPS; i++) {
+        memcpy(strips->corner[2 * i], (uint32_t[3]){2 * i, 2 * i + 1, 2 * i + 2}, 3 * sizeof(uint32_t));
+        memcpy(strips->corner[2 * i + 1], (uint32_t[3]){2 * i + 1, 2 * i + 3, 2 * i + 2},
+               3 * sizeof(uint32_t));
+    }
+}
+
+static int square_patch(const float p[3], int side)
+{
+    const int a = (int)((p[0] + 0.5F) * (float)side), b = (int)((p[2] + 0.5F) * (float)side);
+    return (a < side ? a : side - 1) * side + (b < side ? b : side - 1);
+}
+
+static void polygons_are_even_whatever_their_triangles(void **state)
+{
+    (void)state;
+    Polygons strips = {0};
+    SurfacePoints points = {0};
+    SurfaceResult result;
+    Error error;
+    double low[3], high[3];
+    make_strips(&strips);
+    polygons_bounds(&strips, low, high);
+    check_near(high[0] - low[0], 1, 1e-6, "bounds");
+    const SurfaceRequest request = {.density = 2e4, .sets = 20, .seed = 5, .surface = 3, .level = 7};
+    assert_true(polygons_sample(&strips, &request, &points, &result, &error));
+    check_near(result.area, 1, 1e-6, "area");
+    assert_int_equal(points.count, 400000);
+    const Evenness even = evenness(points.point, points.count, 20, square_patch, 30);
+    check_near(even.chi_square, 899, 3 * sqrt(2 * 899.0), "chi-square of one set");
+    for (size_t i = 0; i < points.count; i += 999) {
+        float normal[3];
+        surface_normal_unpack(points.point[i].normal, normal);
+        check_near((double)points.point[i].position[1], 0.25, 1e-6, "height");
+        check_near((double)normal[1], 1, 1e-4, "normal");
+        assert_int_equal(points.point[i].surface, 3);
+        check_near((double)points.point[i].value, 7, 0, "value");
+    }
+    strips.triangle_count = 0;
+    assert_false(polygons_sample(&strips, &request, &points, &result, &error));
+    assert_string_equal(error.message, "its 0 triangles have no area");
+    assert_int_equal(points.count, 400000);
+    polygons_free(&strips);
+    surface_points_free(&points);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(triangles_get_points_by_area),
+        cmocka_unit_test(an_open_surface_stays_open),
+        cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(too_thin_for_a_point),
+        cmocka_unit_test(polygons_are_even_whatever_their_triangles),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
