@@ -117,6 +117,20 @@ void panels_mark(Panels *panels, int index)
     panels->marked = index;
 }
 
+void panels_set_more(Panels *panels, bool more)
+{
+    for (int i = 0; i < panels->count; i++)
+        renderer_set_more(panels_renderer(panels, i), more);
+}
+
+bool panels_unfinished(const Panels *panels)
+{
+    bool any = false;
+    for (int i = 0; i < panels->count; i++)
+        any = any || renderer_unfinished(panels_renderer(panels, i));
+    return any;
+}
+
 int panels_count(const Panels *panels)
 {
     return panels->count;
@@ -175,6 +189,20 @@ bool panels_set_covered(Panels *panels, double left, Error *error)
     return left == panels->covered_left || lay_out(panels, panels->width, panels->height, left, error);
 }
 
+void panels_set_late(Panels *panels, bool late)
+{
+    for (int i = 0; i < panels->count; i++)
+        renderer_set_late(panels->panels[i].renderer, late);
+}
+
+bool panels_behind(const Panels *panels)
+{
+    bool behind = false;
+    for (int i = 0; i < panels->count; i++)
+        behind |= renderer_behind(panels->panels[i].renderer);
+    return behind;
+}
+
 static double legend_part(const Panels *panels, int index)
 {
     const Panel *panel = &panels->panels[index];
@@ -225,12 +253,37 @@ static void join_ranges(ParticleBuffers states[], int count)
     }
 }
 
+/* What another panel has derived of the same state. */
+static void take_over(const ParticleBuffers *from, ParticleBuffers *to)
+{
+    const ParticleAttribute *a = &from->position, *b = &to->position;
+    if (a->buffer != b->buffer || a->offset != b->offset || from->count != to->count ||
+        from->step != to->step || from->time != to->time)
+        return;
+    for (int s = 0; s < SCALAR_COUNT; s++) {
+        if (!to->scalar[s].buffer)
+            to->scalar[s] = from->scalar[s];
+        if (!to->range[s].known)
+            to->range[s] = from->range[s];
+    }
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        if (!to->vector[v].buffer)
+            to->vector[v] = from->vector[v];
+}
+
+size_t panels_derived_bytes(const Panels *panels, int index)
+{
+    return renderer_derived_bytes(panels->panels[index].renderer);
+}
+
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer)
 {
     ParticleBuffers with[PANELS_MAX];
     cover(panels);
     for (int i = 0; i < panels->count; i++) {
         with[i] = *states[i];
+        for (int j = 0; j < i; j++)
+            take_over(&with[j], &with[i]);
         if (panels->count > 1) /* one alone derives as it draws */
             GL_STAGE(timer, STAGE_SCALARS)
             {

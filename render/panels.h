@@ -47,6 +47,13 @@ bool panels_set_covered(Panels *panels, double left, Error *error);
 /* The part of a panel's width that automatic cameras leave free on the right: the widest legend. */
 double panels_legend(const Panels *panels);
 
+/* As renderer_set_late, of all; whether in the last picture of any it was. */
+void panels_set_late(Panels *panels, bool late);
+bool panels_behind(const Panels *panels);
+/* The same as renderer_set_more and renderer_unfinished, of all panels. */
+void panels_set_more(Panels *panels, bool more);
+bool panels_unfinished(const Panels *panels);
+
 /* Draws a state in each panel. Panels whose range follows the state and that show the same scalar have one
    range for all of them, from the least end of theirs to the greatest, so that a colour means the same; a
    state without a number counts for nothing. One that is symmetric about 0 is so about the joint range.
@@ -57,6 +64,9 @@ void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer 
 void panels_take(Panels *panels, int index, const ParticleBuffers *state);
 /* From the next time that it is presented a frame stands around a panel among several; -1: around none. */
 void panels_mark(Panels *panels, int index);
+
+/* Memory of the GPU for what a panel derives: a state that several show is derived once, by the first. */
+size_t panels_derived_bytes(const Panels *panels, int index);
 
 /* The range of a panel in the last picture, in the unit of its scalar. */
 void panels_range(const Panels *panels, int index, double range[2]);

@@ -5,14 +5,17 @@
 #include "render/frame/backdrop.h"
 #include "render/frame/edges.h"
 #include "render/frame/legend.h"
+#include "render/frame/over_depth.h"
 #include "render/frame/overlay.h"
 #include "render/frame/shadow.h"
 #include "render/frame/solids.h"
 #include "render/frame/view.h"
+#include "render/probe/picture_probe.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #ifdef __GLIBC__
@@ -24,11 +27,18 @@ static const WorldDef unknown;
 struct Renderer {
     ViewDef def;
     WorldDef world;
-    bool plain;
+    bool plain, more;
+    bool late;          /* what a picture wants to know of its own state may be of the one before: */
+    bool behind;        /* and is in this one, */
+    bool showed_behind; /* as it was in the last picture */
     Covered covered;
     Title title;
+    char note[96];
     double range[2], opacity_range[2], size_range[2]; /* of the last picture */
     Target target;
+    Target coarse;  /* what is drawn before it is made as large as the target; zeroed where the def wants all
+                       pixels */
+    OverDepth over; /* nothing before the first picture of a view with parts before overlays */
     unsigned uniforms;
     Derived derived;
     Ranges ranges; /* nothing before the first picture that asks for one */
@@ -39,6 +49,7 @@ struct Renderer {
     Solids *solids; /* NULL without */
     View *view;     /* NULL for "none" */
     Overlays overlays;
+    PictureProbe probe; /* of the last picture */
 };
 
 ViewDef view_def_default(void)
@@ -52,6 +63,47 @@ ViewDef view_def_default(void)
 static Subject subject_of(const Renderer *renderer)
 {
     return (Subject){&renderer->def, &renderer->world};
+}
+
+static int part_of(int pixels, double resolution)
+{
+    return (int)fmax(round(resolution * pixels), 1);
+}
+
+/* A coarse target for a picture of that size, or none: on failure all stays as it was. */
+static bool follow_resolution(Renderer *renderer, const ViewDef *def, int width, int height, Error *error)
+{
+    Target coarse = {0};
+    const int across = part_of(width, def->resolution), down = part_of(height, def->resolution);
+    const bool wanted = def->resolution < 1;
+    if (wanted && renderer->coarse.width == across && renderer->coarse.height == down)
+        return true;
+    if (wanted && !target_create(&coarse, across, down, error))
+        return false;
+    if (renderer->coarse.framebuffer)
+        target_destroy(&renderer->coarse);
+    renderer->coarse = coarse;
+    return true;
+}
+
+/* What is drawn into. */
+static const Target *drawn_target(const Renderer *renderer)
+{
+    return renderer->coarse.framebuffer ? &renderer->coarse : &renderer->target;
+}
+
+/* From the coarse target, smoothly; its depth as it is. */
+static void enlarge(const Renderer *renderer)
+{
+    const Target *from = &renderer->coarse, *to = &renderer->target;
+    if (!from->framebuffer)
+        return;
+    glDisable(GL_SCISSOR_TEST);
+    glBlitNamedFramebuffer(from->framebuffer, to->framebuffer, 0, 0, from->width, from->height, 0, 0,
+                           to->width, to->height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+    glBlitNamedFramebuffer(from->framebuffer, to->framebuffer, 0, 0, from->width, from->height, 0, 0,
+                           to->width, to->height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    glViewport(0, 0, to->width, to->height);
 }
 
 /* Letters for a picture that high, or none where neither legend nor title wants some. */
@@ -109,6 +161,7 @@ static ParticleWants wants_of(const ViewDef *def)
 {
     ParticleWants wants = {.scalars = SCALAR_BIT(def->color_by)};
     overlays_want(def, &wants);
+    view_want(def, &wants);
     want_curve(&wants, &def->opacity);
     want_curve(&wants, &def->size);
     if (def->opacity.by != 0)
@@ -143,7 +196,8 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
 {
     const ViewDef *def = &renderer->def;
     const Subject subject = subject_of(renderer);
-    if (!target_create(&renderer->target, width, height, error) || !shadow_create(&renderer->shadow, error) ||
+    if (!target_create(&renderer->target, width, height, error) ||
+        !follow_resolution(renderer, def, width, height, error) || !shadow_create(&renderer->shadow, error) ||
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
@@ -187,6 +241,7 @@ void renderer_destroy(Renderer *renderer)
 {
     if (!renderer)
         return;
+    picture_probe_destroy(&renderer->probe);
     overlays_destroy(&renderer->overlays);
     view_destroy(renderer->view);
     text_destroy(renderer->text);
@@ -197,7 +252,9 @@ void renderer_destroy(Renderer *renderer)
     ranges_destroy(&renderer->ranges);
     derived_destroy(&renderer->derived);
     glDeleteBuffers(1, &renderer->uniforms);
+    over_depth_destroy(&renderer->over);
     target_destroy(&renderer->target);
+    target_destroy(&renderer->coarse);
     free(renderer);
 }
 
@@ -231,15 +288,20 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *wo
 {
     const Subject subject = {def, world ? world : &unknown};
     const bool letters = def->legend || *renderer->title.words;
-    const bool followed = follow_derived(renderer, def, error) &&
-                          follow_letters(renderer, letters, renderer->target.height, error) &&
-                          follow_solids(renderer, subject.world, error) &&
-                          follow_view(renderer, &subject, error);
+    const bool followed =
+        follow_derived(renderer, def, error) &&
+        follow_letters(renderer, letters, renderer->target.height, error) &&
+        follow_solids(renderer, subject.world, error) &&
+        follow_resolution(renderer, def, renderer->target.width, renderer->target.height, error) &&
+        follow_view(renderer, &subject, error);
     if (followed) {
+        const ParticleWants wants = wants_of(def);
         renderer->def = *def;
         renderer->world = *subject.world;
+        derived_give_back(&renderer->derived, &wants);
     }
     drop_unused_solids(renderer);
+    picture_probe_forget(&renderer->probe);
     return followed;
 }
 
@@ -250,12 +312,14 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
         return true;
     if (!target_create(&target, width, height, error))
         return false;
-    if (!follow_letters(renderer, renderer->def.legend || *renderer->title.words, height, error)) {
+    if (!follow_letters(renderer, renderer->def.legend || *renderer->title.words, height, error) ||
+        !follow_resolution(renderer, &renderer->def, width, height, error)) {
         target_destroy(&target);
         return false;
     }
     target_destroy(&renderer->target);
     renderer->target = target;
+    picture_probe_forget(&renderer->probe);
     return true;
 }
 
@@ -272,10 +336,64 @@ static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, co
     shadow_end(&renderer->shadow, frame);
 }
 
+/* Whether the view has parts before overlays and edges. */
+static bool draws_front(const Renderer *renderer)
+{
+    return renderer->view && view_kind(renderer->view)->draw_front;
+}
+
+static bool has_edges(const Renderer *renderer, const Frame *frame)
+{
+    return renderer->def.box && !frame->flat;
+}
+
+/* Of a scene of two dimensions, in which overlays lie over all. */
+static bool is_over_all(const Frame *frame)
+{
+    return frame->slab > 0;
+}
+
+/* Frame.over_depth. */
+static unsigned draw_over_depth(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    const bool overlays = !is_over_all(frame) && overlays_any(&renderer->overlays);
+    Frame depths = *frame;
+    if (!draws_front(renderer) || (!overlays && !has_edges(renderer, frame)))
+        return 0;
+    const Target target = over_depth_begin(&renderer->over, frame->target);
+    depths.target = &target;
+    depths.depths = true;
+    if (overlays)
+        overlays_draw(&renderer->overlays, particles, &depths);
+    if (has_edges(renderer, frame))
+        GL_STAGE(frame->timer, STAGE_OVERLAY)
+        {
+            edges_draw(&renderer->edges, &depths);
+        }
+    return target.depth;
+}
+
+/* Behind the view: what lies over it, and what of the view lies over that. */
+static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    if (!frame->flat && !is_over_all(frame))
+        overlays_draw(&renderer->overlays, particles, frame);
+    if (draws_front(renderer)) {
+        if (has_edges(renderer, frame))
+            GL_STAGE(frame->timer, STAGE_OVERLAY)
+            {
+                edges_draw(&renderer->edges, frame);
+            }
+        view_draw_front(renderer->view, frame);
+    }
+    if (!frame->flat && is_over_all(frame))
+        overlays_draw(&renderer->overlays, particles, frame);
+}
+
 static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
-    if (renderer->def.box && !frame->flat)
+    if (has_edges(renderer, frame) && !draws_front(renderer))
         edges_draw(&renderer->edges, frame);
     if (!renderer->def.legend && !*renderer->title.words)
         return;
@@ -288,11 +406,30 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
     text_end(renderer->text);
 }
 
+/* What has all pixels, whatever the rest has. */
+static void draw_over(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    if (!renderer->coarse.framebuffer) {
+        draw_edges_and_text(renderer, particles, frame);
+        return;
+    }
+    Frame shown = *frame;
+    shown.target = &renderer->target;
+    shown.width = renderer->target.width;
+    shown.height = renderer->target.height;
+    enlarge(renderer);
+    frame_uniforms_update(renderer->uniforms, &shown, particles->box_size, particles->spacing);
+    draw_edges_and_text(renderer, particles, &shown);
+    frame_uniforms_update(renderer->uniforms, frame, particles->box_size,
+                          particles->spacing); /* for probes */
+}
+
 /* Whether a picture by that def needs more than the state has. */
 static bool derives(const ViewDef *def)
 {
     const ParticleWants wants = wants_of(def);
-    return view_def_ranges(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT;
+    return view_def_ranges(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT ||
+           wants_attributes(&wants) & PARTICLE_SCALAR(SCALAR_BORN);
 }
 
 static void derive(Renderer *renderer, const ParticleWants *wants, ParticleBuffers *particles)
@@ -302,6 +439,12 @@ static void derive(Renderer *renderer, const ParticleWants *wants, ParticleBuffe
     derived_fill(&renderer->derived, wants, &space, particles);
 }
 
+static ScalarRange range_of(Renderer *renderer, Scalar scalar, const ParticleBuffers *particles)
+{
+    return renderer->late ? ranges_follow(&renderer->ranges, scalar, particles, &renderer->behind)
+                          : ranges_find(&renderer->ranges, &particles->scalar[scalar], particles->count);
+}
+
 void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
 {
     const ParticleWants wants = wants_of(&renderer->def);
@@ -309,7 +452,7 @@ void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
     derive(renderer, &wants, particles);
     for (int s = 0; s < SCALAR_COUNT; s++)
         if ((ranged & SCALAR_BIT(s)) && !particles->range[s].known)
-            particles->range[s] = ranges_find(&renderer->ranges, &particles->scalar[s], particles->count);
+            particles->range[s] = range_of(renderer, (Scalar)s, particles);
 }
 
 /* The state as passes read it. */
@@ -324,23 +467,41 @@ static ParticleBuffers derived_of(Renderer *renderer, const ParticleBuffers *sta
     return with;
 }
 
+/* What the colours cannot show; NULL: nothing. */
+static const char *note_of(Renderer *renderer, const ParticleBuffers *particles)
+{
+    const ScalarRange *range = &particles->range[renderer->def.color_by];
+    const char *name = scalar_name(renderer->def.color_by);
+    const bool waits = strncmp(name, "acceleration", strlen("acceleration")) == 0;
+    if (renderer->derived.lacks)
+        snprintf(renderer->note, sizeof renderer->note, "the GPU has no memory for %s",
+                 renderer->derived.lacks);
+    else if (particles->count > 0 && range->known && !range->any)
+        return waits ? "no particle has a number before a step" : "no particle has a number";
+    else
+        return NULL;
+    return renderer->note;
+}
+
 static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
     const ParticleBuffers with = derived_of(renderer, state, timer), *particles = &with;
     const ViewKind *kind = renderer->view ? view_kind(renderer->view) : NULL;
-    const Target *target = &renderer->target;
+    const Target *target = drawn_target(renderer), *shown = &renderer->target;
     const Subject subject = subject_of(renderer);
-    const double legend =
-        legend_width_pixels(&renderer->def, &renderer->world, target->height) / target->width;
+    const double legend = legend_width_pixels(&renderer->def, &renderer->world, shown->height) / shown->width;
     frame_make(&frame, &subject, particles, target, view_radii(kind, &renderer->def, particles),
                (Covered){renderer->covered.left, fmax(renderer->covered.right, legend)});
     frame.timer = timer;
     frame.counts = counts;
     frame.plain = renderer->plain;
+    frame.more = renderer->more;
+    frame.behind = renderer->late ? &renderer->behind : NULL;
     frame.floor_light = renderer->shadow.floor_map;
     if (renderer->view)
         view_show(renderer->view, &renderer->def, &frame);
+    frame.no_colors = frame.no_colors && !overlays_any(&renderer->overlays);
     memcpy(renderer->range, frame.range, sizeof renderer->range);
     memcpy(renderer->opacity_range, frame.opacity_range, sizeof renderer->opacity_range);
     memcpy(renderer->size_range, frame.size_range, sizeof renderer->size_range);
@@ -352,23 +513,28 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     draw_shadow(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_BACKDROP)
     {
-        target_begin(&renderer->target);
+        target_begin(target);
         backdrop_draw(&renderer->backdrop, &frame, &renderer->shadow);
     }
-    if (renderer->solids)
+    if (renderer->solids && !frame.no_solids)
         GL_STAGE(timer, STAGE_SOLIDS)
         {
             solids_draw(renderer->solids, &frame);
         }
+    frame.over_depth = draw_over_depth(renderer, particles, &frame);
     if (renderer->view) {
         view_draw(renderer->view, particles, &frame);
         if (renderer->def.legend) /* which waits for what it tells */
-            frame.note = view_note(renderer->view);
+            frame.note = view_note(renderer->view, frame.behind);
     }
-    if (!frame.flat)
-        overlays_draw(&renderer->overlays, particles, &frame);
+    if (!frame.note)
+        frame.note = note_of(renderer, particles);
+    draw_overlays(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
-    draw_edges_and_text(renderer, particles, &frame);
+    draw_over(renderer, particles, &frame);
+    picture_probe_drawn(&renderer->probe, particles, &frame, renderer->uniforms);
+    renderer->showed_behind = renderer->behind;
+    renderer->behind = false;
 }
 
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
@@ -378,7 +544,7 @@ void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *ti
     ParticleBuffers with = *state;
     if (!overlays_take_any(&renderer->overlays))
         return;
-    if ((int)renderer->def.color_by >= SCALAR_STATE_COUNT)
+    if ((int)renderer->def.color_by >= SCALAR_BORN)
         GL_STAGE(timer, STAGE_SCALARS)
         {
             derive(renderer, &wants, &with);
@@ -425,6 +591,11 @@ bool renderer_set_title(Renderer *renderer, const Title *title, Error *error)
     return true;
 }
 
+size_t renderer_derived_bytes(const Renderer *renderer)
+{
+    return derived_bytes(&renderer->derived);
+}
+
 void renderer_range(const Renderer *renderer, double range[2])
 {
     memcpy(range, renderer->range, sizeof renderer->range);
@@ -436,17 +607,65 @@ void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double s
     memcpy(size, renderer->size_range, sizeof renderer->size_range);
 }
 
+void renderer_set_late(Renderer *renderer, bool late)
+{
+    renderer->late = late;
+}
+
+bool renderer_behind(const Renderer *renderer)
+{
+    return renderer->showed_behind;
+}
+
 void renderer_set_plain(Renderer *renderer, bool plain)
 {
     renderer->plain = plain;
 }
 
-bool renderer_pick(const Renderer *renderer, const double pixel[2], double at[3])
+void renderer_set_more(Renderer *renderer, bool more)
 {
-    return renderer->view && view_pick(renderer->view, pixel, at);
+    renderer->more = more;
 }
 
-int renderer_probe(Renderer *renderer, const double (*at)[3], int count, ViewProbe *out)
+bool renderer_unfinished(const Renderer *renderer)
 {
-    return renderer->view ? view_probe(renderer->view, at, count, out) : -1;
+    return renderer->more &&
+           ((renderer->view && view_unfinished(renderer->view)) || overlays_unfinished(&renderer->overlays));
+}
+
+const char *renderer_lacks(const Renderer *renderer)
+{
+    return renderer->view ? view_lacks(renderer->view) : NULL;
+}
+
+/* Pixels drawn for a pixel shown. */
+static void scale_of(const Renderer *renderer, double scale[2])
+{
+    const Target *drawn = drawn_target(renderer);
+    scale[0] = (double)drawn->width / renderer->target.width;
+    scale[1] = (double)drawn->height / renderer->target.height;
+}
+
+bool renderer_may_probe(const Renderer *renderer, const double pixel[2])
+{
+    double scale[2];
+    scale_of(renderer, scale);
+    const double drawn[] = {scale[0] * pixel[0], scale[1] * pixel[1]};
+    return renderer->view && picture_probe_may(&renderer->probe, renderer->view, &renderer->def, drawn);
+}
+
+bool renderer_probe(Renderer *renderer, const ViewAsks *asks, ViewProbes *out)
+{
+    double scale[2];
+    ViewAsks drawn = *asks;
+    *out = (ViewProbes){.count = 0};
+    scale_of(renderer, scale);
+    for (int k = 0; k < 2; k++)
+        drawn.pixel[k] *= scale[k];
+    const bool known =
+        renderer->view && picture_probe_ask(&renderer->probe, renderer->view, &renderer->def, &drawn, out);
+    for (int i = 0; i < out->count; i++)
+        for (int k = 0; k < 2; k++)
+            out->probe[i].pixel[k] /= scale[k];
+    return known;
 }

@@ -37,9 +37,9 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *wo
 bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
 
 /* What drawing begins with: adds to `particles`, a state, what is derived from it and read by the picture,
-   and the ranges that follow the state (which waits for the GPU). It stays up to this renderer's next. What
-   is there already stays as it is: several renderers can draw with one range, if somebody writes it into
-   their states. */
+   and the ranges that follow the state (which waits for the GPU, unless renderer_set_late). It stays up to
+   this renderer's next. What is there already stays as it is: several renderers can draw with one range, if
+   somebody writes it into their states. */
 void renderer_derive(Renderer *renderer, ParticleBuffers *particles);
 
 /* Draws one state into the renderer's own target; stages go to `timer` (NULL: not measured). Does not wait.
@@ -70,21 +70,45 @@ void renderer_set_covered(Renderer *renderer, Covered covered);
 /* From the next picture on. On failure (no font) all stays as it was. */
 bool renderer_set_title(Renderer *renderer, const Title *title, Error *error);
 
+/* Memory of the GPU that the renderer holds for what it derives: 0 where it draws what another one has. */
+size_t renderer_derived_bytes(const Renderer *renderer);
+
 /* What the colours of the last picture went from and to, in the unit of what it showed. A range that follows
    the state (`auto`) is from the 1st to the 99th percentile, whatever the backend; for it the GPU is waited
-   for once a picture and scalar. */
+   for once a picture and scalar, unless renderer_set_late. */
 void renderer_range(const Renderer *renderer, double range[2]);
 
 /* The same of the scalars by which opacity and size went; 0 where they went by none. */
 void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double size[2]);
 
+/* From the next picture on nothing waits for what a picture wants to know of its own state, ranges and what
+   the legend says of it: it may be that of the picture before, but for the first. Whether in the last picture
+   it was: the same state drawn again mends it. */
+void renderer_set_late(Renderer *renderer, bool late);
+bool renderer_behind(const Renderer *renderer);
+
 /* Colours exactly as the colormap has them, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);
 
-/* The place that the last picture shows at a pixel from the left and the top, and what it shows at places:
-   pick and probe of ViewKind (render/frame/view.h); -1: the view can tell of none. */
-struct ViewProbe;
-bool renderer_pick(const Renderer *renderer, const double pixel[2], double at[3]);
-int renderer_probe(Renderer *renderer, const double (*at)[3], int count, struct ViewProbe *out);
+/* Further pictures follow at once, as in a window: from the next one on view and overlays may draw what stays
+   better from picture to picture, each in its time. Else each picture is all that it can be. */
+void renderer_set_more(Renderer *renderer, bool more);
+
+/* Whether a further picture of the same would be better than the last. */
+bool renderer_unfinished(const Renderer *renderer);
+
+/* What the last picture lacks of what its view was asked for, words of one line, good until the next one;
+   NULL: nothing. */
+const char *renderer_lacks(const Renderer *renderer);
+
+/* Whether a value may be found in the last picture at a pixel, from the left and the top. */
+bool renderer_may_probe(const Renderer *renderer, const double pixel[2]);
+
+/* What it shows under the mouse and at places (render/frame/view.h): behind renderer_draw, before its state
+   or anything else changes. Does not wait: on a GPU what is known may be of the picture before, as it says.
+   False: the view can tell of none. */
+struct ViewAsks;
+struct ViewProbes;
+bool renderer_probe(Renderer *renderer, const struct ViewAsks *asks, struct ViewProbes *out);
 
 #endif

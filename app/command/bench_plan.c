@@ -62,7 +62,8 @@ static bool plan_table(Plan *plan, Error *error)
 /* Passes alone are measured at several counts. */
 static bool plan_micro(Plan *plan, Error *error)
 {
-    static const Sweep counts = {"particles", 5, {"10000", "30000", "100000", "1000000", "4000000"}};
+    static const Sweep counts = {
+        .key = "particles", .count = 5, .values = {"10000", "30000", "100000", "1000000", "4000000"}};
     const Args *args = plan->args;
     bool chosen = args->settings.particles > 0;
     if (args->table || args->play || args->device)

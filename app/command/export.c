@@ -134,6 +134,8 @@ int cmd_export(const Args *args)
     interrupt_install();
     if (args->slice)
         return export_slice(args);
+    if (args->trails)
+        return export_trails(args);
     const int code = understand(&export, &surface, &index, args, &error) ? run(&export, index, args, &error)
                                                                          : fail(EXIT_USAGE, &error);
     snapshot_reader_close(export.reader);

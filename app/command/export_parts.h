@@ -1,4 +1,4 @@
-/* What all kinds of `slosh export` share, and that of slices. */
+/* What all kinds of `slosh export` share, and those of slices and trails. */
 #ifndef SLOSH_EXPORT_PARTS_H
 #define SLOSH_EXPORT_PARTS_H
 
@@ -12,6 +12,12 @@ bool export_open(const Args *args, SnapshotReader **reader, Error *error);
 /* The last snapshot, or the first at or after --time. */
 bool export_choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error);
 
+/* The scalar of that name; false with those there are. */
+bool export_scalar(const char *name, Scalar *scalar, Error *error);
+
+/* Whether snapshot `index` has it; false with those that it has. */
+bool export_has_scalar(const Args *args, SnapshotReader *reader, size_t index, Scalar scalar, Error *error);
+
 /* False where an option or the output's name is of a slice, and --slice is not there. */
 bool export_needs_slice(const Args *args, Error *error);
 
@@ -21,5 +27,8 @@ const char *export_kernel_choice(int index);
 
 /* With --slice; returns the exit code. */
 int export_slice(const Args *args);
+
+/* With --trails; the same. */
+int export_trails(const Args *args);
 
 #endif

@@ -52,8 +52,8 @@ bool export_needs_slice(const Args *args, Error *error)
                          : args->size_given ? "--size"
                                             : NULL;
     if (option)
-        return error_set(error, "%s is of a slice; add --slice \"{point: [0, 0, 0], normal: [0, 0, 1]}\"",
-                         option);
+        return error_set(error, "%s is of a slice%s; add --slice \"{point: [0, 0, 0], normal: [0, 0, 1]}\"",
+                         option, args->scalar && strcmp(option, "--scalar") == 0 ? " or of trails" : "");
     if (!ends_in(args->output, ".vti") && !ends_in(args->output, ".csv"))
         return true;
     return error_set(error, "%s is of a slice; add --slice \"{point: [0, 0, 0], normal: [0, 0, 1]}\"",
@@ -77,7 +77,7 @@ const char *export_kernel_choice(int index)
 static bool find_name(const char *option, const char *name, const char *(*names)(int), int *found,
                       Error *error)
 {
-    char list[256] = "";
+    char list[512] = "";
     size_t used = 0;
     Suggestion near = suggest_for(name);
     for (*found = 0; names(*found); ++*found) {
@@ -92,7 +92,7 @@ static bool find_name(const char *option, const char *name, const char *(*names)
                      near.best ? "; did you mean " : "", near.best ? near.best : "", list);
 }
 
-static bool find_scalar(const char *name, Scalar *scalar, Error *error)
+bool export_scalar(const char *name, Scalar *scalar, Error *error)
 {
     int found;
     const bool known = find_name("--scalar", name, export_scalar_choice, &found, error);
@@ -120,6 +120,7 @@ static bool choose_kernel(SliceExport *export, Error *error)
 static bool refuse_others(const Args *args, Error *error)
 {
     const char *option = args->surface                         ? "--surface"
+                         : args->trails                        ? "--trails"
                          : args->frame != FRAME_BOX            ? "--frame world"
                          : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"
                          : args->level > 0                     ? "--level"
@@ -130,25 +131,22 @@ static bool refuse_others(const Args *args, Error *error)
                      option);
 }
 
-/* Whether the first of the snapshots that are wanted has the scalar; false with those that it has. */
-static bool check_scalar(const SliceExport *export, Error *error)
+bool export_has_scalar(const Args *args, SnapshotReader *reader, size_t index, Scalar scalar, Error *error)
 {
-    const Scalar wanted = export->wanted.scalar;
-    const size_t first = export->form == SLICE_PVD ? 0 : export->index;
     char list[512] = "";
     SnapshotStep step;
-    if (!snapshot_read_shown(export->reader, first, &step, error))
+    if (!snapshot_read_shown(reader, index, &step, error))
         return false;
     const unsigned has = snapshot_attributes(&step);
     snapshot_step_free(&step);
-    if ((slice_attributes(wanted) & ~has) == 0)
+    if ((step_attributes(scalar) & ~has) == 0)
         return true;
     for (int s = 0; s < SCALAR_COUNT; s++)
-        if ((slice_attributes((Scalar)s) & ~has) == 0)
+        if ((step_attributes((Scalar)s) & ~has) == 0)
             snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "",
                      scalar_name((Scalar)s));
-    return error_set(error, "%s: Step#%zu has no %s; take --scalar %s", export->args->scenes[0], first,
-                     scalar_name(wanted), *list ? list : "of another file");
+    return error_set(error, "%s: Step#%zu has no %s; take --scalar %s", args->scenes[0], index,
+                     scalar_name(scalar), *list ? list : "of another file");
 }
 
 static bool understand(SliceExport *export, Error *error)
@@ -165,10 +163,12 @@ static bool understand(SliceExport *export, Error *error)
         return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vti or a FILE.csv",
                          args->output);
     return refuse_others(args, error) && slice_wanted_read(&export->wanted, args->slice, error) &&
-           find_scalar(args->scalar ? args->scalar : "pressure", &export->wanted.scalar, error) &&
+           export_scalar(args->scalar ? args->scalar : "pressure", &export->wanted.scalar, error) &&
            export_open(args, &export->reader, error) &&
            snapshot_read_scene(export->reader, &export->scene, error) && choose_kernel(export, error) &&
-           export_choose(args, export->reader, &export->index, error) && check_scalar(export, error);
+           export_choose(args, export->reader, &export->index, error) &&
+           export_has_scalar(args, export->reader, export->form == SLICE_PVD ? 0 : export->index,
+                             export->wanted.scalar, error);
 }
 
 /* ---- files ---- */
@@ -318,6 +318,7 @@ static bool run(SliceExport *export, Error *error)
     if (context && !args->quiet)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
     export->flaws = snapshot_flaws(export->reader, false);
+    export->flaws.summed = true;
     bool done = context && (export->form == SLICE_PVD ? write_all : write_one)(export, error);
     if (done)
         report(export);

@@ -129,9 +129,10 @@ static void add_outputs(Files *files, const Args *args)
 
 /* ---- what is read ---- */
 
-static void add_table(void *user, const char *path)
+static void add_table(void *user, const char *what, const char *path)
 {
-    add(user, FILE_READ, "the scene's table", path, NULL);
+    const bool table = strcmp(what, "table") == 0;
+    add(user, FILE_READ, table ? "the scene's table" : "the scene's volume", path, NULL);
 }
 
 static void add_tables(Files *files, const Args *args, const char *path)

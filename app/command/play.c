@@ -4,6 +4,7 @@
 #include "app/command/cmd.h"
 #include "app/device/devices.h"
 #include "app/play/report.h"
+#include "app/play/scene.h"
 #include "app/playback/recorded.h"
 
 #include <stdio.h>
@@ -19,24 +20,22 @@ static int fail(const Error *error, int code)
 /* Whether the window can open it, before there is one. */
 static bool check_scene(const char *scene, const Args *args, Error *error)
 {
-    static Scene checked;
-    SceneSettings settings = args->settings;
-    return scene_load(scene, &settings, &checked, NULL, error);
+    static PlayScene checked;
+    Notes notes;
+    const bool ok = play_scene_read(&checked, scene, &args->settings, &notes, error);
+    play_scene_close(&checked, 0);
+    return ok;
 }
 
 static bool check_recorded(const char *file, const Args *args, Error *error)
 {
-    Recorded recorded;
     const char *option = args->record       ? "--record"
                          : args->device     ? "--device"
                          : args->past_given ? "--past"
                                             : NULL;
     if (option)
         return error_set(error, "%s makes no sense for %s: nothing is simulated", option, file);
-    if (!recorded_open(file, &args->settings, &recorded, NULL, error))
-        return false;
-    recorded_close(&recorded);
-    return true;
+    return check_scene(file, args, error);
 }
 
 int cmd_play(const Args *args)

@@ -1,13 +1,14 @@
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/base/progress.h"
+#include "app/beside/panel_title.h"
+#include "app/beside/shoot.h"
 #include "app/command/cmd.h"
 #include "app/command/render_file.h"
 #include "app/command/render_plan.h"
 #include "app/command/render_report.h"
 #include "app/output/pictures.h"
 #include "app/playback/recorded.h"
-#include "app/session/shoot.h"
 #include "sim/base/stage.h"
 
 #include <math.h>
@@ -41,19 +42,67 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
     return (Schedule){0, 1 / args->fps, (size_t)count};
 }
 
-static void make_panel(const Render *render, int index, ShootPanel *panel)
+/* Of what a panel shows; of a run what is known of it before its first picture. */
+static PanelFacts facts_of(const Render *render, int panel, double time)
 {
     const RenderPlan *plan = &render->plan;
-    *panel = (ShootPanel){.session = &render->sessions[plan->world_of[index]], .view = plan->views[index]};
-    render_plan_title(plan, render->sessions, index, &panel->title);
+    const int world = plan->world_of[panel], file = plan->file_of[panel];
+    if (world >= 0) {
+        const Session *session = &render->sessions[world];
+        return (PanelFacts){
+            .def = &session->scene.world, .particles = session->info.count, .spacing = session->info.spacing};
+    }
+    const Recorded *run = &plan->files[file];
+    const ShootSource *source = &render->shoot.sources[render->shoot.source_of[panel]];
+    return (PanelFacts){.def = &run->scene.world,
+                        .particles = source->state.count,
+                        .spacing = run->numbers.spacing,
+                        .recorded = true,
+                        .first = run->first,
+                        .last = source->taken ? source->at.last : run->last,
+                        .wanted = time};
+}
+
+/* What each panel's name says: the values of --compare, and the view's own. */
+static void said_of(const RenderPlan *plan, int panel, char lines[VIEW_SET_SIZE + TITLE_SIZE])
+{
+    const Args *args = plan->args;
+    const size_t size = VIEW_SET_SIZE + TITLE_SIZE;
+    size_t used = (size_t)snprintf(lines, size, "%s\n", plan->views[panel]->set);
+    for (int i = 0; i < args->sweep_count && used < size; i++)
+        used += (size_t)snprintf(lines + used, size - used, "%s=\n", args->sweeps[i].key);
+}
+
+/* Where all panels show the same states of one setting there are none. */
+static void make_title(const Render *render, int panel, double time, Title *title)
+{
+    const RenderPlan *plan = &render->plan;
+    PanelFacts facts[PANELS_MAX];
+    char names[PANELS_MAX][TITLE_SIZE], said[PANELS_MAX][VIEW_SET_SIZE + TITLE_SIZE];
+    bool any = false;
+    for (int i = 0; i < plan->panel_count; i++) {
+        render_plan_name(plan, i, names[i]);
+        said_of(plan, i, said[i]);
+        facts[i] = facts_of(render, i, time);
+        facts[i].words = names[i];
+        facts[i].said = said[i];
+        any |= *names[i] != 0;
+    }
+    *title = (Title){.words = ""};
+    if (any)
+        panel_title(facts, plan->panel_count, panel, "simulated", title);
 }
 
 static bool open_shoot(Render *render, Error *error)
 {
     ShootPanel panels[PANELS_MAX];
-    const RenderPlan *plan = &render->plan;
-    for (int i = 0; i < plan->panel_count; i++)
-        make_panel(render, i, &panels[i]);
+    RenderPlan *plan = &render->plan;
+    for (int i = 0; i < plan->panel_count; i++) {
+        const int world = plan->world_of[i], file = plan->file_of[i];
+        panels[i] = (ShootPanel){.session = world >= 0 ? &render->sessions[world] : NULL,
+                                 .recorded = file >= 0 ? &plan->files[file] : NULL,
+                                 .view = plan->views[i]};
+    }
     return shoot_open(&render->shoot, panels, plan->panel_count, render->args->interpolate,
                       render->args->width, render->args->height, error);
 }
@@ -120,17 +169,19 @@ static bool take_picture(Render *render, double time, Error *error)
 {
     const RenderPlan *plan = &render->plan;
     Shoot *shoot = &render->shoot;
-    ShootPanel panel = {.session = NULL};
+    Title titles[PANELS_MAX];
+    if (!shoot_take(shoot, time, error))
+        return false;
     for (int i = 0; i < plan->panel_count; i++) {
-        make_panel(render, i, &panel);
-        if (!shoot_set_title(shoot, i, &panel.title, error))
+        make_title(render, i, time, &titles[i]);
+        if (!shoot_set_title(shoot, i, &titles[i], error))
             return false;
     }
-    if (!shoot_draw(shoot, time, error) || !pictures_add(render->pictures, &shoot->image, error))
+    if (!shoot_draw(shoot, error) || !pictures_add(render->pictures, &shoot->image, error))
         return false;
     for (int i = 0; i < plan->panel_count; i++)
         for (int k = 0; k < i; k++)
-            render->figures.differ[i][k] |= !shoot_same(shoot, i, k, &panel.title);
+            render->figures.differ[i][k] |= !shoot_same(shoot, i, k, titles);
     render->figures.pictures++;
     render->figures.apart = fmax(render->figures.apart, shoot_spread(shoot));
     progress_update(&render->progress, fraction_done(render));
@@ -209,13 +260,16 @@ static int shoot_all(Render *render, PicturesKind kind, Error *error)
         taken = take_pictures(render, error);
         progress_end(&render->progress);
     }
-    const size_t count = taken ? render->figures.pictures : 0;
+    const size_t count = taken ? render->figures.pictures : 0, staying = pictures_staying(render->pictures);
     warn_of_older(render->pictures, count);
+    lacks_print(&render->shoot.lacks, render->args->output, stderr);
     if (!taken)
         pictures_discard(render->pictures);
     else
         taken = pictures_finish(render->pictures, error);
     const int code = taken ? report(render, error) : fail(render, error);
+    if (!taken)
+        render_tell_staying(render->args, staying);
     shoot_close(&render->shoot);
     return code;
 }
@@ -237,8 +291,8 @@ static int open_sessions(Render *render, Error *error)
     RenderPlan *plan = &render->plan;
     for (int i = 0; i < plan->world_count; i++) {
         const int code =
-            session_open_scene(&render->sessions[i], render->args, &plan->scenes[plan->first_of[i]],
-                               plan->worlds[i], i > 0 ? render->sessions[0].context : NULL, error);
+            session_open_scene(&render->sessions[i], render->args, plan->scene_of[i], plan->worlds[i],
+                               i > 0 ? render->sessions[0].context : NULL, error);
         if (code == 0)
             continue;
         blame(&render->sessions[i], error);
@@ -280,6 +334,7 @@ int cmd_render(const Args *args)
     }
     for (int i = PANELS_MAX; i-- > 0;)
         session_close(&render->sessions[i]);
+    render_plan_close(&render->plan);
     free(render);
     return code;
 }

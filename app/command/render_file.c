@@ -4,10 +4,15 @@
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/base/progress.h"
+#include "app/beside/beside.h"
+#include "app/beside/lacks.h"
+#include "app/beside/panel_title.h"
+#include "app/command/render_report.h"
 #include "app/output/pictures.h"
-#include "app/playback/reel.h"
+#include "app/playback/reel_watch.h"
 #include "app/session/headless.h"
 #include "app/session/studio.h"
+#include "render/frame/overlay.h"
 #include "render/panels.h"
 #include "sim/base/stage.h"
 
@@ -17,19 +22,34 @@
 
 static const size_t KEPT_BYTES = 256U << 20; /* of steps in memory */
 
+/* A run that panels show: the file itself, and those beside it (`file` of a view). */
+typedef struct ShownRun {
+    char name[BESIDE_WORDS]; /* without its folder */
+    Recorded recorded;       /* with its reader until there is a reel */
+    unsigned attributes;
+    Reel *reel;
+    ReelStatus at;
+    ParticleBuffers state;
+    size_t drawn; /* the step in the last picture */
+    ReelWatch watch;
+} ShownRun;
+
 typedef struct FileRender {
     const Args *args;
     Scene scene;
     Headless *context;
     Panels *panels; /* one for each of the scene's views */
-    Reel *reel;
+    Lacks lacks;
+    int run_count;
+    ShownRun runs[PANELS_MAX + 1]; /* the file first */
+    int run_of[PANELS_MAX];        /* of each panel */
     Pictures *pictures;
-    Image image;                    /* the last picture, of step `drawn` */
-    size_t drawn, particles, steps; /* `steps` of the file */
-    double first, interval;         /* times of the pictures, s: first, first + interval, ... */
-    size_t wanted, taken;           /* pictures */
-    double time;                    /* of the step of the last picture, s */
-    double began_ms, first_ms;      /* wall time of the start, of the first picture */
+    Image image;               /* the last picture */
+    size_t particles, steps;   /* of the file */
+    double first, interval;    /* times of the pictures, s: first, first + interval, ... */
+    size_t wanted, taken;      /* pictures */
+    double time;               /* of the step of the last picture, s */
+    double began_ms, first_ms; /* wall time of the start, of the first picture */
 } FileRender;
 
 /* ---- the command line ---- */
@@ -81,27 +101,50 @@ static bool choose_times(FileRender *render, const Recorded *recorded, PicturesK
                      recorded->last, (int)args->frames, last);
 }
 
-static bool check_views(const Recorded *recorded, const Scene *scene, Error *error)
+/* The run that the view shows: of a panel before, or one more. */
+static bool find_run(FileRender *render, int panel, Notes *notes, Error *error)
+{
+    const ViewDef *view = scene_view(&render->scene, panel);
+    render->run_of[panel] = 0;
+    if (!*view->file)
+        return recorded_has(&render->runs[0].recorded, view, error);
+    for (int i = 0; i < panel; i++)
+        if (beside_same(scene_view(&render->scene, i), view)) {
+            render->run_of[panel] = render->run_of[i];
+            return recorded_has(&render->runs[render->run_of[i]].recorded, view, error);
+        }
+    ShownRun *run = &render->runs[render->run_count];
+    beside_words(view, run->name);
+    if (!beside_open_file(render->args->scenes[0], view, panel, &run->recorded, notes, error))
+        return false;
+    render->run_of[panel] = render->run_count++;
+    return true;
+}
+
+static bool find_runs(FileRender *render, Notes *notes, Error *error)
 {
     bool ok = true;
-    for (int i = 0; ok && i < scene_view_count(scene); i++)
-        ok = recorded_has(recorded, scene_view(scene, i), error);
+    for (int i = 0; ok && i < scene_view_count(&render->scene); i++)
+        ok = find_run(render, i, notes, error);
     return ok;
 }
 
-static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kind, Error *error)
+static bool understand(FileRender *render, PicturesKind *kind, Error *error)
 {
     const Args *args = render->args;
+    const char *slash = strrchr(args->scenes[0], '/');
+    ShownRun *own = &render->runs[0];
+    Recorded *recorded = &own->recorded;
     Notes notes = {.count = 0};
     if (!check_options(args, error) || !check_output(args, kind, error) ||
         !recorded_open(args->scenes[0], &args->settings, recorded, &notes, error))
         return false;
+    snprintf(own->name, sizeof own->name, "%.150s", slash ? slash + 1 : args->scenes[0]);
+    render->run_count = 1;
     render->scene = recorded->scene;
     render->steps = recorded->steps;
-    if (!check_views(recorded, &render->scene, error) || !choose_times(render, recorded, *kind, error)) {
-        recorded_close(recorded);
+    if (!find_runs(render, &notes, error) || !choose_times(render, recorded, *kind, error))
         return false;
-    }
     notes_print(&notes, stderr);
     if (args->time_given && args->frames > 0)
         fprintf(stderr, "--time %.9g has no effect: --frames says how long it lasts\n", args->time);
@@ -110,22 +153,43 @@ static bool understand(FileRender *render, Recorded *recorded, PicturesKind *kin
 
 /* ---- pictures ---- */
 
-static bool open_all(FileRender *render, Recorded *recorded, Error *error)
+/* Those beside the file show their first step at or after its time. What their scenes say stays here. */
+static bool open_reels(FileRender *render, Error *error)
+{
+    for (int i = 0; i < render->run_count; i++) {
+        ShownRun *run = &render->runs[i];
+        Recorded taken = run->recorded;
+        const ReelSetup setup = {
+            .recorded = &taken, .attributes = run->attributes, .bytes = KEPT_BYTES, .at_or_after = i > 0};
+        run->drawn = SIZE_MAX;
+        run->reel = reel_create(&setup, error);
+        if (!run->reel)
+            return false;
+        run->recorded.reader = NULL;
+    }
+    return true;
+}
+
+static bool open_all(FileRender *render, Error *error)
 {
     const Args *args = render->args;
-    const Scene *scene = &render->scene;
-    const int count = scene_view_count(scene);
+    const int count = scene_view_count(&render->scene);
     Subject subjects[PANELS_MAX];
-    ReelSetup setup = {.recorded = recorded, .bytes = KEPT_BYTES};
-    for (int i = 0; i < count; i++) {
-        subjects[i] = (Subject){scene_view(scene, i), &scene->world};
-        setup.attributes |= renderer_attributes(subjects[i].def);
+    for (int i = 0; i < render->run_count; i++) {
+        render->runs[i].watch = (ReelWatch){.every = INFINITY, .watched = -INFINITY};
     }
-    render->drawn = SIZE_MAX;
+    for (int i = 0; i < count; i++) {
+        ShownRun *run = &render->runs[render->run_of[i]];
+        subjects[i] = (Subject){scene_view(&render->scene, i), &run->recorded.scene.world};
+        run->attributes |= renderer_attributes(subjects[i].def);
+        double before;
+        run->watch.every = fmin(run->watch.every, overlays_every(subjects[i].def, &before));
+        run->watch.before = fmax(run->watch.before, before);
+    }
     if (!(render->context = headless_create(args->gpu, error)))
         return false;
     fprintf(stderr, "renderer: %s\n", headless_renderer(render->context));
-    return (render->reel = reel_create(&setup, error)) &&
+    return open_reels(render, error) &&
            (render->panels = panels_create(subjects, count, args->width, args->height, error)) &&
            (image_create(&render->image, args->width, args->height) ||
             error_set(error, "out of memory for a picture of %d x %d", args->width, args->height)) &&
@@ -136,29 +200,96 @@ static void close_all(FileRender *render)
 {
     image_destroy(&render->image);
     panels_destroy(render->panels);
-    reel_destroy(render->reel);
+    for (int i = 0; i < render->run_count; i++) {
+        reel_destroy(render->runs[i].reel);
+        recorded_close(&render->runs[i].recorded); /* where the reel has not taken it over */
+    }
     headless_destroy(render->context);
+}
+
+/* A run, for overlays. */
+typedef struct Watched {
+    FileRender *render;
+    ShownRun *run;
+} Watched;
+
+static void see(void *user, const ParticleBuffers *particles)
+{
+    const Watched *watched = user;
+    const FileRender *render = watched->render;
+    for (int i = 0; i < panels_count(render->panels); i++)
+        if (&render->runs[render->run_of[i]] == watched->run)
+            panels_take(render->panels, i, particles);
+    watched->run->drawn = SIZE_MAX; /* its buffers hold this step now */
+}
+
+/* `fresh`: it shows another step than before. */
+static bool take(FileRender *render, ShownRun *run, double time, bool *fresh, Error *error)
+{
+    Watched watched = {render, run};
+    if (!reel_watch(&run->watch, run->reel, time, &(ReelSeer){see, &watched}, &run->at, error))
+        return false;
+    reel_seek(run->reel, time, render->interval);
+    if (!reel_wait(run->reel, &run->at, error))
+        return false;
+    if (run->at.index == run->drawn)
+        return true;
+    *fresh = true;
+    run->drawn = run->at.index;
+    return reel_take(run->reel, &run->state) ||
+           error_set(error, "%s: Step#%zu is not shown", run->recorded.path, run->at.index);
+}
+
+static PanelFacts facts_of(const ShownRun *run, bool own, double time)
+{
+    return (PanelFacts){.words = run->name,
+                        .said = "",
+                        .def = &run->recorded.scene.world,
+                        .particles = run->state.count,
+                        .spacing = run->recorded.numbers.spacing,
+                        .recorded = true,
+                        .first = own ? -INFINITY : run->at.first,
+                        .last = own ? INFINITY : run->at.last,
+                        .wanted = time};
+}
+
+/* Where there is more than one run. */
+static bool set_titles(const FileRender *render, Error *error)
+{
+    const int count = panels_count(render->panels);
+    PanelFacts facts[PANELS_MAX];
+    bool ok = true;
+    for (int i = 0; i < count; i++)
+        facts[i] =
+            facts_of(&render->runs[render->run_of[i]], render->run_of[i] == 0, render->runs[0].at.time);
+    for (int i = 0; ok && render->run_count > 1 && i < count; i++) {
+        Title title;
+        panel_title(facts, count, i, "", &title);
+        ok = panels_set_title(render->panels, i, &title, error);
+    }
+    return ok;
 }
 
 /* A step that serves two pictures is drawn once. */
 static bool draw(FileRender *render, double time, Error *error)
 {
-    ReelStatus status;
-    ParticleBuffers particles;
-    reel_seek(render->reel, time, render->interval);
-    if (!reel_wait(render->reel, &status, error))
-        return false;
-    if (status.index == render->drawn)
+    const ParticleBuffers *states[PANELS_MAX];
+    bool fresh = false;
+    for (int i = 0; i < render->run_count; i++) /* the others at the time of the file's step */
+        if (!take(render, &render->runs[i], i == 0 ? time : render->runs[0].at.time, &fresh, error))
+            return false;
+    if (!fresh)
         return true;
-    if (!reel_take(render->reel, &particles))
-        return error_set(error, "%s: Step#%zu is not shown", render->args->scenes[0], status.index);
-    const ParticleBuffers *const states[PANELS_MAX] = {&particles, &particles, &particles, &particles};
+    for (int i = 0; i < panels_count(render->panels); i++)
+        states[i] = &render->runs[render->run_of[i]].state;
+    if (!set_titles(render, error))
+        return false;
     panels_draw(render->panels, states, NULL);
+    lacks_take(&render->lacks, render->panels, states);
     if (!panels_read(render->panels, render->image.rgb, error))
         return false;
-    render->drawn = status.index;
-    render->particles = particles.count;
-    render->time = status.time;
+    render->particles = render->runs[0].state.count;
+    render->time = render->runs[0].at.time;
     return true;
 }
 
@@ -200,11 +331,19 @@ static int fail(const FileRender *render, const Error *error)
     return EXIT_FAILED;
 }
 
+static void print_flaws(const FileRender *render)
+{
+    for (int i = 0; i < render->run_count; i++)
+        if (render->runs[i].reel)
+            reel_print_flaws(render->runs[i].reel, stderr);
+}
+
 static void report(const FileRender *render)
 {
     const Args *args = render->args;
     char older[1088];
-    reel_print_flaws(render->reel, stderr);
+    print_flaws(render);
+    lacks_print(&render->lacks, args->output, stderr);
     if (render->taken < render->wanted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", render->time, args->output);
     if (pictures_has_older(render->pictures, older))
@@ -231,37 +370,36 @@ static int finish(FileRender *render, Error *error)
     return EXIT_FAILED;
 }
 
-static int show(FileRender *render, Recorded *recorded, Error *error)
+static int show(FileRender *render, Error *error)
 {
     int code = EXIT_FAILED;
-    if (open_all(render, recorded, error) && take_pictures(render, error)) {
+    if (open_all(render, error) && take_pictures(render, error)) {
         code = finish(render, error);
     } else {
-        if (render->reel)
-            reel_print_flaws(render->reel, stderr);
+        print_flaws(render);
         fail(render, error);
+        render_tell_staying(render->args, pictures_staying(render->pictures));
         pictures_discard(render->pictures);
     }
-    close_all(render);
-    recorded_close(recorded); /* where the reel has not taken it over */
     return code;
 }
 
 int render_file(const Args *args)
 {
-    FileRender render = {.args = args, .began_ms = wall_ms()};
-    Recorded recorded;
+    static FileRender render;
     Error error = {{0}};
     PicturesKind kind;
+    int code = EXIT_USAGE;
+    render = (FileRender){.args = args, .began_ms = wall_ms()};
     interrupt_install();
-    if (!understand(&render, &recorded, &kind, &error)) {
+    if (!understand(&render, &kind, &error)) {
         fprintf(stderr, "%s\n", error.message);
-        return EXIT_USAGE;
-    }
-    if (args->json && !json_file_check(args->json, &error)) {
+    } else if (args->json && !json_file_check(args->json, &error)) {
         fprintf(stderr, "%s\n", error.message);
-        recorded_close(&recorded);
-        return EXIT_FAILED;
+        code = EXIT_FAILED;
+    } else {
+        code = show(&render, &error);
     }
-    return show(&render, &recorded, &error);
+    close_all(&render);
+    return code;
 }

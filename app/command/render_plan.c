@@ -1,5 +1,6 @@
 #include "app/command/render_plan.h"
 
+#include "app/beside/beside.h"
 #include "app/scene/check.h"
 #include "app/session/sweep.h"
 #include "sim/matter/flow.h"
@@ -23,8 +24,12 @@ static bool blame(const RenderPlan *plan, int setting, Error *error)
                : false;
 }
 
-static bool load(const RenderPlan *plan, int setting, Scene *scene, Notes *notes, Error *error)
+/* `view`: an entry of `views`, whose own settings come on top; NULL: none. */
+static bool load(const RenderPlan *plan, int setting, const ViewDef *view, int entry, Scene *scene,
+                 Notes *notes, Error *error)
 {
+    static const ViewDef none;
+    static BesideSettings beside;
     const Args *args = plan->args;
     char said[ARGS_SWEEPS_MAX][SWEEP_SAID];
     SceneSettings settings = args->settings;
@@ -32,7 +37,9 @@ static bool load(const RenderPlan *plan, int setting, Scene *scene, Notes *notes
         if (!sweep_set(args->sweeps[i].key, sweeps_value(args->sweeps, args->sweep_count, i, (size_t)setting),
                        "--compare", said[i], &settings, error))
             return false;
-    return (scene_load(args->scenes[0], &settings, scene, notes, error) && world_can(&scene->world, error)) ||
+    return (beside_settings(&settings, view ? view : &none, entry, &beside, error) &&
+            scene_load(args->scenes[0], &beside.settings, scene, notes, error) &&
+            world_can(&scene->world, error)) ||
            blame(plan, setting, error);
 }
 
@@ -50,50 +57,122 @@ static void tell_notes(const RenderPlan *plan, const Notes notes[])
         }
 }
 
-static bool same_world(const RenderPlan *plan, int a, int b)
+static bool sets(const char *setting, const char *key)
+{
+    const size_t length = strlen(key);
+    return strncmp(setting, key, length) == 0 && setting[length] == '=';
+}
+
+/* Whether a view has that key for itself: its value comes on top. */
+static bool has_own(const ViewDef *view, const char *key)
+{
+    for (const char *line = view->set; *line; line += strcspn(line, "\n"), line += *line != 0)
+        if (sets(line, key))
+            return true;
+    return false;
+}
+
+/* Whether a world of that view is the same with two settings. */
+static bool same_world(const RenderPlan *plan, const ViewDef *view, int a, int b)
 {
     const Args *args = plan->args;
     bool same = true;
     for (int i = 0; i < args->sweep_count; i++)
-        same &=
-            of_view(args->sweeps[i].key) || sweeps_value(args->sweeps, args->sweep_count, i, (size_t)a) ==
-                                                sweeps_value(args->sweeps, args->sweep_count, i, (size_t)b);
+        same &= of_view(args->sweeps[i].key) || has_own(view, args->sweeps[i].key) ||
+                sweeps_value(args->sweeps, args->sweep_count, i, (size_t)a) ==
+                    sweeps_value(args->sweeps, args->sweep_count, i, (size_t)b);
     return same;
 }
 
-static void name_world(const RenderPlan *plan, int setting, char name[TITLE_SIZE])
+static void append(char name[TITLE_SIZE], const char *words)
 {
-    const Args *args = plan->args;
-    size_t used = 0;
-    *name = 0;
-    for (int i = 0; i < args->sweep_count && used < TITLE_SIZE; i++)
-        if (!of_view(args->sweeps[i].key))
-            used += (size_t)snprintf(name + used, TITLE_SIZE - used, "%s%s %s", used ? ", " : "",
-                                     args->sweeps[i].key,
-                                     sweeps_value(args->sweeps, args->sweep_count, i, (size_t)setting));
+    const size_t used = strlen(name);
+    if (*words)
+        snprintf(name + used, TITLE_SIZE - used, "%s%s", used ? ", " : "", words);
 }
 
-/* The world of each setting. */
-static void find_worlds(RenderPlan *plan, int world_of[PANELS_MAX])
+/* Of the setting, but for what the view has for itself, and of the view. `of_views`: with keys of the view.
+ */
+static void name_panel(const RenderPlan *plan, int panel, bool of_views, char name[TITLE_SIZE])
 {
-    for (int i = 0; i < plan->setting_count; i++) {
-        int first = 0;
-        while (!same_world(plan, first, i))
-            first++;
-        world_of[i] = first < i ? world_of[first] : plan->world_count;
-        if (first < i)
+    const Args *args = plan->args;
+    char words[TITLE_SIZE];
+    *name = 0;
+    for (int i = 0; i < args->sweep_count; i++) {
+        const char *key = args->sweeps[i].key;
+        if ((of_view(key) && !of_views) || has_own(plan->views[panel], key))
             continue;
-        name_world(plan, i, plan->worlds[plan->world_count]);
-        plan->first_of[plan->world_count++] = i;
+        snprintf(words, sizeof words, "%s %s", sweep_typed(&args->sweeps[i]),
+                 sweeps_value(args->sweeps, args->sweep_count, i, (size_t)plan->setting_of[panel]));
+        append(name, words);
     }
+    beside_words(plan->views[panel], words);
+    append(name, words);
+}
+
+void render_plan_name(const RenderPlan *plan, int panel, char name[TITLE_SIZE])
+{
+    name_panel(plan, panel, true, name);
+}
+
+/* The first panel before this one that shows the same states; the panel itself where there is none. */
+static int first_alike(const RenderPlan *plan, int panel)
+{
+    for (int i = 0; i < panel; i++)
+        if (beside_same(plan->views[i], plan->views[panel]) &&
+            (*plan->views[panel]->file ||
+             same_world(plan, plan->views[i], plan->setting_of[i], plan->setting_of[panel])))
+            return i;
+    return panel;
+}
+
+static bool add_file(RenderPlan *plan, int panel, Notes *notes, Error *error)
+{
+    plan->file_of[panel] = plan->file_count;
+    if (!beside_open_file(plan->scenes[0].path, plan->views[panel], panel / plan->setting_count,
+                          &plan->files[plan->file_count], notes, error))
+        return false;
+    plan->file_count++;
+    return true;
+}
+
+static bool add_world(RenderPlan *plan, int panel, Notes *notes, Error *error)
+{
+    const ViewDef *view = plan->views[panel];
+    const int setting = plan->setting_of[panel], world = plan->world_count++;
+    plan->world_of[panel] = world;
+    plan->scene_of[world] = &plan->scenes[setting];
+    name_panel(plan, panel, false, plan->worlds[world]);
+    if (!beside_is(view))
+        return true;
+    plan->scene_of[world] = &plan->own[panel];
+    return load(plan, setting, view, panel / plan->setting_count, &plan->own[panel], notes, error);
+}
+
+/* What each panel shows; what is new to be said goes into `notes`. */
+static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
+{
+    for (int i = 0; i < plan->panel_count; i++) {
+        const int first = first_alike(plan, i);
+        plan->world_of[i] = plan->file_of[i] = -1;
+        notes[i].count = 0;
+        if (first < i) {
+            plan->world_of[i] = plan->world_of[first];
+            plan->file_of[i] = plan->file_of[first];
+        } else if (!(*plan->views[i]->file ? add_file : add_world)(plan, i, &notes[i], error)) {
+            return false;
+        }
+        if (plan->file_of[i] >= 0 && first < i &&
+            !recorded_has(&plan->files[plan->file_of[i]], plan->views[i], error))
+            return false;
+    }
+    return true;
 }
 
 /* Settings beside one another, the views of each below one another. */
 static bool lay_out(RenderPlan *plan, Error *error)
 {
     const int views = scene_view_count(&plan->scenes[0]);
-    int world_of[PANELS_MAX] = {0};
-    find_worlds(plan, world_of);
     plan->panel_count = plan->setting_count * views;
     for (int i = 1; i < plan->setting_count; i++)
         if (scene_view_count(&plan->scenes[i]) != views)
@@ -106,7 +185,6 @@ static bool lay_out(RenderPlan *plan, Error *error)
                          plan->setting_count, views, plan->panel_count, PANELS_MAX);
     for (int i = 0; i < plan->panel_count; i++) {
         plan->setting_of[i] = i % plan->setting_count;
-        plan->world_of[i] = world_of[plan->setting_of[i]];
         plan->views[i] = scene_view(&plan->scenes[plan->setting_of[i]], i / plan->setting_count);
     }
     return true;
@@ -117,7 +195,7 @@ static bool fit_together(const RenderPlan *plan, Error *error)
 {
     double particles = 0;
     for (int i = 0; i < plan->world_count; i++) {
-        const WorldDef *def = &plan->scenes[plan->first_of[i]].world;
+        const WorldDef *def = &plan->scene_of[i]->world;
         particles += (double)flow_capacity(def, seed_count(def, def->spacing));
     }
     return scene_fits_memory(particles) ||
@@ -144,12 +222,6 @@ static bool check_sweeps(const Args *args, Error *error)
     return true;
 }
 
-static bool sets(const char *setting, const char *key)
-{
-    const size_t length = strlen(key);
-    return strncmp(setting, key, length) == 0 && setting[length] == '=';
-}
-
 /* What the command line sets besides, where each panel has its own. */
 static void tell_idle(const Args *args)
 {
@@ -167,9 +239,23 @@ static void tell_idle(const Args *args)
     }
 }
 
+/* What is to be said of panels beside the scene, and not of the scene. */
+static void tell_own(const RenderPlan *plan, const Notes notes[], const Notes own[])
+{
+    for (int i = 0; i < plan->panel_count; i++)
+        for (int k = 0; k < own[i].count; k++) {
+            char words[BESIDE_WORDS];
+            beside_words(plan->views[i], words);
+            if (plan->file_of[i] >= 0) /* it names its file */
+                fprintf(stderr, "%s\n", own[i].line[k]);
+            else if (!notes_have(&notes[plan->setting_of[i]], own[i].line[k]))
+                fprintf(stderr, "%s: %s\n", words, own[i].line[k]);
+        }
+}
+
 bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
 {
-    static Notes notes[PANELS_MAX];
+    static Notes notes[PANELS_MAX], own[PANELS_MAX];
     const size_t settings = sweeps_combinations(args->sweeps, args->sweep_count);
     *plan = (RenderPlan){.args = args, .setting_count = (int)settings};
     if (args->sweep_count && settings != 2 && settings != 4)
@@ -181,71 +267,19 @@ bool render_plan_make(const Args *args, RenderPlan *plan, Error *error)
         return false;
     for (int i = 0; i < plan->setting_count; i++) {
         sweeps_name(args->sweeps, args->sweep_count, (size_t)i, " ", plan->names[i], TITLE_SIZE);
-        if (!load(plan, i, &plan->scenes[i], &notes[i], error))
+        if (!load(plan, i, NULL, 0, &plan->scenes[i], &notes[i], error))
             return false;
     }
-    if (!lay_out(plan, error))
+    if (!lay_out(plan, error) || !find_states(plan, own, error))
         return false;
     tell_idle(args);
     tell_notes(plan, notes);
+    tell_own(plan, notes, own);
     return fit_together(plan, error);
 }
 
-/* What panels may differ in besides their names. */
-typedef struct Figure {
-    const char *key; /* that says it; "": none does */
-    void (*text)(const Session *session, char out[64]);
-} Figure;
-
-static void count_text(const Session *session, char out[64])
+void render_plan_close(RenderPlan *plan)
 {
-    snprintf(out, 64, "%zu particle%s", session->info.count, plural(session->info.count));
-}
-
-static void spacing_text(const Session *session, char out[64])
-{
-    snprintf(out, 64, "spacing %.3g mm", 1e3 * session->info.spacing);
-}
-
-static void method_text(const Session *session, char out[64])
-{
-    snprintf(out, 64, "method %s", session->scene.world.method);
-}
-
-static void step_text(const Session *session, char out[64])
-{
-    const WorldDef *def = &session->scene.world;
-    if (def->step_mode == STEP_FIXED)
-        snprintf(out, 64, "steps of %.3g ms", 1e3 * def->dt / def->substeps);
-    else
-        snprintf(out, 64, "steps by cfl");
-}
-
-static const Figure figures[] = {
-    {"", count_text}, {"particles.spacing", spacing_text}, {"solver.method", method_text}, {"", step_text}};
-
-static bool is_compared(const RenderPlan *plan, const char *key)
-{
-    bool compared = false;
-    for (int i = 0; i < plan->args->sweep_count; i++)
-        compared |= strcmp(plan->args->sweeps[i].key, key) == 0;
-    return compared;
-}
-
-void render_plan_title(const RenderPlan *plan, const Session sessions[], int panel, Title *title)
-{
-    size_t used = 0;
-    memcpy(title->words, plan->names[plan->setting_of[panel]], sizeof title->words);
-    *title->figures = 0;
-    for (size_t f = 0; f < sizeof figures / sizeof *figures; f++) {
-        char own[64], other[64];
-        bool differs = false;
-        figures[f].text(&sessions[plan->world_of[panel]], own);
-        for (int w = 0; w < plan->world_count; w++) {
-            figures[f].text(&sessions[w], other);
-            differs |= strcmp(own, other) != 0;
-        }
-        if (differs && !is_compared(plan, figures[f].key) && used < TITLE_SIZE)
-            used += (size_t)snprintf(title->figures + used, TITLE_SIZE - used, "%s%s", used ? ", " : "", own);
-    }
+    for (int i = 0; i < plan->file_count; i++)
+        recorded_close(&plan->files[i]);
 }

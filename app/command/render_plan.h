@@ -3,9 +3,9 @@
 #ifndef SLOSH_RENDER_PLAN_H
 #define SLOSH_RENDER_PLAN_H
 
+#include "app/playback/recorded.h"
 #include "app/scene/scene.h"
 #include "app/session/args.h"
-#include "app/session/session.h"
 #include "render/panels.h"
 
 typedef struct RenderPlan {
@@ -16,17 +16,22 @@ typedef struct RenderPlan {
     char names[PANELS_MAX][TITLE_SIZE]; /* of each setting: "particles 2000"; "" of a single one */
     int setting_of[PANELS_MAX];         /* of each panel */
     const ViewDef *views[PANELS_MAX];   /* of each panel, in its setting's scene */
-    int world_of[PANELS_MAX]; /* of each panel; settings that differ in keys of the view alone share one */
-    int first_of[PANELS_MAX]; /* the first setting of each world */
+    int world_of[PANELS_MAX]; /* of each panel; what differs in keys of the view alone shares one; -1: a
+                                 file's */
+    Scene own[PANELS_MAX];    /* of panels whose view has settings of its own */
+    const Scene *scene_of[PANELS_MAX];   /* of each world */
     char worlds[PANELS_MAX][TITLE_SIZE]; /* of each world: its settings' name without keys of the view */
+    int file_of[PANELS_MAX];             /* of each panel; -1: simulated */
+    int file_count;
+    Recorded files[PANELS_MAX]; /* recorded runs; the shoot takes over what it reads of them */
 } RenderPlan;
 
 /* Loads each setting, and says what is to be said of it; starts and writes nothing. False with the reason and
-   the setting at fault. */
+   the setting at fault; render_plan_close is needed in either case. */
 bool render_plan_make(const Args *args, RenderPlan *plan, Error *error);
+void render_plan_close(RenderPlan *plan); /* a zeroed one is allowed */
 
-/* What stands in a panel: its name, and what differs between the states of the panels. `sessions`: of each
-   world. */
-void render_plan_title(const RenderPlan *plan, const Session sessions[], int panel, Title *title);
+/* The panel's name, of its setting and of what its view has of its own; "": none. */
+void render_plan_name(const RenderPlan *plan, int panel, char name[TITLE_SIZE]);
 
 #endif

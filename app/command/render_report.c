@@ -4,6 +4,7 @@
 #include "sim/base/stage.h"
 
 #include <math.h>
+#include <string.h>
 
 static Summary summary_of(const Session sessions[], const RenderFigures *figures, int world)
 {
@@ -26,12 +27,21 @@ static void tell_alike(const RenderPlan *plan, int one, int other)
                 *plan->names[a] ? ": " : "", one / plan->setting_count, other / plan->setting_count);
 }
 
+/* Whether two settings reach neither panel: their view says it all itself. */
+static bool one_name(const RenderPlan *plan, int a, int b)
+{
+    char names[2][TITLE_SIZE];
+    render_plan_name(plan, a, names[0]);
+    render_plan_name(plan, b, names[1]);
+    return plan->setting_of[a] != plan->setting_of[b] && strcmp(names[0], names[1]) == 0;
+}
+
 /* What people would take for a mistake, if it were not said. */
 static void tell_same(const RenderPlan *plan, const RenderFigures *figures)
 {
     for (int a = 0; a < plan->panel_count; a++)
         for (int b = 0; b < a; b++)
-            if (!figures->differ[a][b])
+            if (!figures->differ[a][b] && !one_name(plan, a, b))
                 tell_alike(plan, b, a);
 }
 
@@ -95,6 +105,13 @@ static void report_several(const RenderPlan *plan, const Session sessions[], con
                 plural(figures->pictures));
 }
 
+void render_tell_staying(const Args *args, size_t frames)
+{
+    if (frames > 0)
+        fprintf(stderr, "%s: the %zu picture%s before that %s whole and kept\n", args->output, frames,
+                plural(frames), frames == 1 ? "is" : "are");
+}
+
 void render_report(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures)
 {
     const Summary summary = summary_of(sessions, figures, 0);
@@ -104,20 +121,33 @@ void render_report(const RenderPlan *plan, const Session sessions[], const Rende
         session_report(&sessions[0], plan->args, &summary);
 }
 
+/* What the panel's states come from. */
+static void add_source(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures,
+                       int panel, json_t *json)
+{
+    const int world = plan->world_of[panel];
+    if (world < 0) {
+        json_object_set_new(json, "file", json_string(plan->files[plan->file_of[panel]].path));
+        return;
+    }
+    const Summary summary = summary_of(sessions, figures, world);
+    json_object_set_new(json, "world", json_integer(world));
+    json_object_set_new(json, "run", session_json(&sessions[world], plan->args, &summary));
+}
+
 static json_t *panel_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
                           const RenderFigures *figures, int panel)
 {
-    const int world = plan->world_of[panel];
     const ViewDef *view = plan->views[panel];
     const PanelPlace *at = &panels_places(shoot->panels)[panel];
-    const Summary summary = summary_of(sessions, figures, world);
+    char name[TITLE_SIZE];
     double range[2];
+    render_plan_name(plan, panel, name);
     panels_range(shoot->panels, panel, range);
-    json_t *run = session_json(&sessions[world], plan->args, &summary);
-    json_t *json = json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:i, s:f, s:o}", "setting",
-                             plan->names[plan->setting_of[panel]], "place", at->x, at->y, at->width,
-                             at->height, "view", view->kind, "scalar", scalar_name(view->color_by), "world",
-                             world, "time", shoot->sources[shoot->source_of[panel]].state.time, "run", run);
+    json_t *json = json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:f}", "setting", name, "place", at->x, at->y,
+                             at->width, at->height, "view", view->kind, "scalar", scalar_name(view->color_by),
+                             "time", shoot->sources[shoot->source_of[panel]].state.time);
+    add_source(plan, sessions, figures, panel, json);
     if (json && view->color_by != SCALAR_FLUID)
         json_object_set_new(json, "range", json_pack("[f,f]", range[0], range[1]));
     return json;

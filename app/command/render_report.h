@@ -2,8 +2,8 @@
 #ifndef SLOSH_RENDER_REPORT_H
 #define SLOSH_RENDER_REPORT_H
 
+#include "app/beside/shoot.h"
 #include "app/command/render_plan.h"
-#include "app/session/shoot.h"
 
 typedef struct RenderFigures {
     size_t pictures;
@@ -12,6 +12,9 @@ typedef struct RenderFigures {
     double apart;                        /* most seconds between the states of a picture */
     bool stopped;                        /* by a signal */
 } RenderFigures;
+
+/* Of a run that failed: so many whole frames stay in the folder; 0: nothing is said. */
+void render_tell_staying(const Args *args, size_t frames);
 
 /* The closing lines on standard error; of several panels also which were the same in every picture. */
 void render_report(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures);

@@ -138,6 +138,10 @@ static int fail(const Session *session, const Args *args, const Snapshot *file, 
 static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *error)
 {
     WorldState state = {.count = 0};
+    Scene *scene = &session->scene; /* all steps of a file have the same */
+    if (snapshot_file_has(args->output, SCALAR_ACCELERATION_X) &&
+        !(scene->world.acceleration = world_keep_acceleration(session->world, error)))
+        return NULL;
     Snapshot *file =
         snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, busy, error);
     Error why = {{0}};

@@ -3,7 +3,7 @@
 #include "app/base/suggest.h"
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
-#include "app/scene/value.h"
+#include "app/yaml/value.h"
 #include "app/yaml/yaml.h"
 
 #include <stdlib.h>

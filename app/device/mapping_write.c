@@ -1,6 +1,7 @@
 /* What devices do, as a file and in words. */
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
+#include "sim/base/key_text.h"
 
 #include <errno.h>
 #include <string.h>

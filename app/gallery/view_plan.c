@@ -34,14 +34,14 @@ bool view_job_scene(const ViewPlan *plan, const ViewJob *job, Scene *scene, Erro
     return load(plan, job, scene, NULL, error);
 }
 
-static void value_of(const Scene *scene, const char *path, char value[VIEW_SET_SIZE])
+static void value_of(const Scene *scene, const char *path, char value[VIEW_SET_NAME])
 {
-    key_value_text(scene_key_find(path), scene, value, VIEW_SET_SIZE);
+    key_value_text(scene_key_find(path), scene, value, VIEW_SET_NAME);
 }
 
 static bool in_effect(const ViewGrade *grade, const Scene *scene)
 {
-    char value[VIEW_SET_SIZE];
+    char value[VIEW_SET_NAME];
     if (!grade->where)
         return true;
     value_of(scene, grade->where, value);
@@ -77,7 +77,7 @@ static bool job_set(ViewJob *job, const char *path, const char *value, bool name
     const char *last = strrchr(path, '.') + 1;
     if (job->set_count == VIEW_SETS)
         return false;
-    snprintf(job->set[job->set_count++], VIEW_SET_SIZE, "--set %.40s=%.30s", path, value);
+    snprintf(job->set[job->set_count++], VIEW_SET_NAME, "--set %.40s=%.30s", path, value);
     if (named)
         snprintf(job->name, sizeof job->name, "%.40s=%.30s", last, value);
     return true;
@@ -110,7 +110,7 @@ static bool all_at(ViewJob *job, const Scene *scene, bool finest)
 {
     bool other = false;
     for (const ViewGrade *grade = job->kind->grades; grade && grade->path; grade++) {
-        char now[VIEW_SET_SIZE];
+        char now[VIEW_SET_NAME];
         value_of(scene, grade->path, now);
         const char *value = grade->alike ? now : end_of(grade, now, finest);
         if (!in_effect(grade, scene) || strcmp(value, now) == 0)
@@ -123,7 +123,7 @@ static bool all_at(ViewJob *job, const Scene *scene, bool finest)
 static bool plan_grade(ViewPlan *plan, const ViewKind *kind, const ViewGrade *grade, const Scene *scene,
                        Error *error)
 {
-    char now[VIEW_SET_SIZE];
+    char now[VIEW_SET_NAME];
     bool ok = true;
     value_of(scene, grade->path, now);
     for (int v = 0; ok && grade->values[v] && in_effect(grade, scene); v++) {

@@ -8,13 +8,13 @@
 #include "app/session/args.h"
 #include "render/frame/view.h"
 
-enum { VIEW_SETS = 12, VIEW_SET_SIZE = 80, VIEW_JOBS_MAX = VIEW_ROWS_MAX };
+enum { VIEW_SETS = 12, VIEW_SET_NAME = 80, VIEW_JOBS_MAX = VIEW_ROWS_MAX };
 
 typedef struct ViewJob {
     const ViewKind *kind;
     bool reference;
     int set_count;
-    char set[VIEW_SETS][VIEW_SET_SIZE]; /* "--set key=value" */
+    char set[VIEW_SETS][VIEW_SET_NAME]; /* "--set key=value" */
     char name[VIEW_SETTINGS];           /* as ViewRow.settings */
 } ViewJob;
 

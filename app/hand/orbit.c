@@ -69,7 +69,14 @@ void orbit_turn(Orbit *orbit, double right, double up)
     if (!isfinite(right) || !isfinite(up))
         return;
     orbit->yaw = remainder(orbit->yaw - right, 2 * M_PI);
-    orbit->pitch = clamp(orbit->pitch - up, -steepest, steepest);
+    const double pitch = orbit->pitch + orbit->beyond - up;
+    orbit->pitch = clamp(pitch, -steepest, steepest);
+    orbit->beyond = pitch - orbit->pitch;
+}
+
+void orbit_settle(Orbit *orbit)
+{
+    orbit->beyond = 0;
 }
 
 static double picture_height(const Orbit *orbit, double distance)

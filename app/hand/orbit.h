@@ -10,6 +10,7 @@ typedef struct Orbit {
     double distance; /* m, from the eye to the plane through the pivot that the picture is parallel to */
     double yaw;      /* radians about y; 0: seen from +z, a quarter turn: from +x */
     double pitch;    /* radians, -pi/2 .. pi/2: above the horizon */
+    double beyond;   /* radians that the drag has gone past a pole, which the eye stays short of */
     double shift[2]; /* where the eye is beside the pivot, right and up, in distances: an automatic camera
                         makes room for the legend */
     double fov_deg;  /* vertical field of view, degrees */
@@ -21,9 +22,12 @@ typedef struct Orbit {
 Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
                   Covered covered);
 
-/* A drag of the scene by so many radians to the right and up; the pitch stays short of the poles. For these
-   three: numbers that are not finite are ignored. */
+/* A drag of the scene by so many radians to the right and up; the eye stays short of the poles, and a drag
+   there and back ends where it began. For these three: numbers that are not finite are ignored. */
 void orbit_turn(Orbit *orbit, double right, double up);
+
+/* A drag begins: what the one before went past a pole is forgotten. */
+void orbit_settle(Orbit *orbit);
 
 /* A drag of the scene in heights of the picture to the right and up: what lies in the plane of the pivot goes
    along with the mouse. */

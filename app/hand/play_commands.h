@@ -47,10 +47,12 @@ typedef enum PlayCommand {
     PLAY_PLANE_Z,
     PLAY_PIN,
     PLAY_UNPIN,
+    PLAY_TRAIL,
     PLAY_QUIT, /* Escape closes the help first when it is open: the window's affair */
     /* done for as long as it lasts: drags, the wheel, sticks, and the keys of play_held_keys */
     PLAY_ORBIT,
     PLAY_PAN,
+    PLAY_PICK, /* does what PLAY_TRAIL does */
     PLAY_ZOOM,
     PLAY_MOVE_DRAG,
     PLAY_TURN_DRAG,

@@ -154,6 +154,8 @@ static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
     if (stand->draws && !studio_open(&stand->studio, &setup->scene->view, &setup->scene->world, stand->world,
                                      setup->width, setup->height, error))
         return false;
+    if (stand->draws)
+        renderer_set_more(stand->studio.renderer, true); /* as in the window */
     stand->timer = gl_timer_create(setup->clock);
     return stand->timer || error_set(error, "no memory for the clock of the stages");
 }

@@ -140,6 +140,11 @@ bool pictures_finish(Pictures *pictures, Error *error)
     return finished;
 }
 
+size_t pictures_staying(const Pictures *pictures)
+{
+    return pictures && pictures->kind == PICTURES_FOLDER ? pictures->count : 0;
+}
+
 void pictures_discard(Pictures *pictures)
 {
     if (!pictures)

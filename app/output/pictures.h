@@ -30,7 +30,10 @@ bool pictures_has_older(const Pictures *pictures, char frame[1088]);
 /* Finishes the file and frees `pictures`; false, and nothing half-written left, on failure. */
 bool pictures_finish(Pictures *pictures, Error *error);
 
-/* Removes what is half-written (frames of a folder are whole and stay) and frees; NULL is allowed. */
+/* Removes what is half-written and frees; NULL is allowed. Frames of a folder are whole and stay. */
 void pictures_discard(Pictures *pictures);
+
+/* How many frames of a folder stay if it is discarded; NULL is allowed. */
+size_t pictures_staying(const Pictures *pictures);
 
 #endif

@@ -1,7 +1,6 @@
 #include "app/output/slice_table.h"
 
-#include "app/output/snapshot_arrays.h"
-#include "app/scene/value.h"
+#include "app/yaml/value.h"
 #include "app/yaml/yaml.h"
 #include "render/plane/plane_kernel.h"
 #include "sim/base/key_rows.h"
@@ -52,80 +51,10 @@ bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error)
 
 /* ---- sums ---- */
 
-static void free_arrays(ParticleArrays *arrays)
-{
-    free(arrays->position);
-    free(arrays->velocity);
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
-        free(arrays->scalar[s]);
-}
-
-/* `attributes`: PARTICLE_*. */
-static bool make_arrays(ParticleArrays *arrays, unsigned attributes, size_t count)
-{
-    const bool moves = attributes & PARTICLE_VELOCITY;
-    arrays->position = calloc(count + 1, sizeof(float[4]));
-    arrays->velocity = moves ? calloc(count + 1, sizeof(float[4])) : NULL;
-    bool made = arrays->position && (arrays->velocity || !moves);
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
-        if (attributes & PARTICLE_SCALAR(s))
-            made = (arrays->scalar[s] = calloc(count + 1, sizeof(float))) && made;
-    return made;
-}
-
-static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *step)
-{
-    ParticleBuffers state = {.count = step->count,
-                             .spacing = scene->spacing,
-                             .support_radius = scene->support_radius,
-                             .box = step->box,
-                             .time = step->time};
-    memcpy(state.box_size, scene->box_size, sizeof state.box_size);
-    return state;
-}
-
-/* For at least so many particles; those of a series may become more. `attributes`: PARTICLE_*. */
-static bool follow_count(SliceMaker *maker, size_t count, unsigned attributes, Error *error)
-{
-    if (maker->upload && count <= maker->capacity)
-        return true;
-    upload_destroy(maker->upload);
-    maker->capacity = count + count / 2 + 1;
-    maker->upload = upload_create(maker->capacity, attributes, error);
-    return maker->upload != NULL;
-}
-
-static bool derive(Derived *derived, const ParticleWants *wants, const SnapshotScene *scene,
-                   ParticleBuffers *buffers, Error *error)
-{
-    DerivedSpace space = {.flat = scene->dimensions == 2};
-    memcpy(space.periodic, scene->periodic, sizeof space.periodic);
-    if (!derived_follow(derived, wants, error))
-        return false;
-    derived_fill(derived, wants, &space, buffers);
-    return true;
-}
-
-static bool sum_up(SliceMaker *maker, const PlaneJob *job, const ParticleArrays *arrays, unsigned attributes,
-                   const SnapshotScene *scene, const ParticleBuffers *state, float *sums, Error *error)
-{
-    const ParticleWants wants = {.scalars = SCALAR_BIT(job->scalar)};
-    ParticleBuffers buffers;
-    const bool made = follow_count(maker, state->count, attributes, error) &&
-                      upload_arrays(maker->upload, arrays, state, error) &&
-                      upload_take(maker->upload, &buffers) &&
-                      derive(&maker->derived, &wants, scene, &buffers, error) &&
-                      plane_sum_run(&maker->sum, job, &buffers, error);
-    if (made)
-        plane_sum_read(&maker->sum, sums);
-    return made;
-}
-
 void slice_maker_destroy(SliceMaker *maker)
 {
     plane_sum_destroy(&maker->sum);
-    derived_destroy(&maker->derived);
-    upload_destroy(maker->upload);
+    step_buffers_destroy(&maker->buffers);
     *maker = (SliceMaker){0};
 }
 
@@ -151,12 +80,6 @@ static void fill_table(SliceTable *table, const float *sums)
     }
 }
 
-unsigned slice_attributes(Scalar scalar)
-{
-    const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
-    return (int)scalar < SCALAR_STATE_COUNT ? PARTICLE_SCALAR(scalar) : wants_attributes(&wants);
-}
-
 static bool make(SliceMaker *maker, SliceTable *table, const SnapshotScene *scene, const SnapshotStep *step,
                  Error *error)
 {
@@ -167,19 +90,16 @@ static bool make(SliceMaker *maker, SliceTable *table, const SnapshotScene *scen
                           .dimensions = scene->dimensions,
                           .support = scene->support_radius,
                           .scalar = wanted->scalar};
-    const unsigned attributes = slice_attributes(wanted->scalar);
-    const ParticleBuffers state = state_of(scene, step);
-    ParticleArrays arrays = {0};
+    ParticleBuffers particles;
     float *sums = NULL;
-    bool made = allocate(table, &sums, error) && (make_arrays(&arrays, attributes, step->count) ||
-                                                  error_set(error, "out of memory for the particles"));
+    const bool made = allocate(table, &sums, error) &&
+                      step_buffers_make(&maker->buffers, scene, step, SNAPSHOT_MASS_DENSITY, wanted->scalar,
+                                        &particles, error) &&
+                      plane_sum_run(&maker->sum, &job, &particles, error);
     if (made) {
-        snapshot_arrays(scene, step, SNAPSHOT_MASS_DENSITY, &arrays);
-        made = sum_up(maker, &job, &arrays, attributes, scene, &state, sums, error);
-    }
-    if (made)
+        plane_sum_read(&maker->sum, sums);
         fill_table(table, sums);
-    free_arrays(&arrays);
+    }
     free(sums);
     return made;
 }
@@ -188,7 +108,7 @@ bool slice_table_make(SliceMaker *maker, const SliceWanted *wanted, const Snapsh
                       const SnapshotStep *step, SliceTable *table, Error *error)
 {
     *table = (SliceTable){.wanted = *wanted, .time = step->time};
-    if (slice_attributes(wanted->scalar) & ~snapshot_attributes(step))
+    if (step_attributes(wanted->scalar) & ~snapshot_attributes(step))
         return error_set(error, "the snapshot at %.9g s has no %s", step->time, scalar_name(wanted->scalar));
     if (!plane_make(scene->box_size, wanted->point, wanted->normal, &table->plane))
         return error_set(error,

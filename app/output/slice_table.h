@@ -2,9 +2,7 @@
 #ifndef SLOSH_SLICE_TABLE_H
 #define SLOSH_SLICE_TABLE_H
 
-#include "app/output/snapshot.h"
-#include "render/derived/derived.h"
-#include "render/particles/upload.h"
+#include "app/output/step_buffers.h"
 #include "render/plane/plane_sum.h"
 #include "sim/base/scalar.h"
 
@@ -32,15 +30,10 @@ typedef struct SliceTable {
    right. */
 bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error);
 
-/* What of a snapshot it needs besides places: PARTICLE_*. */
-unsigned slice_attributes(Scalar scalar);
-
 /* What one slice leaves to the next: programs and buffers. Zero-initialise it. */
 typedef struct SliceMaker {
     PlaneSum sum;
-    Derived derived;
-    Upload *upload;
-    size_t capacity; /* particles of `upload` */
+    StepBuffers buffers;
 } SliceMaker;
 
 void slice_maker_destroy(SliceMaker *maker);

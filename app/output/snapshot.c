@@ -8,6 +8,7 @@
 #include "app/output/snapshot_file.h"
 #include "app/scene/keys.h"
 #include "sim/base/color.h"
+#include "sim/matter/flow.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -28,6 +29,7 @@ struct Snapshot {
     OutputLock lock, older; /* on the file; on the one that it will replace */
     hid_t file;
     ColumnRows saved; /* columns of its worlds' states */
+    bool emits;       /* births are written: else all began at time 0 */
     size_t steps;
     double time; /* of the last one written */
     bool failed;
@@ -154,6 +156,7 @@ Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error)
     snapshot->time = -1;
     snapshot->file = -1;
     snapshot->saved = columns_saved(&scene->world);
+    snapshot->emits = flow_emits(&scene->world);
     if (!begin(snapshot, path, scene, error)) {
         snapshot_close(snapshot);
         snapshot = NULL;
@@ -167,7 +170,7 @@ bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error)
            hdf5_fail(error, snapshot->output.path, "cannot be written");
 }
 
-Snapshot *snapshot_continue(const char *path, const ColumnRows *saved, size_t steps, OutputLock *lock,
+Snapshot *snapshot_continue(const char *path, const WorldDef *world, size_t steps, OutputLock *lock,
                             Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);
@@ -179,7 +182,8 @@ Snapshot *snapshot_continue(const char *path, const ColumnRows *saved, size_t st
     const hid_t access = snapshot_access();
     snapshot->lock = *lock;
     lock->state = OUTPUT_UNLOCKED;
-    snapshot->saved = *saved;
+    snapshot->saved = columns_saved(world);
+    snapshot->emits = flow_emits(world);
     snapshot->steps = steps;
     snapshot->time = -1;
     snprintf(snapshot->output.path, sizeof snapshot->output.path, "%s", path);
@@ -244,7 +248,7 @@ size_t snapshot_steps(const Snapshot *snapshot)
 
 static size_t step_bytes(const SnapshotStep *step)
 {
-    size_t bytes = (size_t)step->own_count * sizeof(float);
+    size_t bytes = ((size_t)step->own_count + (step->born != NULL)) * sizeof(float);
 #define X(name, type, field) bytes += sizeof(type);
     SNAPSHOT_FIELDS(X)
 #undef X
@@ -314,6 +318,9 @@ static bool write_fields(hid_t group, const SnapshotStep *step)
     for (int k = 0; k < step->own_count; k++)
         written = written &&
                   write_field(group, step->own[k].name, H5T_IEEE_F32LE, step->count, step->own[k].values);
+    if (step->born)
+        written =
+            written && write_field(group, scalar_name(SCALAR_BORN), H5T_IEEE_F32LE, step->count, step->born);
     written =
         written && write_doubles(group, SNAPSHOT_RESTART, WORLD_NUMBERS, (const double *)&step->restart);
     return written && write_values(group, SNAPSHOT_STEP_NUMBER, H5T_STD_U64LE, SCALAR, &step->step);
@@ -359,16 +366,18 @@ bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *e
 
 static bool grow_buffers(Snapshot *snapshot, size_t count, Error *error)
 {
-    if (count <= snapshot->capacity)
+    if (count <= snapshot->capacity && snapshot->capacity > 0)
         return true;
     free_buffers(snapshot);
+    count = count > 0 ? count : 1; /* a first step without particles has all datasets too */
     snapshot->position = malloc(4 * count * sizeof(float));
     snapshot->velocity = malloc(4 * count * sizeof(float));
     snapshot->fluid = malloc(count * sizeof(uint32_t));
     snapshot->id = malloc(count * sizeof(uint32_t));
     if (!snapshot->position || !snapshot->velocity || !snapshot->fluid || !snapshot->id ||
         !snapshot_step_allocate(&snapshot->buffer, count) ||
-        !snapshot_step_own(&snapshot->buffer, &snapshot->saved)) {
+        !snapshot_step_own(&snapshot->buffer, &snapshot->saved) ||
+        (snapshot->emits && !snapshot_step_born(&snapshot->buffer))) {
         free_buffers(snapshot);
         return error_set(error, "%s: out of memory for %zu particles", snapshot->output.path, count);
     }
@@ -390,7 +399,8 @@ static bool read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
         .velocity = snapshot->velocity,
         .scalar = {[SCALAR_DENSITY] = step->density,
                    [SCALAR_PRESSURE] = step->pressure,
-                   [SCALAR_COMPRESSION] = step->compression},
+                   [SCALAR_COMPRESSION] = step->compression,
+                   [SCALAR_BORN] = step->born},
         .fluid = snapshot->fluid,
         .id = snapshot->id,
     };

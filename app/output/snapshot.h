@@ -47,12 +47,18 @@ typedef struct SnapshotStep {
     float *compression; /* density over that at rest, less 1: a method that carries density goes on from it */
     int32_t *fluid;     /* index into the root's fluid_names */
     int64_t *id;
+    float *born; /* s; NULL: nothing is emitted, or the file does not say (shown: snapshot_step_own_scalar) */
     int own_count; /* columns not every method has that a run goes on from: snapshot_step_own */
     struct {
         char name[32]; /* of the dataset */
         int place;     /* in ParticleColumns.own */
         float *values;
     } own[COLUMNS_OWN];
+    int shown_count; /* and those of them that views can show: of snapshot_read_shown alone */
+    struct {
+        Scalar scalar;
+        float *values;
+    } shown[SCALAR_STATE_COUNT - SCALAR_OWN];
     unsigned lacks; /* bit k: the file has no k-th field of SNAPSHOT_FIELDS; only of snapshot_read_shown */
 } SnapshotStep;
 
@@ -60,6 +66,10 @@ typedef struct SnapshotStep {
 bool snapshot_step_allocate(SnapshotStep *step, size_t count);
 /* The same for what is no method's of a saved state's columns (columns_saved). */
 bool snapshot_step_own(SnapshotStep *step, const ColumnRows *saved);
+/* The same for the births. */
+bool snapshot_step_born(SnapshotStep *step);
+/* The same for one such scalar that is shown: its array; NULL when memory is short. */
+float *snapshot_step_show(SnapshotStep *step, Scalar scalar);
 void snapshot_step_free(SnapshotStep *step); /* a zeroed one is allowed */
 
 /* ---- writing ---- */
@@ -161,16 +171,24 @@ double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, siz
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
 
 /* The same for who shows it: the file may lack velocities, density, pressure, compression, fluid and id,
-   which step->lacks says; these are 0 then. */
+   which step->lacks says; these are 0 then. It has the scalars of OWN_SCALAR_LIST and the births that the
+   file has. */
 bool snapshot_read_shown(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
+
+/* Of a step of snapshot_read_shown: its values of a scalar of OWN_SCALAR_LIST or the birth; NULL: the file
+ * has none. */
+const float *snapshot_step_own_scalar(const SnapshotStep *step, Scalar scalar);
 
 /* Whether it lacks that field. */
 bool snapshot_step_lacks(const SnapshotStep *step, const char *name);
 
-/* Reads into that step the columns of snapshot_step_own. False, and the step is empty, where the file lacks
-   one. */
+/* Reads into that step the columns of snapshot_step_own, and the births that the file has. False, and the
+   step is empty, where the file lacks one. */
 bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
                        Error *error);
+
+/* Whether the first step of a file has a scalar of OWN_SCALAR_LIST or the birth. */
+bool snapshot_file_has(const char *path, Scalar scalar);
 
 void snapshot_reader_close(SnapshotReader *reader); /* NULL is allowed */
 

@@ -10,6 +10,8 @@ unsigned snapshot_attributes(const SnapshotStep *step)
     lacks |= snapshot_step_lacks(step, name) ? (source) : 0;
     SNAPSHOT_SOURCES(X)
 #undef X
+    for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
+        has |= snapshot_step_own_scalar(step, (Scalar)s) ? PARTICLE_SCALAR(s) : 0;
     return (has & ~lacks) | PARTICLE_FLUID; /* all are of the first fluid where the file says nothing */
 }
 
@@ -65,6 +67,13 @@ static float scalar_of(const SnapshotStep *step, Scalar scalar, size_t i)
     }
 }
 
+static void fill_own(const SnapshotStep *step, Scalar scalar, float *to)
+{
+    const float *own = snapshot_step_own_scalar(step, scalar);
+    for (size_t i = 0; i < step->count; i++)
+        to[i] = own ? own[i] : NAN;
+}
+
 void snapshot_arrays(const SnapshotScene *scene, const SnapshotStep *step, SnapshotVolume volume,
                      const ParticleArrays *to)
 {
@@ -76,7 +85,10 @@ void snapshot_arrays(const SnapshotScene *scene, const SnapshotStep *step, Snaps
         to->fluid[i] = (uint32_t)step->fluid[i];
     for (size_t i = 0; to->id && i < step->count; i++)
         to->id[i] = (uint32_t)step->id[i];
-    for (size_t s = 0; s < SCALAR_STATE_COUNT; s++)
+    for (size_t s = 0; s < SCALAR_OWN; s++)
         for (size_t i = 0; to->scalar[s] && i < step->count; i++)
             to->scalar[s][i] = scalar_of(step, (Scalar)s, i);
+    for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
+        if (to->scalar[s])
+            fill_own(step, (Scalar)s, to->scalar[s]);
 }

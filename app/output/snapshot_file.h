@@ -54,9 +54,9 @@ hid_t snapshot_access(void);
    be read. */
 bool snapshot_count_names(hid_t file, size_t *steps);
 
-/* A Snapshot that appends to a file that has so many whole steps, and takes over its lock, which is
-   then no longer the caller's. NULL with the reason. */
-Snapshot *snapshot_continue(const char *path, const ColumnRows *saved, size_t steps, OutputLock *lock,
+/* A Snapshot that appends states of a world to a file that has so many whole steps, and takes over its lock,
+   which is then no longer the caller's. NULL with the reason. */
+Snapshot *snapshot_continue(const char *path, const WorldDef *world, size_t steps, OutputLock *lock,
                             Error *error);
 
 /* The text attribute of the root in new memory; NULL when there is none. */

@@ -20,6 +20,7 @@ struct SnapshotReader {
     hid_t file;
     size_t steps;
     struct stat was; /* the file when it was opened */
+    bool still;      /* its settings say that nothing is emitted: all was born at time 0 */
 };
 
 static bool read_values(hid_t at, const char *name, hid_t type, size_t count, void *values)
@@ -68,6 +69,21 @@ static hid_t open_file(const char *path, struct stat *was, Error *error)
     return file;
 }
 
+/* By a line of settings that begins with fluids[N].emit[. */
+static bool emits_nothing(const SnapshotReader *reader)
+{
+    static const char fluid[] = "\nfluids[", emit[] = "].emit[";
+    char *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
+    bool nothing = settings != NULL;
+    for (const char *at = settings; nothing && (at = strstr(at, fluid));) {
+        at += strlen(fluid);
+        at += strspn(at, "0123456789");
+        nothing = strncmp(at, emit, strlen(emit)) != 0;
+    }
+    free(settings);
+    return nothing;
+}
+
 static SnapshotReader *reader_create(const char *path, Error *error)
 {
     SnapshotReader *reader = calloc(1, sizeof *reader);
@@ -77,8 +93,10 @@ static SnapshotReader *reader_create(const char *path, Error *error)
     }
     snprintf(reader->path, sizeof reader->path, "%s", path);
     reader->file = open_file(path, &reader->was, error);
-    if (reader->file >= 0)
+    if (reader->file >= 0) {
+        reader->still = emits_nothing(reader);
         return reader;
+    }
     free(reader);
     return NULL;
 }
@@ -442,6 +460,29 @@ static const char *read_group(hid_t group, SnapshotStep *step, bool shown)
     return NULL;
 }
 
+/* The dataset of such a scalar: of three NAME_0 for NAME_x. */
+static void dataset_of(Scalar scalar, char name[COLUMN_NAME_SIZE])
+{
+    const size_t end = (size_t)snprintf(name, COLUMN_NAME_SIZE, "%s", scalar_name(scalar)) - 1;
+    if (name[end - 1] == '_' && name[end] >= 'x')
+        name[end] = (char)('0' + name[end] - 'x');
+}
+
+/* What methods and terms keep, as far as the group has it. */
+static const char *read_shown(hid_t group, SnapshotStep *step)
+{
+    char name[COLUMN_NAME_SIZE];
+    for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++) {
+        dataset_of((Scalar)s, name);
+        if (H5Lexists(group, name, H5P_DEFAULT) <= 0)
+            continue;
+        float *values = snapshot_step_show(step, (Scalar)s);
+        if (!values || !read_field(group, name, H5T_IEEE_F32LE, step->count, values))
+            return scalar_name((Scalar)s);
+    }
+    return NULL;
+}
+
 bool snapshot_step_lacks(const SnapshotStep *step, const char *name)
 {
     unsigned field = 0, lacks = 0;
@@ -479,6 +520,10 @@ static bool read_step(SnapshotReader *reader, size_t index, bool shown, Snapshot
         return error_set(error, "%s: Step#%zu: out of memory for %zu particles", reader->path, index, count);
     }
     missing = missing ? missing : read_group(group, step, shown);
+    missing = missing || !shown ? missing : read_shown(group, step);
+    if (!missing && shown && reader->still && !snapshot_step_own_scalar(step, SCALAR_BORN) &&
+        !snapshot_step_show(step, SCALAR_BORN)) /* 0 */
+        missing = scalar_name(SCALAR_BORN);
     if (group >= 0)
         H5Gclose(group);
     if (!missing)
@@ -498,6 +543,27 @@ bool snapshot_read_shown(SnapshotReader *reader, size_t index, SnapshotStep *ste
     return read_step(reader, index, true, step, error);
 }
 
+bool snapshot_file_has(const char *path, Scalar scalar)
+{
+    Error none;
+    char name[COLUMN_NAME_SIZE];
+    SnapshotReader *reader = snapshot_open_shown(path, &none);
+    const hid_t group = reader ? open_step(reader->file, 0) : -1;
+    dataset_of(scalar, name);
+    const bool has = group >= 0 && H5Lexists(group, name, H5P_DEFAULT) > 0;
+    if (group >= 0)
+        H5Gclose(group);
+    snapshot_reader_close(reader);
+    return has;
+}
+
+/* No step reads it. */
+static void not_known(SnapshotStep *step, int k)
+{
+    for (size_t i = 0; i < step->count; i++)
+        step->own[k].values[i] = NAN;
+}
+
 bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
                        Error *error)
 {
@@ -507,9 +573,16 @@ bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *s
         return error_set(error, "%s: out of memory", reader->path);
     }
     const hid_t group = open_step(reader->file, index);
+    const char *born = scalar_name(SCALAR_BORN);
+    if (group >= 0 && H5Lexists(group, born, H5P_DEFAULT) > 0 &&
+        (!snapshot_step_born(step) || !read_field(group, born, H5T_IEEE_F32LE, step->count, step->born)))
+        missing = born;
     for (int k = 0; k < step->own_count && !missing; k++)
-        if (group < 0 ||
-            !read_field(group, step->own[k].name, H5T_IEEE_F32LE, step->count, step->own[k].values))
+        if (group >= 0 && step->own[k].place >= COLUMNS_SHOWN &&
+            H5Lexists(group, step->own[k].name, H5P_DEFAULT) <= 0)
+            not_known(step, k);
+        else if (group < 0 ||
+                 !read_field(group, step->own[k].name, H5T_IEEE_F32LE, step->count, step->own[k].values))
             missing = step->own[k].name;
     if (missing)
         error_set(error,

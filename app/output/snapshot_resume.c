@@ -140,7 +140,7 @@ static bool state_of(const SnapshotStep *step, const WorldDef *def, WorldState *
         p->fluid[i] = (uint8_t)step->fluid[i];
         p->id[i] = (uint32_t)step->id[i];
     }
-    return true;
+    return !step->born || births_gather(&state->births, p->id, step->born, step->count);
 }
 
 static bool read_last(SnapshotReader *reader, const char *path, const WorldDef *def, WorldState *state,
@@ -184,8 +184,7 @@ Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand
     OutputLock lock = {.state = OUTPUT_UNLOCKED};
     *busy = !output_lock(&lock, path, error);
     const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
-    const ColumnRows saved = columns_saved(&scene->world);
-    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, &saved, steps, &lock, error) : NULL;
+    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, &scene->world, steps, &lock, error) : NULL;
     output_unlock(&lock);
     return snapshot;
 }

@@ -42,6 +42,8 @@ static void move(SnapshotStep *step, size_t from, size_t to)
 #define X(name, type, field) step->field[to] = step->field[from];
     SNAPSHOT_FIELDS(X)
 #undef X
+    for (int k = 0; k < step->shown_count; k++)
+        step->shown[k].values[to] = step->shown[k].values[from];
 }
 
 static int by_value(const void *a, const void *b)
@@ -67,6 +69,7 @@ bool snapshot_sift(SnapshotFlaws *flaws, size_t index, SnapshotStep *step)
 {
     const bool dense = !snapshot_step_lacks(step, "density");
     size_t found[FLAW_COUNT + 1] = {0}, kept = 0;
+    flaws->dense = dense;
     for (size_t i = 0; i < step->count; i++) {
         const Flaw flaw = flaw_of(flaws, step, dense, i);
         found[flaw]++;
@@ -92,6 +95,20 @@ size_t snapshot_flaws_left_out(const SnapshotFlaws *flaws)
     return count;
 }
 
+/* What is done with the particles of a flaw, as the end of a sentence. */
+static void print_fate(const SnapshotFlaws *flaws, Flaw flaw, FILE *file)
+{
+    const bool one = flaws->of[flaw].particles == 1;
+    const bool light = flaw == FLAW_DENSITY || (flaw == FLAW_FLUID && flaws->dense);
+    if (is_left_out(flaws, flaw))
+        fputs("left out\n", file);
+    else if (flaws->summed && light)
+        fprintf(file, "%s nothing in the slice\n", one ? "it weighs" : "they weigh");
+    else
+        fprintf(file, "%s as %s in the file\n", flaws->shown ? "shown" : "exported",
+                one ? "it is" : "they are");
+}
+
 void snapshot_flaws_print(const SnapshotFlaws *flaws, const char *path, FILE *file)
 {
     static const char *const words[] = {
@@ -111,12 +128,8 @@ void snapshot_flaws_print(const SnapshotFlaws *flaws, const char *path, FILE *fi
             fprintf(file, "in %zu snapshots, the first of them ", snapshots);
         else
             fputs("of ", file);
-        const char *verb = flaws->shown ? "shown" : "exported";
         fprintf(file, "Step#%zu%s %s %s; ", flaws->of[flaw].first, snapshots > 1 ? "," : "",
                 particles == 1 ? "has" : "have", words[flaw]);
-        if (is_left_out(flaws, (Flaw)flaw))
-            fputs("left out\n", file);
-        else
-            fprintf(file, "%s as %s in the file\n", verb, particles == 1 ? "it is" : "they are");
+        print_fate(flaws, (Flaw)flaw, file);
     }
 }

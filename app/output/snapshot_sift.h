@@ -23,6 +23,9 @@ typedef struct SnapshotFlaws {
                         box */
     size_t fluids;
     bool strict; /* particles with the three in the middle are left out too */
+    bool summed; /* given: exported as sums, to which a particle whose mass or density is not known adds
+                    nothing */
+    bool dense;  /* the last snapshot has densities */
     bool shown;  /* not exported: ids are not compared, which would take longer than all else */
     struct {
         size_t particles, snapshots, first; /* the first snapshot with such particles */

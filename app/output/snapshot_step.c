@@ -10,8 +10,11 @@ void snapshot_step_free(SnapshotStep *step)
 #define X(name, type, field) free(step->field);
     SNAPSHOT_FIELDS(X)
 #undef X
+    free(step->born);
     for (int k = 0; k < step->own_count; k++)
         free(step->own[k].values);
+    for (int k = 0; k < step->shown_count; k++)
+        free(step->shown[k].values);
     *step = (SnapshotStep){0};
 }
 
@@ -52,6 +55,29 @@ bool snapshot_step_own(SnapshotStep *step, const ColumnRows *saved)
         if (column_own(saved->row[k]) >= 0)
             all &= add_own(step, saved->row[k], step->count ? step->count : 1);
     return all;
+}
+
+bool snapshot_step_born(SnapshotStep *step)
+{
+    step->born = calloc(step->count ? step->count : 1, sizeof *step->born);
+    return step->born != NULL;
+}
+
+float *snapshot_step_show(SnapshotStep *step, Scalar scalar)
+{
+    float *values = calloc(step->count ? step->count : 1, sizeof *values);
+    if (!values)
+        return NULL;
+    step->shown[step->shown_count].scalar = scalar;
+    return step->shown[step->shown_count++].values = values;
+}
+
+const float *snapshot_step_own_scalar(const SnapshotStep *step, Scalar scalar)
+{
+    for (int k = 0; k < step->shown_count; k++)
+        if (step->shown[k].scalar == scalar)
+            return step->shown[k].values;
+    return NULL;
 }
 
 double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, size_t i)

@@ -10,7 +10,15 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written as 
 enum { CHUNK = 4096, BLOCKS_MAX = 10 };
 
 /* Where a block's array stands in the XML, in this order. */
-typedef enum Section { SECTION_POINTS, SECTION_VERTS, SECTION_POLYS, SECTION_DATA, SECTION_COUNT } Section;
+typedef enum Section {
+    SECTION_POINTS,
+    SECTION_VERTS,
+    SECTION_LINES,
+    SECTION_POLYS,
+    SECTION_DATA,
+    SECTION_CELLS,
+    SECTION_COUNT
+} Section;
 
 /* An appended block: its size in bytes as 64 bits and then its numbers. */
 typedef struct Block {
@@ -24,8 +32,8 @@ typedef struct Block {
 
 typedef struct Contents {
     double time;
-    size_t points, vertices, triangles;
-    bool normals; /* there is an array of them */
+    size_t points, vertices, lines, triangles;
+    const char *shown; /* attributes of the points' data: which array is what */
     size_t count;
     Block block[BLOCKS_MAX];
 } Contents;
@@ -104,19 +112,22 @@ static void print_head(FILE *file, const Contents *all)
             "<PolyData>\n<FieldData>\n"
             "<DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" format=\"ascii\">"
             "%.17g</DataArray>\n</FieldData>\n"
-            "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"0\" NumberOfStrips=\"0\" "
+            "<Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"%zu\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
             "NumberOfPolys=\"%zu\">\n",
-            all->time, all->points, all->vertices, all->triangles);
+            all->time, all->points, all->vertices, all->lines, all->triangles);
     fputs("<Points>\n", file);
     print_section(file, all, SECTION_POINTS);
     fputs("</Points>\n<Verts>\n", file);
     print_section(file, all, SECTION_VERTS);
-    fputs("</Verts>\n<Polys>\n", file);
+    fputs("</Verts>\n<Lines>\n", file);
+    print_section(file, all, SECTION_LINES);
+    fputs("</Lines>\n<Polys>\n", file);
     print_section(file, all, SECTION_POLYS);
-    fprintf(file, "</Polys>\n<PointData Vectors=\"velocity\" Scalars=\"density\"%s>\n",
-            all->normals ? " Normals=\"Normals\"" : "");
+    fprintf(file, "</Polys>\n<PointData %s>\n", all->shown);
     print_section(file, all, SECTION_DATA);
-    fputs("</PointData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_", file);
+    fputs("</PointData>\n<CellData>\n", file);
+    print_section(file, all, SECTION_CELLS);
+    fputs("</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_", file);
 }
 
 /* ---- the numbers ---- */
@@ -148,6 +159,8 @@ static void write_block(FILE *file, const Block *block)
 {
     const uint64_t bytes = block_bytes(block);
     fwrite(&bytes, sizeof bytes, 1, file);
+    if (block->count == 0)
+        return;
     if (block->numbers)
         fwrite(block->numbers, block->bytes, block->count * block->components, file);
     else if (block->vector)
@@ -165,9 +178,12 @@ static bool write_all(FILE *file, const Contents *all)
     return !ferror(file);
 }
 
+static const char particles_shown[] = "Vectors=\"velocity\" Scalars=\"density\"";
+
 bool vtp_write(FILE *file, const SnapshotStep *step)
 {
-    Contents all = {.time = step->time, .points = step->count, .vertices = step->count};
+    Contents all = {
+        .time = step->time, .points = step->count, .vertices = step->count, .shown = particles_shown};
     add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
     add_ramp(&all, SECTION_VERTS, "connectivity", step->count, 0, 1);
     add_ramp(&all, SECTION_VERTS, "offsets", step->count, 1, 1);
@@ -179,13 +195,30 @@ bool vtp_write(FILE *file, const SnapshotStep *step)
 bool vtp_write_surface(FILE *file, const Surface *surface)
 {
     const SnapshotStep *step = &surface->vertices;
-    Contents all = {
-        .time = step->time, .points = step->count, .triangles = surface->triangle_count, .normals = true};
+    Contents all = {.time = step->time,
+                    .points = step->count,
+                    .triangles = surface->triangle_count,
+                    .shown = "Vectors=\"velocity\" Scalars=\"density\" Normals=\"Normals\""};
     add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
     add_numbers(&all, SECTION_POLYS, "connectivity", "UInt32", 4, 3 * surface->triangle_count,
                 surface->triangle);
     add_ramp(&all, SECTION_POLYS, "offsets", surface->triangle_count, 3, 3);
     add_fields(&all, step);
     add_vectors(&all, SECTION_DATA, "Normals", step->count, surface->normal);
+    return write_all(file, &all);
+}
+
+bool vtp_write_lines(FILE *file, const VtpLines *lines)
+{
+    char shown[64];
+    Contents all = {.time = lines->time, .points = lines->points, .lines = lines->lines, .shown = shown};
+    snprintf(shown, sizeof shown, "Scalars=\"%s\"", lines->scalar);
+    add_numbers(&all, SECTION_POINTS, "Points", "Float32", 4, lines->points, lines->place);
+    all.block[0].components = 3;
+    add_numbers(&all, SECTION_LINES, "connectivity", "Int32", 4, lines->points, lines->order);
+    add_numbers(&all, SECTION_LINES, "offsets", "Int32", 4, lines->lines, lines->offset);
+    add_numbers(&all, SECTION_DATA, "time", "Float64", 8, lines->points, lines->when);
+    add_numbers(&all, SECTION_DATA, lines->scalar, "Float32", 4, lines->points, lines->value);
+    add_numbers(&all, SECTION_CELLS, "id", "Int64", 8, lines->lines, lines->id);
     return write_all(file, &all);
 }

@@ -1,17 +1,33 @@
 /* States for ParaView: VTK's polygonal data in XML. Particles are points and the fields velocity, density,
    pressure, fluid and id, in the numbers that SnapshotStep has, with a vertex each, without which ParaView
    draws none; a surface is points, the same fields but for the id, Normals, and triangles. The time is
-   TimeValue. The numbers stand in binary behind the XML. ParaView 5.11 opens both. */
+   TimeValue; trails are points with their times and a scalar, and lines with the id of their particle. The
+   numbers stand in binary behind the XML. ParaView 5.11 opens all three. */
 #ifndef SLOSH_VTP_H
 #define SLOSH_VTP_H
 
 #include "app/output/snapshot.h"
 #include "app/output/surface.h"
 
+#include <stdint.h>
 #include <stdio.h>
 
 /* False when the stream fails (errno tells why). */
 bool vtp_write(FILE *file, const SnapshotStep *step);
 bool vtp_write_surface(FILE *file, const Surface *surface);
+
+typedef struct VtpLines {
+    double time; /* s, of all */
+    size_t points, lines;
+    const float *place;    /* points x 3 */
+    const double *when;    /* points, s: the array "time" */
+    const char *scalar;    /* the name of: */
+    const float *value;    /* points */
+    const int32_t *order;  /* points: their numbers, line by line */
+    const int32_t *offset; /* lines: where in `order` the next one begins */
+    const int64_t *id;     /* lines: the cells' array "id" */
+} VtpLines;
+
+bool vtp_write_lines(FILE *file, const VtpLines *lines);
 
 #endif

@@ -4,6 +4,7 @@
 #include "render/frame/legend.h"
 #include "sim/base/color.h"
 #include "sim/base/control_points.h"
+#include "sim/base/key_text.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -229,6 +230,7 @@ void panel_key(Ui *ui, const PanelKey *row, PanelEvents *events)
         draw_points(ui, row, &field, events);
         break;
     case KEY_TEXT:
+    case KEY_SETTINGS:
     case KEY_AXES:
     case KEY_NAMES:
     case KEY_MAPPING:

@@ -55,10 +55,10 @@ static void group_of(const Key *key, char name[NAME_LENGTH])
     name[0] = (char)toupper((unsigned char)name[0]);
 }
 
-/* What follows the first part, in words: "step dt". */
+/* What follows the first part, or its list, in words: "step dt". */
 static void label_of(const Key *key, char label[NAME_LENGTH])
 {
-    const char *dot = strchr(key->path, '.');
+    const char *list = strstr(key->path, "[]"), *dot = strchr(list ? list : key->path, '.');
     char unit[32];
     legend_unit(key->type == KEY_VEC3 ? key->unit : "", unit);
     snprintf(label, NAME_LENGTH, "%.30s%s%.14s", dot ? dot + 1 : key->path, *unit ? ", " : "", unit);
@@ -80,13 +80,14 @@ static void path_of(const Key *key, int element, char path[PATH_LENGTH])
 /* What an element of the list is called: what its key `name` has, or "drains 1". */
 static void name_of(const Key *list, const void *element, int index, char name[NAME_LENGTH])
 {
+    const char *dot = strrchr(list->path, '.');
     char path[PATH_LENGTH];
     snprintf(path, sizeof path, "%s[].name", list->path);
     const Key *key = scene_key_find(path);
     if (key)
         key_value_text(key, element, name, NAME_LENGTH);
     else
-        snprintf(name, NAME_LENGTH, "%.30s %d", list->path, index + 1);
+        snprintf(name, NAME_LENGTH, "%.30s %d", dot ? dot + 1 : list->path, index + 1);
 }
 
 static void draw_element(Ui *ui, const Key *list, int index, const Scene *scene, const Scene *start,
@@ -137,6 +138,7 @@ void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents 
     const Scene *scene = data->scene;
     int count;
     const Key *keys = scene_keys(&count);
+    const Key *last_list = NULL;
     char last[NAME_LENGTH] = "", group[NAME_LENGTH];
     bool open = false;
     for (int i = 0; i < count; i++) {
@@ -144,15 +146,15 @@ void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents 
         if (!is_shown(&keys[i], data->recorded))
             continue;
         group_of(&keys[i], group);
-        const bool first = strcmp(group, last) != 0;
-        if (first)
+        if (strcmp(group, last) != 0)
             open = ui_section(ui, group, false);
         memcpy(last, group, sizeof last);
-        if (open && list && first)
+        if (open && list && list != last_list)
             for (int e = 0; e < key_list_count(list, scene); e++)
                 draw_element(ui, list, e, scene, start, events);
         else if (open && !list)
             draw_key(ui, &keys[i], scene, start, NULL, events);
+        last_list = list;
     }
 }
 

@@ -2,17 +2,38 @@
 #include "app/play/parts.h"
 
 #include "render/frame/colormap.h"
+#include "render/frame/overlay.h"
+#include "render/particles/particle_under.h"
+#include "render/renderer.h"
 #include "sim/base/scalar.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+static bool wants_acceleration(const Scene *scene, const ViewDef *view)
+{
+    return scene_shows(scene, view) &&
+           renderer_attributes(view) & PARTICLE_SCALAR(SCALAR_ACCELERATION_X) * 7U;
+}
+
+/* A view may show what the world does not keep yet. */
+static void follow_wants(Model *model)
+{
+    const Scene *scene = &model->open.scene;
+    bool wants = wants_acceleration(scene, &scene->view);
+    for (int i = 0; i < scene->view_count; i++)
+        wants |= wants_acceleration(scene, &scene->views[i]);
+    if (wants && model->open.source->simulates && !scene->world.acceleration)
+        model_set(model, "solver.acceleration=true");
+}
+
 static void view_changed(Play *play)
 {
     Scene *scene = &play->model.open.scene;
+    follow_wants(&play->model);
     views_follow(&play->views, scene);
-    picture_set_view(&play->picture, scene, views_panel(&play->views, scene), &play->notice);
+    picture_set_view(&play->picture, &play->model.open, views_panel(&play->views, scene), &play->notice);
 }
 
 /* Another scene is open: nothing of the one before is in the hand, on its way or in the picture. */
@@ -63,7 +84,7 @@ static void next_scalar(Play *play)
     Error none;
     do
         view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
-    while (view->color_by != SCALAR_FLUID && !open->source->has(open, view, &none));
+    while (view->color_by != SCALAR_FLUID && !model_has(&play->model, view, &none));
     view->range_auto = view->color_by == file->color_by ? file->range_auto : true;
     memcpy(view->range, file->range, sizeof view->range);
     view_changed(play);
@@ -126,6 +147,33 @@ static void step_plane(Play *play, PlayCommand command)
         return;
     const ViewStep step = (ViewStep)(VIEW_STEP_BACK + (command - PLAY_PLANE_BACK));
     ask_settings(&play->asks, settings, grip_step(&play->model, step, settings));
+}
+
+/* The particle under the mouse, as the views' balls of half a spacing. */
+static void choose_trail(Play *play)
+{
+    ViewSetting settings[VIEW_SETTINGS_MAX];
+    SightRay ray;
+    char words[160];
+    uint32_t id;
+    if (!play->model.has_particles || !play->picture.panels)
+        return;
+    const double *mouse = play->grip.mouse;
+    const Look look = play_look(play, picture_panel_at(&play->picture, mouse[0], mouse[1]));
+    sight_ray(&look.sight, (double[]){mouse[0] - look.at.x, mouse[1] - look.at.y}, &ray);
+    if (!look.particles->id.buffer) {
+        notice_tell(&play->notice,
+                    "what this view shows has no ids here, and nobody knows which particle is which");
+        return;
+    }
+    if (!particle_under(look.particles, &ray, 0.5 * look.particles->spacing, &id)) {
+        notice_tell(&play->notice, "there is no particle under the mouse");
+        return;
+    }
+    choose_view(play, mouse);
+    const int count = overlays_choose(&play->model.open.scene.view, id, settings, words);
+    ask_settings(&play->asks, settings, count);
+    notice_tell(&play->notice, "%s", words);
 }
 
 /* Said where nothing is simulated. */
@@ -231,7 +279,10 @@ static void do_command(Play *play, PlayCommand command, bool held)
         readout_pin(&play->readout, play->picture.panels, &play->notice);
         break;
     case PLAY_UNPIN:
-        play->readout.pin_count = 0;
+        readout_unpin(&play->readout);
+        break;
+    case PLAY_TRAIL:
+        choose_trail(play);
         break;
     case PLAY_PLANE_BACK:
     case PLAY_PLANE_FORWARD:

@@ -8,7 +8,7 @@ static const double REACH = 0.8; /* of letters' height */
 
 static Covered covered(const Model *model, const ViewDef *view, const CameraSight *sight)
 {
-    const WorldDef *world = &model->open.scene.world;
+    const WorldDef *world = model_world(model, view);
     const double own = legend_width_pixels(view, world, sight->height) / sight->width;
     return (Covered){sight->covered_left, fmax(sight->legend, own)};
 }
@@ -16,7 +16,7 @@ static Covered covered(const Model *model, const ViewDef *view, const CameraSigh
 void camera_sight(const Model *model, const ViewDef *view, const CameraSight *sight, double letters,
                   Sight *out)
 {
-    const ParticleBuffers *particles = &model->particles;
+    const ParticleBuffers *particles = model_state(model, view);
     *out = (Sight){
         .box = particles->box, .width = sight->width, .height = sight->height, .reach = REACH * letters};
     camera_make(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
@@ -26,7 +26,7 @@ void camera_sight(const Model *model, const ViewDef *view, const CameraSight *si
 Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight *sight)
 {
     const ViewDef *view = &model->open.scene.view;
-    const ParticleBuffers *particles = &model->particles;
+    const ParticleBuffers *particles = model_state(model, view);
     return camera->held && !view->camera_auto
                ? camera->orbit
                : orbit_begin(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
@@ -36,6 +36,7 @@ Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight)
 {
     camera->orbit = camera_now(camera, model, sight);
+    orbit_settle(&camera->orbit);
     camera->held = true;
 }
 

@@ -26,14 +26,24 @@ static void draw_marks(Play *play)
         const Look look = play_look(play, i);
         grip_draw(&play->grip, &look, picture->text);
     }
-    picture->dirty |=
-        readout_draw(&play->readout, picture->panels, picture->width, picture->height, picture->text);
+    picture->dirty |= readout_draw(&play->readout, picture->panels, picture->width, picture->height,
+                                   picture->text, &play->notice);
 }
 
 static void draw_fluid(Play *play)
 {
     Picture *picture = &play->picture;
-    picture_draw(picture, &play->model.particles, overlay_covered_left(&play->overlay, picture->width));
+    const Model *model = &play->model;
+    const int count = panels_count(picture->panels);
+    const ViewDef *views[PANELS_MAX];
+    const ParticleBuffers *states[PANELS_MAX];
+    Title titles[PANELS_MAX];
+    for (int i = 0; i < count; i++) {
+        views[i] = views_def(&play->views, &model->open.scene, i);
+        states[i] = model_state(model, views[i]);
+    }
+    model_titles(model, views, count, titles);
+    picture_draw(picture, states, titles, overlay_covered_left(&play->overlay, picture->width));
     events_follow_hand(play);
     picture_present(picture);
     files_take(&play->files, picture->panels, picture->width, picture->height, &play->notice);

@@ -22,6 +22,7 @@ static void add_model(const Model *model, PlayFigures *figures)
 {
     const WorldDef *def = &model->open.scene.world;
     const SimulatorStatus *status = &model->status;
+    figures->recorded = !model->open.source->simulates;
     figures->threads = threads_of(def);
     figures->substeps = def->substeps;
     figures->dt =
@@ -69,13 +70,15 @@ static void add_readout(const Readout *readout, PlayFigures *figures)
                                         [VIEW_PROBE_NAN] = "nan",
                                         [VIEW_PROBE_VALUE] = "value"};
     json_t *all = json_array();
-    for (int i = 0; i < readout->found_count; i++) {
-        const ViewProbe *probe = &readout->found[i];
-        json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:f, s:[f,f,f], s:b}", "what",
-                                             words[probe->what], "name", probe->name, "unit", probe->unit,
-                                             "value", probe->what == VIEW_PROBE_VALUE ? probe->value : 0,
-                                             "at", probe->at[0], probe->at[1], probe->at[2], "pinned",
-                                             i < readout->found_pins));
+    const ViewProbes *found = &readout->found;
+    for (int i = 0; i < found->count; i++) {
+        const ViewProbe *probe = &found->probe[i];
+        json_array_append_new(all,
+                              json_pack("{s:s, s:s, s:s, s:f, s:[f,f,f], s:I, s:b}", "what",
+                                        words[probe->what], "name", probe->name, "unit", probe->unit, "value",
+                                        probe->what == VIEW_PROBE_VALUE ? probe->value : 0, "at",
+                                        probe->at[0], probe->at[1], probe->at[2], "id", (json_int_t)probe->id,
+                                        "pinned", i < found->count - found->mouse));
     }
     write_json(all, "[]", figures->readout, sizeof figures->readout);
 }
@@ -139,6 +142,9 @@ void figures_of(const Play *play, PlayFigures *figures)
     add_view_settings(&play->model.open.scene, figures);
     add_readout(&play->readout, figures);
     figures->views = scene_view_count(&play->model.open.scene);
+    for (int i = 0; i < figures->views; i++)
+        figures->times[i] =
+            model_state(&play->model, views_def(&play->views, &play->model.open.scene, i))->time;
     figures->chosen_view = views_panel(&play->views, &play->model.open.scene);
     add_meter(&play->meter, figures);
     add_rates(&play->meter, figures);

@@ -50,13 +50,10 @@ static bool take(Grip *grip, const Look *look)
     return true;
 }
 
-/* A button's event says where the mouse is when it is looked at, on a slow picture long after the press. */
 void grip_follow(Grip *grip, const WindowEvent *event)
 {
-    if (event->kind != WINDOW_MOVE && (event->kind != WINDOW_BUTTON || grip->mouse_known))
-        return;
-    memcpy(grip->mouse, (double[]){event->x, event->y}, sizeof grip->mouse);
-    grip->mouse_known |= event->kind == WINDOW_MOVE;
+    if (event->kind == WINDOW_MOVE || event->kind == WINDOW_BUTTON)
+        memcpy(grip->mouse, (double[]){event->x, event->y}, sizeof grip->mouse);
 }
 
 bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool free)
@@ -109,7 +106,8 @@ int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTI
         say_none(model);
         return 0;
     }
-    const int count = kind->step(&model->open.scene.view, &model->particles, step, settings);
+    const int count =
+        kind->step(&model->open.scene.view, model_state(model, &model->open.scene.view), step, settings);
     if (count == 0)
         notice_tell(model->notice, "a scene of two dimensions is a plane itself: it stays");
     return count;

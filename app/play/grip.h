@@ -28,14 +28,13 @@ typedef struct Look {
 } Look;
 
 typedef struct Grip {
-    int over;         /* the handle under the mouse or in the hand, plus 1; 0: none */
-    int panel;        /* where it is */
-    bool taken;       /* it is in the hand: */
-    Handle handle;    /* as it was then */
-    SightRay first;   /* of the mouse then */
-    double mouse[2];  /* pixels of the whole picture */
-    bool mouse_known; /* by its own events */
-    bool moved;       /* since the last grip_settings */
+    int over;        /* the handle under the mouse or in the hand, plus 1; 0: none */
+    int panel;       /* where it is */
+    bool taken;      /* it is in the hand: */
+    Handle handle;   /* as it was then */
+    SightRay first;  /* of the mouse then */
+    double mouse[2]; /* pixels of the whole picture */
+    bool moved;      /* since the last grip_settings */
 } Grip;
 
 /* Nothing is held. */

@@ -33,7 +33,7 @@ void hands_look(Play *play)
 {
     const CameraSight sight = play_sight(play);
     const Orbit orbit = camera_now(&play->camera, &play->model, &sight);
-    const ParticleBuffers *particles = &play->model.particles;
+    const ParticleBuffers *particles = model_state(&play->model, &play->model.open.scene.view);
     const double metres = orbit_metres_per_pixel(&orbit, particles->box_size, &particles->box, sight.height);
     WindowGamepad pad;
     const bool has_pad = window_gamepad(play->window, &pad);

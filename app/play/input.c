@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double CLICK_REACH = 3;      /* pixels */
 static const double DRAG_TURN = 2 * M_PI; /* radians that a drag over the picture's height turns by */
 
 void input_begin(Input *input)
@@ -38,19 +39,37 @@ static bool drags_camera(const Input *input)
 
 static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
 {
-    if (!event->down && event->button == input->drag_button)
+    if (!event->down && event->button == input->drag_button) {
+        if (input->drag == PLAY_PAN && !input->grabbed && event->button == GLFW_MOUSE_BUTTON_RIGHT)
+            ask_command(asks, PLAY_TRAIL);
         input->drag = PLAY_NONE;
+    }
     if (!event->down || input->drag != PLAY_NONE)
         return;
     input->drag = drag_of(event->button, event->modifiers);
     input->drag_button = event->button;
     memcpy(input->mouse, (double[]){event->x, event->y}, sizeof input->mouse);
-    if (drags_camera(input))
+    input->grabbed = input->drag == PLAY_ORBIT;
+    if (input->grabbed)
         ask_add(asks, &(Ask){.kind = ASK_GRAB});
+}
+
+/* A right click becomes a drag once the mouse has left the place. */
+static bool is_still_a_click(Input *input, const WindowEvent *event, AskQueue *asks)
+{
+    if (input->drag != PLAY_PAN || input->grabbed)
+        return false;
+    if (hypot(event->x - input->mouse[0], event->y - input->mouse[1]) < CLICK_REACH)
+        return true;
+    input->grabbed = true;
+    ask_add(asks, &(Ask){.kind = ASK_GRAB});
+    return false;
 }
 
 static void on_move(Input *input, const WindowEvent *event, int height, AskQueue *asks)
 {
+    if (is_still_a_click(input, event, asks))
+        return;
     const double right = event->x - input->mouse[0], up = input->mouse[1] - event->y;
     const double per_height = 1.0 / fmax(height, 1);
     const double turn[2] = {DRAG_TURN * right * per_height, DRAG_TURN * up * per_height};

@@ -14,6 +14,7 @@ typedef struct Input {
     double mouse[2];  /* pixels */
     PlayCommand drag; /* PLAY_ORBIT, ..., or PLAY_NONE */
     int drag_button;
+    bool grabbed;          /* the drag has the camera; one to shift it that has it not yet is a click */
     bool down[INPUT_KEYS]; /* keys, by their number */
     unsigned pad_buttons;  /* at the last look */
     double move_drag[2];   /* since the hand's last update: pixels to the right and up */

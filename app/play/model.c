@@ -54,6 +54,9 @@ void model_listen(Model *model)
         model->messages = status->messages;
         notice_error(model->notice, status->message);
     }
+    char words[1280];
+    while (company_message(model->open.company, words))
+        notice_error(model->notice, words);
     follow_travels(model);
     if (status->saves == model->saves)
         return;
@@ -66,14 +69,81 @@ void model_listen(Model *model)
 
 void model_take(Model *model)
 {
-    model->has_particles = model->open.source->take(&model->open, &model->particles);
+    PlayScene *open = &model->open;
+    const bool together = open->company && open->simulator;
+    if (together)
+        simulator_hold(open->simulator);
+    model->has_particles = open->source->take(open, &model->particles);
+    if (model->has_particles && open->company)
+        model->has_particles = company_take(open->company, model->particles.time);
+    if (together)
+        simulator_release(open->simulator);
+}
+
+bool model_fresh(const Model *model)
+{
+    PlayScene *open = (PlayScene *)&model->open;
+    return open->source->fresh(open) || company_fresh(open->company);
+}
+
+const ParticleBuffers *model_state(const Model *model, const ViewDef *view)
+{
+    const ParticleBuffers *beside = company_state(model->open.company, view);
+    return beside ? beside : &model->particles;
+}
+
+const WorldDef *model_world(const Model *model, const ViewDef *view)
+{
+    const WorldDef *beside = company_world(model->open.company, view);
+    return beside ? beside : &model->open.scene.world;
+}
+
+bool model_has(const Model *model, const ViewDef *view, Error *error)
+{
+    const PlayScene *open = &model->open;
+    return company_world(open->company, view) ? company_has(open->company, view, error)
+                                              : open->source->has(open, view, error);
+}
+
+/* What the scene itself is called among others. */
+static const char *own_name(const PlayScene *open)
+{
+    const char *slash = strrchr(open->scene.path, '/');
+    return open->source->simulates ? "simulated" : slash ? slash + 1 : open->scene.path;
+}
+
+bool model_titles(const Model *model, const ViewDef *const views[], int count, Title titles[PANELS_MAX])
+{
+    const PlayScene *open = &model->open;
+    PanelFacts facts[PANELS_MAX];
+    bool any = false;
+    for (int i = 0; i < count; i++) {
+        facts[i] = (PanelFacts){.words = "",
+                                .said = "",
+                                .def = &open->scene.world,
+                                .particles = model->particles.count,
+                                .spacing = model->particles.spacing,
+                                .recorded = !open->source->simulates,
+                                .first = -INFINITY,
+                                .last = INFINITY};
+        company_facts(open->company, views[i], &facts[i]);
+        any |= *facts[i].words != 0;
+    }
+    for (int i = 0; i < count; i++)
+        if (any)
+            panel_title(facts, count, i, own_name(open), &titles[i]);
+        else
+            titles[i] = (Title){.words = ""};
+    return any;
 }
 
 /* A HandSend. */
-static uint64_t send_target(void *simulator, const BoxTarget *target)
+static uint64_t send_target(void *open, const BoxTarget *target)
 {
+    const PlayScene *scene = open;
     const SimCommand command = {.kind = SIM_TARGET, .target = *target};
-    return simulator_send(simulator, &command);
+    company_send(scene->company, &command);
+    return simulator_send(scene->simulator, &command);
 }
 
 /* The same where there is nothing to send it to. */
@@ -87,7 +157,7 @@ static uint64_t send_nowhere(void *model, const BoxTarget *target)
 static void post_open(Model *model)
 {
     if (model->open.source->simulates)
-        hand_post_open(model->post, send_target, model->open.simulator);
+        hand_post_open(model->post, send_target, &model->open);
     else
         hand_post_open(model->post, send_nowhere, model);
 }
@@ -178,6 +248,7 @@ static void tell(Model *model, const Notes *notes)
 bool model_open(Model *model, const char *scene, const SceneSettings *settings, Error *error)
 {
     PlayScene opened;
+    WorldDef *def;
     Notes notes = {.count = 0};
     if (!model_leave(model, 0))
         return error_set(error, "the scene before the present one is still ending; try again in a moment");
@@ -185,6 +256,8 @@ bool model_open(Model *model, const char *scene, const SceneSettings *settings, 
     const SimulatorSetup how = {
         .wake = window_wake, .timer = model->timer, .paused = model->paused, .past_bytes = model->past_bytes};
     share_processors(&opened.scene.world);
+    for (int i = 0; (def = company_world_def(opened.company, i)); i++)
+        share_processors(def);
     if (!read || !play_scene_start(&opened, &how, error)) {
         play_scene_close(&opened, SAVE_MS);
         return false;
@@ -284,13 +357,14 @@ static void advise_anew(Model *model, const char *setting)
 }
 
 /* To another backend. */
-static void move(Model *model, const SimCommand *command, const char *before)
+static void move(Model *model, const SimCommand *command, const WorldDef *before)
 {
     Error error = {{0}};
-    char *backend = model->open.scene.world.backend;
+    WorldDef *world = &model->open.scene.world;
     if (play_scene_move(&model->open, command, &error))
         return;
-    snprintf(backend, NAME_SIZE, "%s", before);
+    memcpy(world->backend, before->backend, NAME_SIZE);
+    world->acceleration = before->acceleration;
     notice_error(model->notice, error.message);
 }
 
@@ -316,12 +390,32 @@ static bool set_recorded(Model *model, const char *setting)
     const bool ok =
         scene_set_live(&changed, setting, &concerns_world, &error) &&
         (!concerns_world || error_set(&error, "%s: a recorded run stays as it was simulated", setting)) &&
-        open->source->has(open, &changed.view, &error);
+        model_has(model, &changed.view, &error);
     if (ok)
         open->scene = changed;
     else
         notice_error(model->notice, error.message);
     return ok;
+}
+
+/* Of the scene: a view among several may show a recorded run, which lacks what it would read. */
+static bool set_scene(Model *model, const char *setting, bool *concerns_world, Error *error)
+{
+    Scene *scene = &model->open.scene;
+    Scene changed = *scene;
+    if (!scene_set_live(&changed, setting, concerns_world, error) || !model_has(model, &changed.view, error))
+        return false;
+    *scene = changed;
+    return true;
+}
+
+/* Where they are on a GPU and where not decides which thread steps. */
+static bool may_move(const Model *model, const SimCommand *command, Error *error)
+{
+    Simulator *followers[SIMULATOR_FOLLOWERS];
+    return !sim_command_sets_backend(command) || company_followers(model->open.company, followers) == 0 ||
+           error_set(error, "%s: the backend stays while solvers run side by side; set it before the start",
+                     command->setting);
 }
 
 bool model_set(Model *model, const char *setting)
@@ -331,17 +425,18 @@ bool model_set(Model *model, const char *setting)
     if (!model->open.source->simulates)
         return set_recorded(model, setting);
     SimCommand command = {.kind = SIM_SET};
-    char backend[NAME_SIZE];
-    snprintf(backend, sizeof backend, "%s", model->open.scene.world.backend);
-    if (!scene_set_live(&model->open.scene, setting, &concerns_world, &error)) {
+    const WorldDef before = model->open.scene.world;
+    snprintf(command.setting, sizeof command.setting, "%s", setting);
+    if (!may_move(model, &command, &error) || !set_scene(model, setting, &concerns_world, &error)) {
         notice_error(model->notice, error.message);
         return false;
     }
     simulator_set_realtime(model->open.simulator, model->open.scene.realtime);
     advise_anew(model, setting);
-    snprintf(command.setting, sizeof command.setting, "%s", setting);
+    if (concerns_world)
+        company_send(model->open.company, &command);
     if (sim_command_moves(&command))
-        move(model, &command, backend);
+        move(model, &command, &before);
     else if (concerns_world && !simulator_send(model->open.simulator, &command))
         notice_error(model->notice, "too many changes wait for the next step; let the time run");
     return true;

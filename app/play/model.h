@@ -52,8 +52,22 @@ bool model_close(Model *model, double patience_ms);
 /* Asks the solver how it stands, and shows what it has to say. */
 void model_listen(Model *model);
 
-/* Takes the newest state. */
+/* Takes the newest state, and those of what is shown beside it. */
 void model_take(Model *model);
+
+/* Whether there is one that was not taken. */
+bool model_fresh(const Model *model);
+
+/* What a view shows: the state that was taken, and its world. */
+const ParticleBuffers *model_state(const Model *model, const ViewDef *view);
+const WorldDef *model_world(const Model *model, const ViewDef *view);
+
+/* Of `count` panels with these views, the name of each and in what they differ; false: all show the scene,
+   and have no titles. */
+bool model_titles(const Model *model, const ViewDef *const views[], int count, Title titles[PANELS_MAX]);
+
+/* Whether what the view shows has all that it reads. */
+bool model_has(const Model *model, const ViewDef *view, Error *error);
 
 void model_pause(Model *model, bool paused);
 void model_step(Model *model, bool held); /* one frame, then a pause; `held`: as of simulator_single_step */

@@ -33,6 +33,9 @@ void overlay_event(Overlay *overlay, const WindowEvent *event)
         return;
     memcpy(overlay->mouse, (float[]){(float)event->x, (float)event->y}, sizeof overlay->mouse);
     overlay->moved_ms = wall_ms();
+    if (event->kind == WINDOW_BUTTON && event->button >= 0 && event->button < 32)
+        overlay->held =
+            event->down ? overlay->held | 1U << event->button : overlay->held & ~(1U << event->button);
 }
 
 /* Whether the mouse came near the lower edge just now; where it left the window is not told. */
@@ -70,8 +73,9 @@ bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent
     switch (event->kind) {
     case WINDOW_BUTTON:
         return event->down && ui_covers(overlay->ui, (float)event->x, (float)event->y);
-    case WINDOW_MOVE:
-        return ui_wants_mouse(overlay->ui);
+    case WINDOW_MOVE: /* what the widgets want is of the last picture: a mouse that has left them is free */
+        return overlay->held ? ui_wants_mouse(overlay->ui)
+                             : ui_covers(overlay->ui, (float)event->x, (float)event->y);
     case WINDOW_WHEEL:
         return ui_covers(overlay->ui, overlay->mouse[0], overlay->mouse[1]);
     case WINDOW_KEY:
@@ -115,7 +119,7 @@ static void find_warnings(Overlay *overlay, const Model *model, const OverlayFac
 static void collect_stages(const Model *model, const OverlayFacts *facts, PanelData *data)
 {
     const SimulatorStatus *status = &model->status;
-    const bool here = model->open.simulator && simulator_here(model->open.simulator);
+    const bool here = model->open.simulator && simulator_on_gpu(model->open.simulator);
     static const StageTimes none;
     for (int s = 0; s < STAGE_COUNT; s++) {
         const bool on_gpu = stage_part((Stage)s) == PART_RENDER || here;

@@ -18,6 +18,7 @@ typedef struct Overlay {
     Panel *widgets;
     WidgetInput input;
     float mouse[2];  /* where the last event had it, */
+    unsigned held;   /* buttons of the mouse, a bit each */
     double moved_ms; /* wall time of that */
     int height;      /* of the picture drawn last */
     bool scrubs;     /* the mouse holds the time line, */

@@ -64,7 +64,8 @@ static inline Look play_look(const Play *play, int panel)
                  .width = picture->width,
                  .height = picture->height,
                  .view = views_def(&play->views, &play->model.open.scene, panel),
-                 .particles = &play->model.particles};
+                 .particles = NULL};
+    look.particles = model_state(&play->model, look.view);
     camera_sight(&play->model, look.view, &sight, text_height(picture->text), &look.sight);
     return look;
 }

@@ -9,6 +9,7 @@
 
 static const double LETTERS = 14; /* pixels high at scale 1 */
 static const double SHADERS_MS = 300;
+static const double SETTLE_MS = 100; /* that a picture stands before what was not waited for is mended */
 
 float picture_letters(const Window *window)
 {
@@ -29,27 +30,37 @@ static const ViewDef *shown(const Scene *scene, int chosen, int panel)
     return panel == chosen ? &scene->view : scene_view(scene, panel);
 }
 
+static const WorldDef *world_of(const PlayScene *open, const ViewDef *view)
+{
+    const WorldDef *beside = company_world(open->company, view);
+    return beside ? beside : &open->scene.world;
+}
+
 /* On failure the old ones stay. */
-static bool replace_panels(Picture *picture, const Scene *scene, int width, int height, Error *error)
+static bool replace_panels(Picture *picture, const PlayScene *open, int width, int height, Error *error)
 {
     Subject subjects[PANELS_MAX] = {{NULL}};
-    const int count = scene_view_count(scene);
-    for (int i = 0; i < count; i++)
-        subjects[i] = (Subject){shown(scene, count > 1 ? picture->chosen : 0, i), &scene->world};
+    const int count = scene_view_count(&open->scene);
+    for (int i = 0; i < count; i++) {
+        const ViewDef *view = shown(&open->scene, count > 1 ? picture->chosen : 0, i);
+        subjects[i] = (Subject){view, world_of(open, view)};
+    }
     Panels *panels = panels_create(subjects, count, width, height, error);
     if (!panels)
         return false;
     panels_destroy(picture->panels);
     picture->panels = panels;
+    panels_set_late(panels, !gl_renderer_is_software()); /* which has done all that was asked of it */
+    panels_set_more(panels, true);
     picture->chosen = picture->chosen < count ? picture->chosen : 0;
     panels_mark(panels, picture->chosen);
     return true;
 }
 
-bool picture_start(Picture *picture, const Scene *scene, float letters, Error *error)
+bool picture_start(Picture *picture, const PlayScene *open, float letters, Error *error)
 {
     const int width = (int)fmax(picture->width, 1), height = (int)fmax(picture->height, 1);
-    if (!replace_panels(picture, scene, width, height, error))
+    if (!replace_panels(picture, open, width, height, error))
         return false;
     picture->shaders_stamp = shader_source_stamp();
     picture->text = text_create(letters, error);
@@ -63,19 +74,26 @@ void picture_end(Picture *picture)
     panels_destroy(picture->panels);
 }
 
-void picture_set_view(Picture *picture, const Scene *scene, int chosen, Notice *notice)
+/* All of them, one by one. */
+static bool set_views(Picture *picture, const PlayScene *open, int chosen, Error *error)
+{
+    bool set = true;
+    for (int i = 0; i < panels_count(picture->panels); i++) {
+        const ViewDef *view = shown(&open->scene, chosen, i);
+        set &= panels_set_def(picture->panels, i, view, world_of(open, view), error);
+    }
+    return set;
+}
+
+void picture_set_view(Picture *picture, const PlayScene *open, int chosen, Notice *notice)
 {
     Error error = {{0}};
-    bool set = true;
+    const int width = (int)fmax(picture->width, 1), height = (int)fmax(picture->height, 1);
     picture->dirty = true;
     picture->chosen = chosen;
-    if (panels_count(picture->panels) != scene_view_count(scene))
-        set = replace_panels(picture, scene, (int)fmax(picture->width, 1), (int)fmax(picture->height, 1),
-                             &error);
-    else
-        for (int i = 0; i < panels_count(picture->panels); i++)
-            set &= panels_set_def(picture->panels, i, shown(scene, chosen, i), &scene->world, &error);
-    if (!set)
+    if (!(panels_count(picture->panels) != scene_view_count(&open->scene)
+              ? replace_panels(picture, open, width, height, &error)
+              : set_views(picture, open, chosen, &error)))
         notice_error(notice, error.message);
     const int there = panels_count(picture->panels);
     picture->chosen = chosen < there ? chosen : 0;
@@ -133,6 +151,11 @@ bool picture_visible(const Picture *picture)
     return picture->width > 0 && picture->height > 0;
 }
 
+bool picture_unsettled(const Picture *picture)
+{
+    return picture->panels && panels_behind(picture->panels) && wall_ms() >= picture->begun_ms + SETTLE_MS;
+}
+
 bool picture_shaders_changed(Picture *picture)
 {
     if (wall_ms() < picture->shaders_due_ms)
@@ -145,17 +168,20 @@ bool picture_shaders_changed(Picture *picture)
     return true;
 }
 
-bool picture_reload(Picture *picture, const Scene *scene, Error *error)
+bool picture_reload(Picture *picture, const PlayScene *open, Error *error)
 {
-    return replace_panels(picture, scene, picture->width, picture->height, error);
+    return replace_panels(picture, open, picture->width, picture->height, error);
 }
 
-void picture_draw(Picture *picture, const ParticleBuffers *particles, double covered_left)
+void picture_draw(Picture *picture, const ParticleBuffers *const states[], const Title titles[],
+                  double covered_left)
 {
-    const ParticleBuffers *states[PANELS_MAX] = {particles, particles, particles, particles};
     Error error;
-    panels_set_covered(picture->panels, covered_left, &error); /* no room: they lie where they were */
+    for (int i = 0; i < panels_count(picture->panels); i++)
+        panels_set_title(picture->panels, i, &titles[i], &error); /* no font: it has the one before */
+    panels_set_covered(picture->panels, covered_left, &error);    /* no room: they lie where they were */
     panels_draw(picture->panels, states, picture->timer);
+    picture->dirty |= panels_unfinished(picture->panels);
     gl_timer_frame(picture->timer, &picture->gl_times);
 }
 

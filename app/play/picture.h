@@ -4,7 +4,7 @@
 #define SLOSH_PLAY_PICTURE_H
 
 #include "app/play/notice.h"
-#include "app/scene/scene.h"
+#include "app/play/scene.h"
 #include "app/window/window.h"
 #include "render/frame/text.h"
 #include "render/panels.h"
@@ -28,7 +28,7 @@ typedef struct Picture {
 
 /* What the display can do; then, when there is a scene, all that draws it. */
 void picture_meet(Picture *picture, const Window *window);
-bool picture_start(Picture *picture, const Scene *scene, float letters, Error *error);
+bool picture_start(Picture *picture, const PlayScene *open, float letters, Error *error);
 void picture_end(Picture *picture);
 
 /* Height of letters in that window, pixels. */
@@ -41,20 +41,25 @@ int picture_panel_at(const Picture *picture, double x, double y);
 
 /* Between two pictures. The view has changed, or the panel of the chosen one; the window's size may have, or
    the display's scale: where letters of another height cannot be had the old ones stay. */
-void picture_set_view(Picture *picture, const Scene *scene, int chosen, Notice *notice);
+void picture_set_view(Picture *picture, const PlayScene *open, int chosen, Notice *notice);
 bool picture_follow_size(Picture *picture, const Window *window, Error *error);
 bool picture_follow_scale(Picture *picture, float letters); /* whether it has changed */
 
 /* Whether the files of --shaders have changed since the last call; reads them again. False, with a message,
    where one is wrong: the last good ones stay. */
 bool picture_shaders_changed(Picture *picture);
-bool picture_reload(Picture *picture, const Scene *scene, Error *error);
+bool picture_reload(Picture *picture, const PlayScene *open, Error *error);
 
 bool picture_visible(const Picture *picture);
 
-/* The steps of a picture. The fluid, of which so much of the width is covered, 0 .. 1; then it goes on the
-   screen's own picture. In its place, as long as there is no state: the scene's background. */
-void picture_draw(Picture *picture, const ParticleBuffers *particles, double covered_left);
+/* The last picture has stood for a while and has numbers of the one before: renderer_behind. */
+bool picture_unsettled(const Picture *picture);
+
+/* The steps of a picture. The fluid, a state and a title for each panel, of which so much of the width is
+   covered, 0 .. 1; then it goes on the screen's own picture. In its place, as long as there is no state: the
+   scene's background. */
+void picture_draw(Picture *picture, const ParticleBuffers *const states[], const Title titles[],
+                  double covered_left);
 void picture_present(Picture *picture);
 void picture_clear(const Picture *picture, const ViewDef *view);
 

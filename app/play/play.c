@@ -67,7 +67,7 @@ static bool start(Session *session, Error *error)
     const float letters = picture_letters(play->window);
     play->overlay.panel = (float)play->picture.width > 60 * letters; /* beside the fluid, not over it */
     return act_open(play, setup->scene, setup->settings, error) &&
-           picture_start(&play->picture, &play->model.open.scene, letters, error) &&
+           picture_start(&play->picture, &play->model.open, letters, error) &&
            overlay_start(&play->overlay, letters, error);
 }
 
@@ -96,8 +96,9 @@ static void follow_shaders(Play *play)
     Error error = {{0}};
     if (!picture_shaders_changed(&play->picture))
         return;
-    if (picture_reload(&play->picture, &play->model.open.scene, &error) &&
-        (!play->model.open.simulator || simulator_reload(play->model.open.simulator, &error)))
+    if (picture_reload(&play->picture, &play->model.open, &error) &&
+        (!play->model.open.simulator || simulator_reload(play->model.open.simulator, &error)) &&
+        company_reload(play->model.open.company, &error))
         notice_tell(&play->notice, "the shaders were read again");
     else
         notice_error(&play->notice, error.message);
@@ -117,8 +118,8 @@ static void pause_or_draw(Play *play)
     PlayScene *open = &play->model.open;
     const double work = open->source->work(open, WORK_MS);
     const double now = wall_ms(), due = picture->begun_ms + 900 / picture->refresh;
-    const bool wanted =
-        picture_visible(picture) && (picture->dirty || open->source->fresh(open) || files_due(&play->files));
+    const bool wanted = picture_visible(picture) && (picture->dirty || picture_unsettled(picture) ||
+                                                     model_fresh(&play->model) || files_due(&play->files));
     if (wanted && now >= due)
         draw_picture(play);
     else if (wanted)

@@ -13,52 +13,59 @@ void readout_begin(Readout *readout)
     *readout = (Readout){.free = false};
 }
 
-static int panel_under(const Readout *readout, const Panels *panels)
+static int panel_at(const Panels *panels, const double pixel[2])
 {
-    return panels_at(panels_places(panels), panels_count(panels), readout->mouse[0], readout->mouse[1]);
+    return panels_at(panels_places(panels), panels_count(panels), pixel[0], pixel[1]);
 }
 
-/* What the panel under the mouse shows there; false: nothing, or something else has the mouse. */
-static bool pick(const Readout *readout, const Panels *panels, double at[3])
+/* In a panel's own pixels. */
+static void within(const Panels *panels, int panel, const double pixel[2], double own[2])
 {
-    const int panel = panel_under(readout, panels);
     const PanelPlace *place = &panels_places(panels)[panel];
-    const double pixel[2] = {readout->mouse[0] - place->x, readout->mouse[1] - place->y};
-    return readout->free && renderer_pick(panels_renderer(panels, panel), pixel, at);
+    own[0] = pixel[0] - place->x;
+    own[1] = pixel[1] - place->y;
+}
+
+/* Whether there may be a value under the mouse; not where something else has it. */
+static bool may_tell(const Readout *readout, const Panels *panels)
+{
+    double own[2];
+    const int panel = panel_at(panels, readout->mouse);
+    within(panels, panel, readout->mouse, own);
+    return readout->free && renderer_may_probe(panels_renderer(panels, panel), own);
 }
 
 bool readout_event(Readout *readout, const Panels *panels, const WindowEvent *event, bool free)
 {
-    double at[3];
     if (event->kind != WINDOW_MOVE)
         return false;
     memcpy(readout->mouse, (double[]){event->x, event->y}, sizeof readout->mouse);
     readout->free = free;
-    return readout->shown || pick(readout, panels, at);
+    return readout->shown || may_tell(readout, panels);
+}
+
+static void say_none(Notice *notice)
+{
+    notice_tell(notice, "there is no value under the mouse that could be pinned");
 }
 
 void readout_pin(Readout *readout, const Panels *panels, Notice *notice)
 {
-    double at[3];
-    if (!pick(readout, panels, at))
-        notice_tell(notice, "there is no value under the mouse that could be pinned");
+    if (!may_tell(readout, panels))
+        say_none(notice);
     else if (readout->pin_count == READOUT_PINS_MAX)
         notice_tell(notice, "%d values are pinned, and no more can be; Shift+M takes them away",
                     READOUT_PINS_MAX);
-    else
-        memcpy(readout->pins[readout->pin_count++], at, sizeof at);
+    else {
+        readout->pinning = true;
+        memcpy(readout->pinned, readout->mouse, sizeof readout->pinned);
+    }
 }
 
-/* Whether all that is asked for is known, or never will be. */
-static bool all_known(const ViewProbe found[], int found_count, const double (*at)[3], int count)
+void readout_unpin(Readout *readout)
 {
-    bool all = found_count == count;
-    for (int i = 0; i < found_count; i++) {
-        all = all && found[i].now;
-        for (int k = 0; k < 3; k++)
-            all = all && found[i].at[k] == at[i][k];
-    }
-    return all || found_count < 0;
+    readout->pin_count = 0;
+    readout->pinning = false;
 }
 
 /* "pressure 1234 Pa" */
@@ -66,7 +73,9 @@ static void value_words(const ViewProbe *probe, char words[96])
 {
     char unit[32];
     legend_unit(probe->unit, unit);
-    if (probe->what == VIEW_PROBE_VALUE)
+    if (probe->what == VIEW_PROBE_VALUE && probe->words)
+        snprintf(words, 96, "%s %s", probe->name, probe->words);
+    else if (probe->what == VIEW_PROBE_VALUE)
         snprintf(words, 96, "%s %.4g%s%s", probe->name, probe->value, *unit ? " " : "", unit);
     else
         snprintf(words, 96, "%s: %s", probe->name,
@@ -75,13 +84,22 @@ static void value_words(const ViewProbe *probe, char words[96])
                                                    : "no number");
 }
 
+/* "particle 12: x 0.1  y 0.2  z 0 m" */
+static void place_words(const ViewProbe *probe, char words[128])
+{
+    char who[32] = "";
+    if (probe->id != VIEW_NO_ID)
+        snprintf(who, sizeof who, "particle %lld: ", (long long)probe->id);
+    snprintf(words, 128, "%sx %.3g  y %.3g  z %.3g m", who, probe->at[0], probe->at[1], probe->at[2]);
+}
+
 /* Two lines to the right of the place and below it, or where there is room. */
 static void draw_words(const ViewProbe *probe, int width, int height, Text *text)
 {
-    char value[96], place[96];
+    char value[96], place[128];
     const float em = text_height(text), gap = 0.5F * em;
     value_words(probe, value);
-    snprintf(place, sizeof place, "x %.3g  y %.3g  z %.3g m", probe->at[0], probe->at[1], probe->at[2]);
+    place_words(probe, place);
     const float wide = fmaxf(text_width(text, 1, value), text_width(text, 0.85F, place)) + 2 * gap,
                 high = 2.6F * em + gap;
     float x = (float)probe->pixel[0] + em, y = (float)probe->pixel[1] + em;
@@ -94,51 +112,68 @@ static void draw_words(const ViewProbe *probe, int width, int height, Text *text
     text_draw(text, x + gap, y + 0.4F * gap + 1.4F * em, 0.85F, INK, TEXT_LEFT, place);
 }
 
-static void draw_found(const ViewProbe found[], int count, int pins, const PanelPlace *place, Text *text)
+static void draw_found(const ViewProbes *found, const PanelPlace *place, Text *text)
 {
-    for (int i = 0; i < count; i++) {
-        const double *pixel = found[i].pixel;
-        if (!found[i].seen)
+    for (int i = 0; i < found->count; i++) {
+        const ViewProbe *probe = &found->probe[i];
+        const bool pin = i < found->count - found->mouse;
+        if (!probe->seen)
             continue;
-        if (i < pins)
-            text_disc(text, (float)pixel[0], (float)pixel[1], 0.25F * text_height(text), PIN);
-        draw_words(&found[i], place->width, place->height, text);
+        if (pin)
+            text_disc(text, (float)probe->pixel[0], (float)probe->pixel[1], 0.25F * text_height(text), PIN);
+        draw_words(probe, place->width, place->height, text);
     }
 }
 
-/* The pins in a panel, and `mouse`, where it is not NULL. Whether all is known. */
-static bool draw_panel(Readout *readout, const Panels *panels, int panel, const double *mouse,
-                       const int size[2], Text *text)
+/* What a panel is asked for: the pins, and what is under the mouse or to be pinned there. */
+static ViewAsks asks_of(const Readout *readout, const Panels *panels, int panel)
 {
-    double at[VIEW_PROBES_MAX][3];
-    ViewProbe found[VIEW_PROBES_MAX];
+    ViewAsks asks = {.count = readout->pin_count};
+    const double *pixel = readout->pinning ? readout->pinned : readout->mouse;
+    memcpy(asks.at, readout->pins, sizeof(double[3]) * (size_t)asks.count);
+    asks.mouse = (readout->pinning || readout->free) && panel == panel_at(panels, pixel);
+    if (asks.mouse)
+        within(panels, panel, pixel, asks.pixel);
+    return asks;
+}
+
+/* What was to be pinned is, or there is none. */
+static void pin(Readout *readout, const ViewProbes *found, Notice *notice)
+{
+    readout->pinning = false;
+    if (found->placed)
+        memcpy(readout->pins[readout->pin_count++], found->place, sizeof readout->pins[0]);
+    else
+        say_none(notice);
+}
+
+/* Whether all of it is known, or never will be. */
+static bool draw_panel(Readout *readout, const Panels *panels, int panel, const int size[2], Text *text,
+                       Notice *notice)
+{
+    ViewProbes found;
     const PanelPlace *place = &panels_places(panels)[panel];
-    int count = readout->pin_count;
-    memcpy(at, readout->pins, sizeof(double[3]) * (size_t)count);
-    if (mouse)
-        memcpy(at[count++], mouse, sizeof at[0]);
-    const double(*asked)[3] = (const double(*)[3])at;
-    const int known = count ? renderer_probe(panels_renderer(panels, panel), asked, count, found) : 0;
-    if (known > 0) {
+    const ViewAsks asks = asks_of(readout, panels, panel);
+    const bool can = renderer_probe(panels_renderer(panels, panel), &asks, &found);
+    if (found.count > 0) {
         text_begin_within(text, size[0], size[1], (int[]){place->x, place->y, place->width, place->height});
-        draw_found(found, known, readout->pin_count, place, text);
+        draw_found(&found, place, text);
         text_end(text);
     }
-    if (panel == panel_under(readout, panels)) {
-        readout->found_count = known > 0 ? known : 0;
-        readout->found_pins = readout->pin_count < known ? readout->pin_count : readout->found_count;
-        memcpy(readout->found, found, sizeof *found * (size_t)readout->found_count);
+    if (panel == panel_at(panels, readout->mouse)) {
+        readout->found = found;
+        readout->shown = found.mouse;
     }
-    return all_known(found, known, asked, count);
+    if (!readout->pinning || !asks.mouse || (can && !found.asked))
+        return !can || found.now;
+    pin(readout, &found, notice);
+    return false;
 }
 
-bool readout_draw(Readout *readout, const Panels *panels, int width, int height, Text *text)
+bool readout_draw(Readout *readout, const Panels *panels, int width, int height, Text *text, Notice *notice)
 {
-    double mouse[3];
     bool all = true;
-    readout->shown = pick(readout, panels, mouse);
-    const int under = readout->shown ? panel_under(readout, panels) : -1;
     for (int i = 0; i < panels_count(panels); i++)
-        all &= draw_panel(readout, panels, i, i == under ? mouse : NULL, (int[]){width, height}, text);
+        all &= draw_panel(readout, panels, i, (int[]){width, height}, text, notice);
     return !all;
 }

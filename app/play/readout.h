@@ -1,5 +1,5 @@
 /* What the picture shows under the mouse: value, unit and place beside the cursor, and at places that are
-   pinned. For views that can tell (pick and probe of ViewKind, render/frame/view.h). Of several panels the
+   pinned. For views that can tell (probe and probing of ViewKind, render/frame/view.h). Of several panels the
    one under the mouse tells what is there, and each what it shows at the pins. Drawn over the window's own
    picture, not into screenshots and videos. */
 #ifndef SLOSH_PLAY_READOUT_H
@@ -17,10 +17,11 @@ typedef struct Readout {
     double mouse[2];                  /* pixels of the whole picture */
     bool free;                        /* the mouse is over the picture, and nothing has it */
     bool shown;                       /* the last picture tells what is under it */
+    bool pinning;                     /* what is there is to be pinned: */
+    double pinned[2];                 /* pixels of the whole picture */
     double pins[READOUT_PINS_MAX][3]; /* m, box's frame */
     int pin_count;
-    ViewProbe found[VIEW_PROBES_MAX]; /* of the last picture, in the mouse's panel: pins, then the mouse's */
-    int found_count, found_pins;
+    ViewProbes found; /* of the last picture, in the mouse's panel: pins, then the mouse's */
 } Readout;
 
 /* Nothing is pinned. */
@@ -29,11 +30,12 @@ void readout_begin(Readout *readout);
 /* Whether a picture is due for it. `free`: nothing else has the mouse. */
 bool readout_event(Readout *readout, const Panels *panels, const WindowEvent *event, bool free);
 
-/* Pins what is under the mouse, or says why not. */
+/* Pins what is under the mouse, with the next picture that knows it, or says why not. */
 void readout_pin(Readout *readout, const Panels *panels, Notice *notice);
+void readout_unpin(Readout *readout);
 
 /* Reads and draws, over a picture of that size, behind the panels' own. Whether the next picture will know
    more. */
-bool readout_draw(Readout *readout, const Panels *panels, int width, int height, Text *text);
+bool readout_draw(Readout *readout, const Panels *panels, int width, int height, Text *text, Notice *notice);
 
 #endif

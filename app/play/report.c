@@ -45,6 +45,7 @@ static json_t *session_json(const PlayFigures *f)
             json_object_update(json, devices);
     solved_json(json, &f->solved);
     if (json) {
+        json_object_set_new(json, "times", vector(f->times, f->views));
         json_object_set_new(json, "limits", limits_json(f->limited));
         json_object_set_new(json, "view_settings", json_loads(f->view_settings, 0, NULL));
         json_object_set_new(json, "readout", json_loads(f->readout, 0, NULL));
@@ -60,9 +61,19 @@ static json_t *session_json(const PlayFigures *f)
     return NULL;
 }
 
+/* Of a recorded run. */
+static void leave_out_solver(json_t *json)
+{
+    static const char *const keys[] = {"backend", "method", "threads", "dt", "substeps", "sim_ms", "limits"};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        json_object_del(json, keys[i]);
+}
+
 static json_t *figures_json(const PlayFigures *f)
 {
     json_t *json = *f->renderer ? session_json(f) : json_pack("{s:s}", "scene", f->scene);
+    if (json && f->recorded)
+        leave_out_solver(json);
     if (json && *f->failure.message)
         json_object_set_new(json, "error", json_string(f->failure.message));
     return json;

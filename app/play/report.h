@@ -2,6 +2,7 @@
 #ifndef SLOSH_PLAY_REPORT_H
 #define SLOSH_PLAY_REPORT_H
 
+#include "render/panels.h"
 #include "sim/base/error.h"
 #include "sim/matter/world_def.h"
 #include "sim/world/reading.h"
@@ -14,7 +15,9 @@
 /* What a session was, in the end. */
 typedef struct PlayFigures {
     char scene[1024], renderer[256];
-    int views, chosen_view; /* how many are shown; the panel of the one that the rest is of */
+    int views, chosen_view;   /* how many are shown; the panel of the one that the rest is of */
+    bool recorded;            /* nothing was simulated: there are no figures of a solver */
+    double times[PANELS_MAX]; /* of the state that each shows, s */
     char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];
     char view_settings[4096]; /* JSON: the view's own keys as they are now, as of scene_json */
     char readout[4096];       /* JSON: what the last picture said under the mouse and at pins */

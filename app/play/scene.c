@@ -1,8 +1,8 @@
 #include "app/play/scene.h"
 
 #include "app/base/path.h"
+#include "app/beside/beside.h"
 #include "app/scene/advise.h"
-#include "render/renderer.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
 
@@ -22,8 +22,11 @@ static bool read_scene(PlayScene *open, const char *name, const SceneSettings *s
     if (!scene_path_find(name, path, error))
         return false;
     char *text = scene_file_read(path, &size, error);
-    const bool ok = text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
-                    recording_create(&open->recording, path, text, size, settings ? settings : &none, error);
+    const CompanySetup company = {.scene = &open->scene, .text = text, .size = size, .settings = settings};
+    const bool ok =
+        text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
+        recording_create(&open->recording, path, text, size, settings ? settings : &none, error) &&
+        company_read(&company, &open->company, notes, error);
     free(text);
     return ok;
 }
@@ -41,9 +44,10 @@ static bool read_recorded(PlayScene *open, const char *path, const SceneSettings
     snprintf(open->scene.path, sizeof open->scene.path, "%s", path);
     for (int i = 0; i < scene_view_count(&open->scene); i++) {
         ViewDef *view = open->scene.view_count > 0 ? &open->scene.views[i] : &open->scene.view;
-        recorded_adapt(open->recorded, view, notes);
+        if (!beside_is(view))
+            recorded_adapt(open->recorded, view, notes);
     }
-    return true;
+    return company_read(&(CompanySetup){.scene = &open->scene}, &open->company, notes, error);
 }
 
 bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
@@ -83,13 +87,23 @@ bool play_scene_make_upload(PlayScene *open, Error *error)
     const WorldDef *def = &open->scene.world;
     if (!open->upload && !world_on_gpu(def))
         open->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
-                                     renderer_attributes(NULL), error);
+                                     upload_of_worlds(beside_simulated_attributes(def)), error);
     return open->upload || world_on_gpu(def);
 }
 
 bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error)
 {
-    return open->source->start(open, how, error);
+    SimulatorSetup each = *how;
+    Simulator *followers[SIMULATOR_FOLLOWERS];
+    int solvers = 1;
+    while (company_world_def(open->company, solvers - 1))
+        solvers++;
+    each.past_bytes = how->past_bytes / (size_t)solvers;
+    if (!company_start(open->company, &each, error))
+        return false;
+    each.follower_count = company_followers(open->company, followers);
+    each.followers = followers;
+    return open->source->start(open, &each, error);
 }
 
 bool play_scene_move(PlayScene *open, const SimCommand *command, Error *error)
@@ -102,6 +116,7 @@ bool play_scene_close(PlayScene *open, double patience_ms)
 {
     if (open->source && !open->source->close(open, patience_ms))
         return false;
+    company_destroy(open->company);
     recording_destroy(&open->recording);
     *open = (PlayScene){.source = NULL};
     return true;

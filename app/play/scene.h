@@ -3,6 +3,7 @@
 #ifndef SLOSH_PLAY_SCENE_H
 #define SLOSH_PLAY_SCENE_H
 
+#include "app/beside/company.h"
 #include "app/play/source.h"
 #include "app/playback/player.h"
 #include "app/recording/recording.h"
@@ -19,6 +20,7 @@ typedef struct PlayScene {
     Simulator *simulator;
     Recorded *recorded; /* of a file of snapshots; the player has taken its content over */
     Player *player;
+    Company *company;         /* what views show beside it; NULL: nothing */
     const SourceKind *source; /* NULL: nothing is open */
 } PlayScene;
 

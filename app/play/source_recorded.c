@@ -37,10 +37,12 @@ static void status(PlayScene *open, SimulatorStatus *out)
         .realtime = true,
         .speed = player.speed,
         .time = player.reel.time,
+        .step = player.reel.step,
+        .particles = player.reel.particles,
         .simulated_s = player.played_s,
         .messages = player.failures,
         .past = {.kept = true, .behind = true, .from = player.reel.first, .to = player.reel.last}};
-    snprintf(out->message, sizeof out->message, "%s", player.reel.message);
+    snprintf(out->message, sizeof out->message, "%s", player.message);
 }
 
 static bool fresh(PlayScene *open)

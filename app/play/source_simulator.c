@@ -1,4 +1,5 @@
 /* A simulation as the window's source: app/session/simulator.h does the work. */
+#include "app/beside/beside.h"
 #include "app/play/scene.h"
 #include "render/renderer.h"
 
@@ -34,14 +35,14 @@ static void status(PlayScene *open, SimulatorStatus *out)
 
 static bool fresh(PlayScene *open)
 {
-    return simulator_here(open->simulator) ? simulator_fresh(open->simulator) : upload_fresh(open->upload);
+    return simulator_on_gpu(open->simulator) ? simulator_fresh(open->simulator) : upload_fresh(open->upload);
 }
 
 static bool take(PlayScene *open, ParticleBuffers *out)
 {
     const Scene *scene = &open->scene;
-    unsigned attributes = renderer_attributes(&scene->view);
-    if (!simulator_here(open->simulator))
+    unsigned attributes = renderer_attributes(&scene->view) | PARTICLE_ID; /* for a click on one of them */
+    if (!simulator_on_gpu(open->simulator))
         return upload_take(open->upload, out);
     for (int i = 0; i < scene->view_count; i++)
         attributes |= renderer_attributes(&scene->views[i]);
@@ -50,8 +51,7 @@ static bool take(PlayScene *open, ParticleBuffers *out)
 
 static bool has(const PlayScene *open, const ViewDef *view, Error *error)
 {
-    (void)open, (void)view, (void)error;
-    return true;
+    return beside_simulated_has(&open->scene.world, view, error);
 }
 
 static void pause(PlayScene *open, bool paused)

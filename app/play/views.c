@@ -47,13 +47,23 @@ static void next_kind(ViewDef *view)
     snprintf(view->kind, sizeof view->kind, "%s", next->name);
 }
 
+/* The last one that shows the scene: what others show may have scalars that the scene lacks. */
+static const ViewDef *last_own(const PlayViews *views, const Scene *scene)
+{
+    for (int i = views->known; i-- > 0;)
+        if (scene_shows(scene, &scene->views[i]))
+            return &scene->views[i];
+    return &scene->views[views->known - 1];
+}
+
 static void make(PlayViews *views, Scene *scene, int count)
 {
     views->known = views->known > 0 ? views->known : 1;
     for (; views->known < count; views->known++) {
-        scene->views[views->known] = scene->views[views->known - 1];
+        scene->views[views->known] = *last_own(views, scene);
         copy_camera(&scene->view, &scene->views[views->known]);
         next_kind(&scene->views[views->known]);
+        *scene->views[views->known].file = *scene->views[views->known].set = 0;
     }
 }
 

@@ -2,6 +2,7 @@
 #include "render/renderer.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,6 +21,8 @@ struct Player {
     int steps; /* that wait */
     unsigned failures;
     char told[sizeof(Error)]; /* the last of them */
+    bool told_replaced;
+    char message[1024]; /* of the last failure */
 };
 
 Player *player_create(Recorded *recorded, void (*wake)(void), bool paused, Error *error)
@@ -122,6 +125,15 @@ static void seek(Player *player)
     player->wants = player->status.answered = false;
 }
 
+__attribute__((format(printf, 2, 3))) static void fail(Player *player, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(player->message, sizeof player->message, format, arguments);
+    va_end(arguments);
+    player->failures++;
+}
+
 static void listen(Player *player)
 {
     Error error = {{0}};
@@ -130,12 +142,18 @@ static void listen(Player *player)
         status->failed = true;
         snprintf(status->message, sizeof status->message, "%s", error.message);
     }
+    if (status->replaced && !player->told_replaced)
+        fail(
+            player,
+            "%.700s: another file has this name now; what was opened is shown on, open it again to see the new one",
+            player->known.path);
+    player->told_replaced = status->replaced;
     if (!status->failed)
         *player->told = 0;
     if (!status->failed || strcmp(status->message, player->told) == 0)
         return;
     snprintf(player->told, sizeof player->told, "%s", status->message);
-    player->failures++;
+    fail(player, "%s", status->message);
 }
 
 double player_work(Player *player, double now_ms)
@@ -204,6 +222,7 @@ void player_status(const Player *player, PlayerStatus *status)
                              .speed = player->speed,
                              .played_s = player->played_s,
                              .failures = player->failures};
+    snprintf(status->message, sizeof status->message, "%s", player->message);
 }
 
 bool player_has(const Player *player, const ViewDef *view, Error *error)

@@ -32,8 +32,10 @@ typedef struct PlayerStatus {
     ReelStatus reel;
     bool paused, loop;
     double speed;
-    double played_s;   /* of the file's time since the start, jumps apart */
-    unsigned failures; /* counts steps that could not be shown, each once in a row: why says reel.message */
+    double played_s;    /* of the file's time since the start, jumps apart */
+    unsigned failures;  /* counts steps that could not be shown, each once in a row, and that the file was
+                           replaced */
+    char message[1024]; /* of the last of them */
 } PlayerStatus;
 
 void player_status(const Player *player, PlayerStatus *status);

@@ -68,6 +68,31 @@ static bool count(Recorded *recorded, Error *error)
            snapshot_read_time(recorded->reader, recorded->steps - 1, &recorded->last, error);
 }
 
+static bool sets_views(const SceneSettings *settings)
+{
+    bool sets = false;
+    for (int i = 0; settings && i < settings->count; i++)
+        sets |= strncmp(settings->set[i], "views", strlen("views")) == 0;
+    return sets;
+}
+
+/* Beside a run nothing is simulated; and what stood beside it when it was simulated is not in the file. */
+static void drop_beside(Recorded *recorded, const SceneSettings *settings, Notes *notes)
+{
+    const bool said = sets_views(settings);
+    for (int i = 0; i < recorded->scene.view_count; i++) {
+        ViewDef *view = &recorded->scene.views[i];
+        if (*view->set || (*view->file && !said))
+            notes_add(
+                notes, "%.200s: views[%d].%s is left out: %s", recorded->path, i, *view->set ? "set" : "file",
+                *view->set ? "nothing is simulated beside a recorded run"
+                           : "what stood beside this run is another file; --set 'views=[{}, {file: ...}]'");
+        if (!said)
+            *view->file = 0;
+        *view->set = 0;
+    }
+}
+
 static bool understand(Recorded *recorded, const SceneSettings *settings, Notes *notes, Error *error)
 {
     if (snapshot_count_steps(recorded->reader) == 0)
@@ -75,6 +100,7 @@ static bool understand(Recorded *recorded, const SceneSettings *settings, Notes 
     if (!recorded_scene(recorded->reader, recorded->path, settings, &recorded->numbers, &recorded->scene,
                         notes, error))
         return false;
+    drop_beside(recorded, settings, notes);
     recorded->flaws = snapshot_flaws(recorded->reader, true);
     recorded->flaws.shown = true;
     tell_gap(recorded->reader, recorded->path, notes);
@@ -111,9 +137,24 @@ bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error)
     return snapshot_read_time(recorded->reader, index, time, error);
 }
 
+/* What rounding does to a time, s. */
+static double slack(double time)
+{
+    return 1e-9 * fmax(fabs(time), 1);
+}
+
+bool recorded_find_after(Recorded *recorded, double time, size_t *index, Error *error)
+{
+    double at;
+    if (!recorded_find(recorded, time, index, error) || !recorded_time(recorded, *index, &at, error))
+        return false;
+    *index += at < time - slack(time) && *index + 1 < recorded->steps;
+    return true;
+}
+
 bool recorded_find(Recorded *recorded, double time, size_t *index, Error *error)
 {
-    const double latest = time + 1e-9 * fmax(fabs(time), 1);
+    const double latest = time + slack(time);
     size_t low = 0, high = recorded->steps; /* the step is one of low .. high - 1 */
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;

@@ -42,6 +42,9 @@ bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error)
 /* The newest step at or before `time` (s, give or take what rounding does to it); the first where none is. */
 bool recorded_find(Recorded *recorded, double time, size_t *index, Error *error);
 
+/* The first step at or after `time`; the last where none is. */
+bool recorded_find_after(Recorded *recorded, double time, size_t *index, Error *error);
+
 /* The state as world_read would give it: those of `attributes` that the file has, and others NULL. Volumes
    follow from densities (snapshot_volume); without fluids all are of the first. */
 bool recorded_read(Recorded *recorded, size_t index, unsigned attributes, Still *out, Error *error);

@@ -8,10 +8,12 @@
 
 /* ---- what a part of a view needs and the file lacks: PARTICLE_* ---- */
 
+/* Births that a file says need no ids to be found by. */
 static unsigned lacks_scalar(const Recorded *recorded, Scalar scalar)
 {
     const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
-    return wants_attributes(&wants) & ~recorded->attributes;
+    const unsigned needs = wants_attributes(&wants);
+    return needs & ~(recorded->attributes | (needs & PARTICLE_SCALAR(SCALAR_BORN) ? PARTICLE_ID : 0));
 }
 
 static unsigned lacks_color(const Recorded *recorded, const ViewDef *view)
@@ -55,6 +57,7 @@ static void name_first(unsigned attributes, char words[64])
         scalar++;
     snprintf(words, 64, "%s",
              attributes & PARTICLE_VELOCITY                            ? "velocities"
+             : attributes & PARTICLE_SCALAR(SCALAR_BORN)               ? "times of birth (born)"
              : attributes & (PARTICLE_ID | PARTICLE_SCALAR(SCALAR_ID)) ? "ids"
              : scalar < SCALAR_STATE_COUNT                             ? scalar_name((Scalar)scalar)
                                                                        : "fluids");
@@ -69,7 +72,7 @@ static bool needs(const Recorded *recorded, const char *key, unsigned lacks, Err
 
 static bool no_color(const Recorded *recorded, Scalar scalar, Error *error)
 {
-    char known[256] = "";
+    char known[512] = "";
     for (int s = 0; s < SCALAR_COUNT; s++)
         if (!lacks_scalar(recorded, (Scalar)s))
             snprintf(known + strlen(known), sizeof known - strlen(known), "%s%s", *known ? ", " : "",

@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 
 static const double FOLLOW_MS = 500; /* from look to look whether the file has grown */
@@ -22,6 +23,7 @@ typedef struct Kept {
 struct Reel {
     unsigned attributes;
     size_t bytes;
+    bool at_or_after;
     void (*wake)(void);
 
     pthread_t thread;
@@ -37,6 +39,7 @@ struct Reel {
     Upload *upload;    /* written by the thread, replaced while that waits for room */
     Upload *before;    /* the one that was replaced, until the new one has a state; or NULL */
     Recorded recorded; /* of the thread */
+    struct stat file;  /* of its name when it was opened */
     Kept kept[REEL_KEPT_MOST];
     size_t kept_most;
     size_t shown;       /* index in the file, SIZE_MAX: none */
@@ -179,11 +182,16 @@ static void describe_file(Reel *reel)
     reel->flaws = reel->recorded.flaws;
 }
 
+static bool find(Reel *reel, double time, size_t *index, Error *error)
+{
+    return (reel->at_or_after ? recorded_find_after : recorded_find)(&reel->recorded, time, index, error);
+}
+
 /* What was asked for last; `place`: where in the file that is. False with the reason, and `place` as far as
    it is known. */
 static bool show_asked(Reel *reel, double time, double lead, Kept *place, bool *read, Error *error)
 {
-    if (!recorded_find(&reel->recorded, time, &place->index, error))
+    if (!find(reel, time, &place->index, error))
         return false;
     Kept *kept = find_kept(reel, place->index);
     *read = !kept;
@@ -209,6 +217,11 @@ static void answer(Reel *reel, double time, double lead, unsigned asked)
     status->found += shown && !read;
     status->failed = !shown;
     status->index = shown ? place.index : status->index;
+    if (shown) {
+        const ParticleBuffers *state = &find_kept(reel, place.index)->still.state;
+        status->particles = state->count;
+        status->step = state->step;
+    }
     snprintf(status->message, sizeof status->message, "%s", error.message);
     if (place.is)
         describe(reel, &place);
@@ -230,7 +243,7 @@ static bool find_next(Reel *reel, double time, double lead, size_t *index)
 {
     Error none = {{0}};
     for (size_t k = 1; k + 2 <= reel->kept_most; k++) {
-        if (!recorded_find(&reel->recorded, time + (double)k * lead, index, &none))
+        if (!find(reel, time + (double)k * lead, index, &none))
             return false;
         if (!find_kept(reel, *index))
             return true;
@@ -257,6 +270,20 @@ static bool read_ahead(Reel *reel, double time, double lead)
     return read;
 }
 
+/* Another run has its name: what was opened is shown on. */
+static void look_for_another(Reel *reel)
+{
+    struct stat now;
+    const struct stat *then = &reel->file;
+    if (reel->status.replaced || stat(reel->recorded.path, &now) != 0 ||
+        (now.st_ino == then->st_ino && now.st_dev == then->st_dev))
+        return;
+    pthread_mutex_lock(&reel->mutex);
+    reel->status.replaced = true;
+    tell(reel);
+    pthread_mutex_unlock(&reel->mutex);
+}
+
 /* A run may go on writing it. What cannot be read now may be later. */
 static void follow(Reel *reel)
 {
@@ -265,6 +292,7 @@ static void follow(Reel *reel)
     if (wall_ms() < reel->followed_ms + FOLLOW_MS)
         return;
     reel->followed_ms = wall_ms();
+    look_for_another(reel);
     if (!recorded_follow(&reel->recorded, &none) || reel->recorded.steps == steps)
         return;
     pthread_mutex_lock(&reel->mutex);
@@ -323,10 +351,13 @@ Reel *reel_create(const ReelSetup *setup, Error *error)
     }
     reel->attributes = setup->attributes & setup->recorded->attributes;
     reel->bytes = setup->bytes;
+    reel->at_or_after = setup->at_or_after;
     reel->wake = setup->wake;
     reel->kept_most = REEL_KEPT_MOST;
     reel->followed_ms = wall_ms();
     reel->recorded = *setup->recorded;
+    if (stat(reel->recorded.path, &reel->file) != 0)
+        reel->status.replaced = true; /* it is gone already: nothing can be said of another */
     describe_file(reel);
     pthread_mutex_init(&reel->mutex, NULL);
     pthread_cond_init(&reel->wanted, NULL);

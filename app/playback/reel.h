@@ -1,6 +1,6 @@
 /* A recorded file on its way to the pictures: a thread reads its steps ahead of who shows them, keeps a few,
    and writes the one that is wanted into an Upload. Shown is the newest step at or before the time that is
-   asked for: nothing is interpolated.
+   asked for (ReelSetup.at_or_after: the first one at or after it): nothing is interpolated.
 
    All functions here belong to one other thread, that of the GL context. */
 #ifndef SLOSH_REEL_H
@@ -18,6 +18,7 @@ typedef struct ReelSetup {
     unsigned attributes; /* PARTICLE_* that pictures read; what the file lacks of them is left out */
     size_t
         bytes; /* of memory for steps that were read: as many as fit, of REEL_KEPT_LEAST to REEL_KEPT_MOST */
+    bool at_or_after;   /* shown is the first step at or after the time, or the last one */
     void (*wake)(void); /* called on the reel's thread when there is something new; may be NULL */
 } ReelSetup;
 
@@ -39,6 +40,9 @@ typedef struct ReelStatus {
     size_t index;         /* of the step that is shown */
     double time;          /* its time, s; of a step that failed that one's, */
     double before, after; /* and those of its neighbours: at the file's ends `time` itself */
+    size_t particles;     /* of the step that is shown */
+    uint64_t step;        /* its number in the run */
+    bool replaced;        /* another file has the name now; this one is shown on */
     size_t read, found;   /* steps that were read; that were wanted and had been read */
     size_t kept;          /* steps that are kept at most */
 } ReelStatus;

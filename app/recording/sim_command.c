@@ -6,17 +6,32 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char BACKEND_IS[] = "solver.backend=";
+static const char BACKEND_IS[] = "solver.backend=", ACCELERATION_IS[] = "solver.acceleration=";
+
+static bool sets(const SimCommand *command, const char *key)
+{
+    return command->kind == SIM_SET && strncmp(command->setting, key, strlen(key)) == 0;
+}
 
 bool sim_command_moves(const SimCommand *command)
 {
-    return command->kind == SIM_SET && strncmp(command->setting, BACKEND_IS, sizeof BACKEND_IS - 1) == 0;
+    return sets(command, BACKEND_IS) || sets(command, ACCELERATION_IS);
+}
+
+bool sim_command_sets_backend(const SimCommand *command)
+{
+    return sets(command, BACKEND_IS);
+}
+
+bool sim_command_changes(const SimCommand *command)
+{
+    return !sets(command, ACCELERATION_IS);
 }
 
 bool sim_command_needs_gpu(const SimCommand *command)
 {
     WorldDef def;
-    if (!sim_command_moves(command))
+    if (!sets(command, BACKEND_IS))
         return false;
     snprintf(def.backend, sizeof def.backend, "%.31s", command->setting + sizeof BACKEND_IS - 1);
     return world_on_gpu(&def);
@@ -26,6 +41,8 @@ static bool change_world(World **world, const WorldDef *before, const WorldDef *
 {
     if (strcmp(before->backend, after->backend) != 0)
         return world_move(world, after->backend, error);
+    if (after->acceleration && !before->acceleration)
+        return world_keep_acceleration(*world, error);
     return world_change(*world, after, error);
 }
 
@@ -34,7 +51,8 @@ static bool apply_setting(const char *setting, World **world, Scene *scene, Erro
     Scene after = *scene;
     bool concerns_world;
     if (!scene_set_live(&after, setting, &concerns_world, error) ||
-        (concerns_world && !change_world(world, &scene->world, &after.world, error)))
+        ((concerns_world || after.world.acceleration != scene->world.acceleration) &&
+         !change_world(world, &scene->world, &after.world, error)))
         return false;
     *scene = after;
     return true;

@@ -33,8 +33,13 @@ typedef struct SimCommand {
    wrong, or the memory short; nothing has changed. */
 bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, Error *error);
 
-/* Whether the command sets the backend, and to one on a GPU: then a context must be current. */
+/* Whether the command sets what the world itself is made with: the backend, or what it keeps for views; and
+   whether the backend; and that to one on a GPU: then a context must be current. */
 bool sim_command_moves(const SimCommand *command);
+bool sim_command_sets_backend(const SimCommand *command);
+
+/* Whether states to come may differ by it; they do not where accelerations are kept to be shown. */
+bool sim_command_changes(const SimCommand *command);
 bool sim_command_needs_gpu(const SimCommand *command);
 
 #endif

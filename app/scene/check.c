@@ -1,7 +1,12 @@
 #include "app/scene/check_parts.h"
 
+#include "render/renderer.h"
+#include "sim/gl/particle_buffers.h"
+#include "sim/world/column.h"
+
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static bool check_range(const Check *check, const char *view, const char *key, bool automatic,
                         const double range[2])
@@ -14,13 +19,52 @@ static bool check_range(const Check *check, const char *view, const char *key, b
     return true;
 }
 
+/* The first scalar that the view reads and no state of the world has; SCALAR_COUNT: none. Accelerations are
+   there where somebody asks. */
+static Scalar missing_scalar(const ViewDef *view, const WorldDef *world)
+{
+    const uint32_t lacks = renderer_attributes(view) & (PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1) &
+                           ~(columns_scalars(world) | 7U * PARTICLE_SCALAR(SCALAR_ACCELERATION_X) |
+                             PARTICLE_SCALAR(SCALAR_BORN));
+    int s = SCALAR_OWN;
+    while (s < SCALAR_STATE_COUNT && !(lacks & PARTICLE_SCALAR(s)))
+        s++;
+    return s < SCALAR_STATE_COUNT ? (Scalar)s : SCALAR_COUNT;
+}
+
+/* Which key names it. */
+static const char *key_of(const ViewDef *view, Scalar scalar)
+{
+    return view->color_by == scalar                                             ? "color_by"
+           : view->opacity.by != 0 && scalar_of_curve(&view->opacity) == scalar ? "opacity.by"
+           : view->size.by != 0 && scalar_of_curve(&view->size) == scalar       ? "size.by"
+                                                                                : "glyphs.vector";
+}
+
+static bool check_scalars(const Check *check, const char *view, const ViewDef *def)
+{
+    const WorldDef *world = &check->scene->world;
+    const Scalar lacks = missing_scalar(def, world);
+    char path[64], has[256] = "";
+    if (lacks == SCALAR_COUNT)
+        return true;
+    for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
+        if (columns_scalars(world) & SCALAR_BIT(s))
+            snprintf(has + strlen(has), sizeof has - strlen(has), "%s%s", *has ? ", " : "",
+                     scalar_name((Scalar)s));
+    snprintf(path, sizeof path, "%s.%s", view, key_of(def, lacks));
+    return FAIL(check, path, "particles of this scene have no %s; solver.method %s keeps %s",
+                scalar_name(lacks), world->method, *has ? has : "nothing of its own");
+}
+
 static bool check_view(const Check *check, const char *path, const ViewDef *view)
 {
     char camera[64];
     snprintf(camera, sizeof camera, "%s.camera", path);
     if (!check_range(check, path, "range", view->range_auto, view->range) ||
         !check_range(check, path, "opacity.range", view->opacity.range_auto, view->opacity.range) ||
-        !check_range(check, path, "size.range", view->size.range_auto, view->size.range))
+        !check_range(check, path, "size.range", view->size.range_auto, view->size.range) ||
+        (scene_shows(check->scene, view) && !check_scalars(check, path, view)))
         return false;
     const double *from = view->camera.from, *to = view->camera.to;
     if (!view->camera_auto && from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
@@ -28,8 +72,46 @@ static bool check_view(const Check *check, const char *path, const ViewDef *view
     return true;
 }
 
+/* What an entry among several alone may say: whose states it shows. */
+static bool check_source(const Check *check, const char *path, const ViewDef *view)
+{
+    char key[64];
+    snprintf(key, sizeof key, "%s.set", path);
+    if (*view->file && *view->set)
+        return FAIL(check, key,
+                    "%s has `file` and `set`, a recorded run and what is simulated; leave one out", path);
+    for (const char *line = view->set; *line; line += strcspn(line, "\n"), line += *line != 0)
+        if (strncmp(line, "view", strlen("view")) == 0)
+            return FAIL(check, key, "%s: %.*s is no setting of what is simulated; write it beside `set`", key,
+                        (int)strcspn(line, "="), line);
+    return true;
+}
+
+static bool check_sources(const Check *check)
+{
+    const Scene *scene = check->scene;
+    static const char *const keys[] = {"view.file", "view.set"};
+    int files = 0;
+    for (int i = 0; i < 2; i++)
+        if (tree_at(check->tree, keys[i]))
+            return FAIL(check, keys[i], "%s is for entries of views: views: [{}, {%s: ...}]", keys[i],
+                        keys[i] + strlen("view."));
+    for (int i = 0; i < scene->view_count; i++) {
+        char path[32];
+        snprintf(path, sizeof path, "views[%d]", i);
+        files += *scene->views[i].file != 0;
+        if (!check_source(check, path, &scene->views[i]))
+            return false;
+    }
+    return files == 0 || files < scene->view_count ||
+           FAIL(check, "views",
+                "each entry of views has a `file`; leave it out of one, which shows the scene");
+}
+
 static bool check_views(const Check *check)
 {
+    if (!check_sources(check))
+        return false;
     for (int i = 0; i < check->scene->view_count; i++) {
         char path[32];
         snprintf(path, sizeof path, "views[%d]", i);

@@ -181,6 +181,11 @@ int scene_view_count(const Scene *scene)
     return scene->view_count > 0 ? scene->view_count : 1;
 }
 
+bool scene_shows(const Scene *scene, const ViewDef *view)
+{
+    return !*view->file && strcmp(view->set, scene->beside) == 0;
+}
+
 const ViewDef *scene_view(const Scene *scene, int index)
 {
     return scene->view_count > 0 ? &scene->views[index] : &scene->view;

@@ -81,10 +81,4 @@ char *scene_print_text(const Scene *scene);
 /* Value at `base` + the key's offset as people write it, without its unit; "" when the key holds none. */
 void key_value_text(const Key *key, const void *base, char *text, size_t size);
 
-/* "0.001 to 1000", "more than 0, at most 5"; "" when not bounded. */
-void key_range_text(const Key *key, char *text, size_t size);
-
-/* The same of its numbers alone, where it takes names as well. */
-void key_bounds_text(const Key *key, char *text, size_t size);
-
 #endif

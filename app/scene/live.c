@@ -3,7 +3,7 @@
 #include "app/base/suggest.h"
 #include "app/scene/check.h"
 #include "app/scene/keys.h"
-#include "app/scene/value.h"
+#include "app/yaml/value.h"
 #include "app/yaml/yaml.h"
 
 #include <stdint.h>

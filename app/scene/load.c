@@ -8,6 +8,7 @@
 #include "app/scene/particles.h"
 #include "app/scene/read.h"
 #include "app/scene/tables.h"
+#include "app/scene/view_files.h"
 #include "app/yaml/yaml.h"
 #include "render/renderer.h"
 #include "sim/matter/fill_lattice.h"
@@ -93,6 +94,7 @@ static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Er
     if (!scene_read(tree, out, error))
         return false;
     out->world.dimensions = tree->dimensions;
+    snprintf(out->beside, sizeof out->beside, "%s", settings->beside ? settings->beside : "");
     return scene_check(tree, out, error) && (!needs_tables || scene_read_tables(tree, out, error));
 }
 
@@ -128,6 +130,27 @@ static void advise_settings(const SceneSettings *settings, const Scene *scene, N
     }
 }
 
+/* Of what the command line sets of `view`: entries of `views` that say it themselves. */
+static void advise_views(const Tree *tree, const SceneSettings *settings, const Scene *scene, Notes *notes)
+{
+    for (int i = 0; i < settings->count; i++) {
+        char path[128], own[160], names[64] = "";
+        const size_t view = strlen("view");
+        snprintf(path, sizeof path, "%.*s", (int)strcspn(settings->set[i], "="), settings->set[i]);
+        if (strncmp(path, "view.", view + 1) != 0)
+            continue;
+        for (int e = 0; e < scene->view_count; e++) {
+            snprintf(own, sizeof own, "views[%d]%s", e, path + view);
+            if (tree_at(tree, own))
+                snprintf(names + strlen(names), sizeof names - strlen(names), "%sviews[%d]",
+                         *names ? ", " : "", e);
+        }
+        if (*names)
+            notes_add(notes, "%s does not reach %s, where it is said anew; views[N]%s=... does", path, names,
+                      path + view);
+    }
+}
+
 static bool choose_spacing(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
@@ -145,13 +168,28 @@ static void set_defaults(const Tree *tree, Scene *out)
     title_default(out);
 }
 
+/* Not of views of recorded runs nor of other settings: theirs are not this world's columns. */
+static bool shows_acceleration(const Scene *scene)
+{
+    for (int i = 0; i < scene_view_count(scene); i++) {
+        const ViewDef *view = scene_view(scene, i);
+        if (scene_shows(scene, view) &&
+            renderer_attributes(view) & PARTICLE_SCALAR(SCALAR_ACCELERATION_X) * 7U)
+            return true;
+    }
+    return false;
+}
+
 static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     ScalarNames scalars;
     file_scalars(tree, scalars);
-    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, error))
+    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, error) ||
+        !scene_read_view_files(tree, settings->recorded, out, notes, error))
         return false;
     out->purpose = settings->purpose;
+    out->world.acceleration |= shows_acceleration(out);
+    advise_views(tree, settings, out, notes);
     if (settings->recorded)
         advise_settings(settings, out, notes);
     else

@@ -1,7 +1,7 @@
 #include "app/scene/preset.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/value.h"
+#include "app/yaml/value.h"
 #include "sim/base/key_rows.h"
 
 #include <string.h>

@@ -2,6 +2,7 @@
 #include "app/scene/keys.h"
 #include "sim/base/color.h"
 #include "sim/base/control_points.h"
+#include "sim/base/key_text.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -73,6 +74,22 @@ static void names_text(const Key *key, const int *places, int count, char *text,
         snprintf(text + used, size - used, "]");
 }
 
+/* {"path": value, "path": value}: a path with an index needs quotes. */
+static void settings_text(const char *lines, char *text, size_t size)
+{
+    FILE *file = *lines ? fmemopen(text, size, "w") : NULL;
+    if (!file)
+        return;
+    for (const char *at = lines; *at;) {
+        const int length = (int)strcspn(at, "\n"), path = (int)strcspn(at, "=");
+        fprintf(file, "%s\"%.*s\": %.*s", at == lines ? "{" : ", ", path, at, length - path - 1,
+                at + path + 1);
+        at += length + (at[length] != 0);
+    }
+    fputc('}', file);
+    fclose(file);
+}
+
 void key_value_text(const Key *key, const void *base, char *text, size_t size)
 {
     *text = 0;
@@ -122,37 +139,14 @@ void key_value_text(const Key *key, const void *base, char *text, size_t size)
     case KEY_POINTS:
         points_text(key, (const ControlPoints *)(const void *)field, text, size);
         break;
+    case KEY_SETTINGS:
+        settings_text(field, text, size);
+        break;
     case KEY_MAPPING:
     case KEY_VARIANT:
     case KEY_LIST:
         break;
     }
-}
-
-void key_bounds_text(const Key *key, char *text, size_t size)
-{
-    *text = 0;
-    if (key->min == key->max)
-        return;
-    if (key->flags & KEY_OPEN_LOW)
-        snprintf(text, size, "more than %g, at most %g", key->min, key->max);
-    else
-        snprintf(text, size, "%g to %g", key->min, key->max);
-}
-
-void key_range_text(const Key *key, char *text, size_t size)
-{
-    size_t used = 0;
-    const char *name;
-    *text = 0;
-    for (int i = 0; (name = key_choice(key, i)) && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
-    if (key->type == KEY_POINTS && used < size)
-        snprintf(text + used, size - used, ", or points of %g to %g", key->min, key->max);
-    else if (key->type == KEY_BOOLEAN)
-        snprintf(text, size, "true, false");
-    else if (used == 0)
-        key_bounds_text(key, text, size);
 }
 
 static bool is_container(KeyType type)
@@ -223,19 +217,21 @@ void scene_keys_print(FILE *file)
         [KEY_COLOR] = "[r, g, b]",
         [KEY_RANGE] = "[low, high]",
         [KEY_POINTS] = "name or points",
+        [KEY_SETTINGS] = "mapping of settings",
     };
     int count;
     const Key *keys = scene_keys(&count);
     fprintf(file, "| key | type | unit | range | default | live | meaning |\n");
     fprintf(file, "| --- | --- | --- | --- | --- | --- | --- |\n");
     for (int i = 0; i < count; i++) {
-        char range[256], help[512];
+        char range[512], help[512];
         key_help_text(&keys[i], help, sizeof help);
         key_range_text(&keys[i], range, sizeof range);
-        fprintf(file, "| `%s` | %s | %s | %s%s |", keys[i].path, types[keys[i].type], keys[i].unit, range,
-                keys[i].type == KEY_LIST   ? " entries"
-                : keys[i].type == KEY_TEXT ? " bytes"
-                                           : "");
+        fprintf(file, "| `%s` | %s%s | %s | %s%s |", keys[i].path, types[keys[i].type],
+                keys[i].flags & KEY_WORDS ? " or list" : "", keys[i].unit, range,
+                keys[i].type == KEY_LIST                                   ? " entries"
+                : keys[i].type == KEY_TEXT || keys[i].type == KEY_SETTINGS ? " bytes"
+                                                                           : "");
         print_default(&keys[i], file);
         fprintf(file, " %s | %s |\n", keys[i].flags & KEY_LIVE ? "yes" : "", help);
     }
@@ -251,10 +247,21 @@ typedef struct Walk {
 
 static void print_children(const Walk *walk, FILE *file);
 
+/* An element that differs in nothing is there all the same. */
+static void print_elements(const char *shown, int count, FILE *file)
+{
+    fprintf(file, "%s = [", shown);
+    for (int e = 0; e < count; e++)
+        fputs(e > 0 ? ", {}" : "{}", file);
+    fputs("]\n", file);
+}
+
 static void print_list(const Key *key, const Walk *walk, const char *shown, FILE *file)
 {
     const int elements = *(const int *)(walk->base + key->aux);
     const KeyLike *like = key_like(key);
+    if (like && elements > 0)
+        print_elements(shown, elements, file);
     for (int e = 0; e < elements; e++) {
         Walk inner = {.base = walk->base + key->offset + (size_t)e * key->size - (like ? like->at : 0),
                       .like = like ? walk->base : NULL};
@@ -291,6 +298,8 @@ static void print_key(const Key *key, const Walk *walk, const char *shown, FILE 
         key_value_text(key, walk->base, value, sizeof value);
         if (walk->like)
             key_value_text(key, walk->like, like, sizeof like);
+        if (!*value && (key->type == KEY_SETTINGS || key->type == KEY_TEXT)) /* nothing that could be set */
+            return;
         if (!walk->like || strcmp(value, like) != 0)
             fprintf(file, "%s = %s%s%s\n", shown, value, *key->unit ? " " : "", key->unit);
     }

@@ -3,7 +3,7 @@
 #include "app/base/suggest.h"
 #include "app/scene/keys.h"
 #include "app/scene/preset.h"
-#include "app/scene/value.h"
+#include "app/yaml/value.h"
 
 #include <ctype.h>
 #include <stddef.h>

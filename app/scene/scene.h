@@ -30,10 +30,11 @@ typedef struct Scene {
     char title[128];
     WorldDef world;
     ViewDef view;
-    int view_count;            /* of the pictures beside each other; 0: one, which is `view` */
-    ViewDef views[PANELS_MAX]; /* each is `view` but for what its entry says */
-    char preset[NAME_SIZE];    /* what filled in the keys that the scene does not name (app/scene/preset.h) */
-    unsigned preset_filled;    /* which of the preset's settings, a bit each */
+    char beside[VIEW_SET_SIZE]; /* the `set` of the entry of `views` that this is the scene of; "": of none */
+    int view_count;             /* of the pictures beside each other; 0: one, which is `view` */
+    ViewDef views[PANELS_MAX];  /* each is `view` but for what its entry says */
+    char preset[NAME_SIZE]; /* what filled in the keys that the scene does not name (app/scene/preset.h) */
+    unsigned preset_filled; /* which of the preset's settings, a bit each */
     bool
         realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
     int metric_count;
@@ -52,6 +53,7 @@ typedef struct SceneSettings {
                                      --threads stand for */
     const char
         *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
+    const char *beside;            /* Scene.beside; NULL: "" */
     size_t particles;              /* --particles; 0: the scene's own spacing */
     ScenePurpose purpose;
     bool goes_on;  /* of a run that has begun: the tables of its start may be gone; they are read for
@@ -63,6 +65,9 @@ typedef struct SceneSettings {
 /* Picture number `index` of those beside each other, from 0; how many there are, at least 1. */
 const ViewDef *scene_view(const Scene *scene, int index);
 int scene_view_count(const Scene *scene);
+
+/* Whether the view shows states of this scene: not a recorded run's, nor those of other settings. */
+bool scene_shows(const Scene *scene, const ViewDef *view);
 
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
    would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a

@@ -4,6 +4,7 @@
 #include "app/base/read_file.h"
 #include "app/scene/check_parts.h"
 #include "app/scene/field_file.h"
+#include "app/volume/volume_file.h"
 #include "app/yaml/yaml.h"
 
 #include <stdio.h>
@@ -54,8 +55,7 @@ bool scene_names_table(const char *text)
     return length > 4 && strcmp(text + length - 4, ".csv") == 0;
 }
 
-/* From the folder of the scene. */
-static bool path_of(const char *scene, const char *name, char path[1200], Error *error)
+bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error)
 {
     const char *slash = *name == '/' ? NULL : strrchr(scene, '/');
     const int folder = slash ? (int)(slash - scene) + 1 : 0;
@@ -69,7 +69,7 @@ static const FieldTable *table_of(const Check *check, const char *key, const cha
     char path[1200];
     size_t size;
     Error why;
-    if (!path_of(check->tree->path, name, path, check->error))
+    if (!scene_beside_path(check->tree->path, name, path, check->error))
         return NULL;
     char *bytes = read_file(path, FIELD_FILE_BYTES_MAX, "table", &size, &why);
     const Kept *kept = bytes ? find_kept(kind, bytes, size) : NULL;
@@ -127,7 +127,7 @@ bool scene_read_tables(const Tree *tree, Scene *scene, Error *error)
 
 typedef struct Finder {
     const char *scene;
-    void (*found)(void *user, const char *path);
+    void (*found)(void *user, const char *what, const char *path);
     void *user;
 } Finder;
 
@@ -137,8 +137,8 @@ static void find_in(const Finder *finder, const Node *fluid, const char *key)
     char path[1200];
     Error none;
     if (node && node->kind == NODE_SCALAR && node->text && scene_names_table(node->text) &&
-        path_of(finder->scene, node->text, path, &none))
-        finder->found(finder->user, path);
+        scene_beside_path(finder->scene, node->text, path, &none))
+        finder->found(finder->user, "table", path);
 }
 
 static void find_all(const Finder *finder, const Node *fluids)
@@ -151,8 +151,42 @@ static void find_all(const Finder *finder, const Node *fluids)
     }
 }
 
+/* A header, and the raw file that it names. */
+static void find_volume(const Finder *finder, const char *path)
+{
+    char raw[VOLUME_PATH_SIZE];
+    VolumeHeader header;
+    Error none;
+    finder->found(finder->user, "volume", path);
+    if (!volume_header_load(path, &header, &none))
+        return;
+    volume_raw_path(path, &header, raw);
+    finder->found(finder->user, "volume", raw);
+}
+
+/* Of volume data: what is called `file` below a view's own keys. */
+static void find_below(const Finder *finder, const Node *node, int depth)
+{
+    char path[1200];
+    Error none;
+    for (const Node *child = node->first; child; child = child->next) {
+        const bool names = depth > 1 && node->kind == NODE_MAPPING && strcmp(child->key, "file") == 0;
+        if (names && child->kind == NODE_SCALAR && child->text && strcmp(child->text, "none") != 0 &&
+            scene_beside_path(finder->scene, child->text, path, &none))
+            find_volume(finder, path);
+        if (child->kind != NODE_SCALAR)
+            find_below(finder, child, depth + 1);
+    }
+}
+
+static void find_views(const Finder *finder, const Node *views)
+{
+    if (views && views->kind != NODE_SCALAR)
+        find_below(finder, views, 0);
+}
+
 void scene_find_tables(const char *path, const char *bytes, size_t size, const SceneSettings *settings,
-                       void (*found)(void *user, const char *path), void *user)
+                       void (*found)(void *user, const char *what, const char *path), void *user)
 {
     const Finder finder = {path, found, user};
     Tree tree;
@@ -160,8 +194,11 @@ void scene_find_tables(const char *path, const char *bytes, size_t size, const S
     bool ok = size <= SCENE_BYTES_MAX && tree_read(&tree, path, bytes, size, &none);
     for (int i = 0; ok && settings && i < settings->count; i++)
         ok = tree_set(&tree, settings->set[i], settings->said[i], &none);
-    if (ok)
+    if (ok) {
         find_all(&finder, tree_at(&tree, "fluids"));
+        find_views(&finder, tree_at(&tree, "view"));
+        find_views(&finder, tree_at(&tree, "views"));
+    }
     if (size <= SCENE_BYTES_MAX)
         tree_free(&tree);
 }

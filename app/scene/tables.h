@@ -14,12 +14,14 @@ bool scene_read_tables(const Tree *tree, Scene *scene, Error *error);
 /* Whether the value of a key is the name of a table: it ends in ".csv". */
 bool scene_names_table(const char *text);
 
-/* Calls `found` with the path of each table that the scene in these bytes names once the settings (NULL:
-   none) are made, for whoever must not write over them. Opens none of them; of a text that is no scene, finds
-   none.
- */
+/* The path of a file that a scene names, from the scene's folder. */
+bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
+
+/* Calls `found` with each "table" and "volume" that the scene in these bytes names once the settings (NULL:
+   none) are made, for whoever must not write over them: of a volume with its header and its raw file. Reads
+   headers alone; of a text that is no scene, finds none. */
 void scene_find_tables(const char *path, const char *bytes, size_t size, const SceneSettings *settings,
-                       void (*found)(void *user, const char *path), void *user);
+                       void (*found)(void *user, const char *what, const char *path), void *user);
 
 /* Whether the scene names any. */
 bool scene_has_tables(const Scene *scene);

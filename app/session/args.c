@@ -161,6 +161,7 @@ static bool parse_sweep(const Parser *parser, const OptionRow *option, const cha
     Sweep *sweep = &args->sweeps[args->sweep_count++];
     const char *name = keep(args, text, (size_t)(equals - text));
     sweep->key = name ? sweep_key(name) : NULL;
+    sweep->typed = name;
     for (const char *at = equals; *at; at += value_length(at)) {
         at++; /* the '=' or a comma */
         const size_t length = value_length(at);

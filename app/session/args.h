@@ -55,6 +55,7 @@ typedef struct Sweep {
     const char *key;
     int count;
     const char *values[ARGS_SWEEP_VALUES_MAX];
+    const char *typed; /* the key as the user wrote it; NULL: as it is */
 } Sweep;
 
 /* Holds pointers into itself and into argv: it isn't to be copied. */
@@ -87,7 +88,8 @@ typedef struct Args {
     double level, cell;     /* of it; 0: not given */
     ColorChoice color_by;   /* export: of a .ply */
     double error, frame_ms; /* fit: percent, ms; 0: not given */
-    const char *slice; /* export: "{point: ..., normal: ...}"; NULL: no slice, and none of the next three */
+    const char *slice;  /* export: "{point: ..., normal: ...}"; NULL: no slice, and none of the next three */
+    const char *trails; /* export: "{stride: 20, ...}"; NULL: no trails */
     const char *scalar, *kernel; /* NULL: not given */
     bool raw;
     bool full, coarse; /* validate: finer or coarser than its default set */

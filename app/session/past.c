@@ -8,10 +8,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* States from one change to the next have the same settings. */
+enum { PIECE = 64 };
+
+/* Of a scene, from byte `at` on; what is beyond its end is 0. */
+typedef struct Piece {
+    size_t at;
+    unsigned char bytes[PIECE];
+} Piece;
+
+/* States from one change to the next have the same settings: what differs from the past's base. */
 typedef struct Settings {
-    size_t users;
-    Scene scene;
+    size_t users, count;
+    Piece piece[];
 } Settings;
 
 typedef struct Kept {
@@ -23,7 +31,7 @@ typedef struct Kept {
 } Kept;
 
 struct Past {
-    size_t bytes_most, bytes; /* of states, settings and places */
+    size_t bytes_most, bytes; /* of states, base, settings and places */
     size_t state_bytes;       /* of the last one */
     bool dropped;
     double work_ms;  /* of the frames since the last state */
@@ -32,6 +40,7 @@ struct Past {
     uint64_t before; /* places that were forgotten */
     size_t place_count, place_room;
     PastPlace *places;
+    Scene *base;        /* NULL: there is none, and no state */
     size_t count, room; /* of the states, oldest first */
     Kept **kept;
 };
@@ -62,12 +71,24 @@ Past *past_create(size_t bytes_most)
     return NULL;
 }
 
+static size_t settings_bytes(const Settings *settings)
+{
+    return sizeof *settings + settings->count * sizeof *settings->piece;
+}
+
 static void settings_release(Past *past, Settings *settings)
 {
     if (!settings || --settings->users > 0)
         return;
-    past->bytes -= sizeof *settings;
+    past->bytes -= settings_bytes(settings);
     free(settings);
+}
+
+static void forget_base(Past *past)
+{
+    past->bytes -= past->base ? sizeof *past->base : 0;
+    free(past->base);
+    past->base = NULL;
 }
 
 static void kept_free(Past *past, Kept *kept)
@@ -91,6 +112,7 @@ void past_destroy(Past *past)
     if (!past)
         return;
     forget_states(past, 0);
+    forget_base(past);
     free(past->kept);
     free(past->places);
     free(past);
@@ -138,17 +160,11 @@ static void add_place(Past *past, const WorldInfo *info)
 void past_begin(Past *past, const WorldInfo *info)
 {
     forget_states(past, 0);
+    forget_base(past);
     past->bytes = past->place_count = 0;
     past->before = 0;
     past->work_ms = 0;
     past->dropped = false;
-    add_place(past, info);
-}
-
-void past_mark(Past *past, const WorldInfo *info, double frame_ms)
-{
-    past->work_ms += frame_ms;
-    forget_places(past);
     add_place(past, info);
 }
 
@@ -216,25 +232,91 @@ static Kept *make_room(Past *past, size_t more)
     return again;
 }
 
-/* Padding that differs costs a copy. */
+void past_mark(Past *past, const WorldInfo *info, double frame_ms)
+{
+    past->work_ms += frame_ms;
+    forget_places(past);
+    add_place(past, info);
+    kept_free(past, make_room(past, 0));
+}
+
+/* Padding that differs costs a piece. */
 static bool same_bytes(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
 }
 
-static Settings *settings_of(Past *past, const Scene *scene)
+static size_t piece_size(size_t at)
 {
-    Settings *last = past->count > 0 ? past->kept[past->count - 1]->settings : NULL;
-    if (last && same_bytes(&last->scene, scene, sizeof *scene)) {
-        last->users++;
-        return last;
+    return sizeof(Scene) - at < PIECE ? sizeof(Scene) - at : PIECE;
+}
+
+/* The pieces of `scene` that are others than the base's; how many. `to` may be NULL. */
+static size_t differing(const Scene *base, const Scene *scene, Piece *to)
+{
+    const unsigned char *a = (const unsigned char *)base, *b = (const unsigned char *)scene;
+    size_t count = 0;
+    for (size_t at = 0; at < sizeof *scene; at += PIECE) {
+        if (same_bytes(a + at, b + at, piece_size(at)))
+            continue;
+        if (to) {
+            to[count].at = at;
+            memcpy(to[count].bytes, b + at, piece_size(at));
+        }
+        count++;
     }
-    Settings *settings = malloc(sizeof *settings);
+    return count;
+}
+
+static Settings *settings_new(const Past *past, const Scene *scene)
+{
+    const size_t count = differing(past->base, scene, NULL);
+    Settings *settings = calloc(1, sizeof *settings + count * sizeof(Piece));
     if (!settings)
         return NULL;
     settings->users = 1;
-    memcpy(&settings->scene, scene, sizeof *scene); /* its padding too, for the comparison */
-    past->bytes += sizeof *settings;
+    settings->count = count;
+    differing(past->base, scene, settings->piece);
+    return settings;
+}
+
+static bool settings_equal(const Settings *a, const Settings *b)
+{
+    return a->count == b->count && same_bytes(a->piece, b->piece, a->count * sizeof(Piece));
+}
+
+static void settings_apply(const Past *past, const Settings *settings, Scene *scene)
+{
+    memcpy(scene, past->base, sizeof *scene);
+    for (size_t i = 0; i < settings->count; i++) {
+        const Piece *piece = &settings->piece[i];
+        memcpy((unsigned char *)scene + piece->at, piece->bytes, piece_size(piece->at));
+    }
+}
+
+/* The first scene is the base of those that come. */
+static bool follow_base(Past *past, const Scene *scene)
+{
+    if (past->base)
+        return true;
+    past->base = malloc(sizeof *past->base);
+    if (!past->base)
+        return false;
+    memcpy(past->base, scene, sizeof *scene); /* its padding too, for comparisons */
+    past->bytes += sizeof *scene;
+    return true;
+}
+
+static Settings *settings_of(Past *past, const Scene *scene)
+{
+    Settings *last = past->count > 0 ? past->kept[past->count - 1]->settings : NULL;
+    Settings *settings = follow_base(past, scene) ? settings_new(past, scene) : NULL;
+    if (settings && last && settings_equal(settings, last)) {
+        free(settings);
+        last->users++;
+        return last;
+    }
+    past->bytes += settings ? settings_bytes(settings) : 0;
     return settings;
 }
 
@@ -267,7 +349,7 @@ static bool fill(Past *past, Kept *kept, World *world, const Scene *scene, size_
         return false;
     kept->place = past_last(past);
     kept->next = next;
-    kept->bytes = bytes_of(kept->state.capacity, &scene->world);
+    kept->bytes = bytes_of(kept->state.capacity, &scene->world) + kept->state.births.room * sizeof(Birth);
     kept->work_ms = past->work_ms;
     past->bytes += kept->bytes;
     count_copy(past, wall_ms() - began, kept->bytes);
@@ -287,13 +369,16 @@ void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool n
         return;
     WorldInfo info;
     world_info(world, &info);
-    past->state_bytes = bytes_of(info.count, &scene->world);
-    const size_t needed = past->state_bytes + sizeof(Settings) + past->place_count * sizeof *past->places;
+    past->state_bytes = bytes_of(info.count, &scene->world) + world_births_bytes(world);
+    if (past->count == 0)
+        forget_base(past);
+    const size_t own = past->state_bytes + sizeof(Settings), whole = sizeof(Scene);
+    const size_t needed = own + whole + past->place_count * sizeof *past->places;
     if (needed > past->bytes_most) { /* not even one */
         past->dropped = true;
         return;
     }
-    Kept *kept = make_room(past, past->state_bytes + sizeof(Settings));
+    Kept *kept = make_room(past, own + (past->base ? 0 : whole));
     if (!kept)
         kept = calloc(1, sizeof *kept);
     if (!kept || !fill(past, kept, world, scene, next)) {
@@ -346,7 +431,7 @@ bool past_load(const Past *past, uint64_t place, World *world, Scene *scene, siz
     const Kept *kept = kept_before(past, place);
     if (!world_load(world, &kept->state, error))
         return false;
-    *scene = kept->settings->scene;
+    settings_apply(past, kept->settings, scene);
     *next = kept->next;
     return true;
 }

@@ -3,14 +3,14 @@
 #include <math.h>
 #include <stdio.h>
 
-bool simulator_here(const Simulator *simulator)
+bool simulator_on_gpu(const Simulator *simulator)
 {
-    return simulator->here;
+    return simulator->on_gpu;
 }
 
 bool simulator_fresh(const Simulator *simulator)
 {
-    return simulator->here && simulator->published != simulator->shown;
+    return simulator->on_gpu && simulator->published != simulator->shown;
 }
 
 bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers *out)
@@ -24,7 +24,7 @@ bool simulator_share(Simulator *simulator, unsigned attributes, ParticleBuffers 
 
 bool simulator_reload(Simulator *simulator, Error *error)
 {
-    return !simulator->here || !simulator->world || world_reload(simulator->world, error);
+    return !simulator->on_gpu || !simulator->world || world_reload(simulator->world, error);
 }
 
 static void change_begin(Simulator *simulator)

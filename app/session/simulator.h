@@ -8,7 +8,12 @@
    other thread, that of the window.
 
    A backend on a GPU steps on that other thread instead, where the context is: simulator_work does what is
-   due, and the views read the world's own buffers. */
+   due, and the views read the world's own buffers.
+
+   Simulators that follow another one step on its thread, in turns with it, and so no two open parallel
+   regions: after each of its frames each of them goes on to its own first frame at or after that time, and
+   then all states are shown together; the leader waits for them. Where it goes in time they go, as far as
+   they kept theirs. Where one of them is on a GPU all step on the window's thread. */
 #ifndef SLOSH_SIMULATOR_H
 #define SLOSH_SIMULATOR_H
 
@@ -36,7 +41,12 @@ typedef struct SimulatorSetup {
     void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
     bool paused;
     size_t past_bytes; /* memory for states to step back to (app/session/past.h); 0: nothing is kept */
+    bool follows;      /* another one: it begins with that one, and obeys its commands alone */
+    int follower_count;
+    Simulator *const *followers; /* which outlive it; at most SIMULATOR_FOLLOWERS */
 } SimulatorSetup;
+
+enum { SIMULATOR_FOLLOWERS = 3 };
 
 /* Starts the thread, which makes the world. NULL when there is no memory or no thread. */
 Simulator *simulator_create(const SimulatorSetup *setup, Error *error);
@@ -48,7 +58,12 @@ bool simulator_destroy(Simulator *simulator, double patience_ms);
 /* On a GPU: does what is due, for about `budget_ms` or one step, and returns for how many ms nothing will be
    due unless it is asked for: 0, there is more. Else there is nothing to do here: INFINITY. */
 double simulator_work(Simulator *simulator, double budget_ms);
-bool simulator_here(const Simulator *simulator); /* whether it is on a GPU */
+bool simulator_on_gpu(const Simulator *simulator);
+
+/* Between the two no states are shown: what is taken there, of a simulator and its followers, is of one time.
+   Not for long: it waits meanwhile. Only for one with followers. */
+void simulator_hold(Simulator *simulator);
+void simulator_release(Simulator *simulator);
 
 /* On a GPU: whether there is a state that simulator_share has not shown; the particles as they are now,
    world_share. False when there is no world. */

@@ -57,7 +57,7 @@ void simulator_gauge(Simulator *simulator)
     if (wall_ms() - simulator->gauge_ms < EVERY_MS)
         return;
     ask(simulator);
-    if (!simulator->here)
+    if (!simulator->on_gpu)
         take(simulator);
 }
 

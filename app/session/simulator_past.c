@@ -13,7 +13,8 @@ void simulator_past_begin(Simulator *simulator)
     WorldInfo info;
     simulator->behind = false;
     simulator->at = 0;
-    simulator->told_short = simulator->told_other = simulator->told_long = simulator->told_none = false;
+    simulator->told_short = simulator->told_other = simulator->told_long = false;
+    simulator->told_none = simulator->told_kept = false;
     if (!simulator->past || !simulator->world)
         return;
     world_info(simulator->world, &info);
@@ -163,7 +164,17 @@ void simulator_cut(Simulator *simulator)
     simulator->behind = false;
     simulator->recording.count = simulator->next;
     past_cut(simulator->past, simulator->at);
-    simulator_tell(simulator, false, words);
+    if (!simulator->follows)
+        simulator_tell(simulator, false, words);
+}
+
+void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int count)
+{
+    for (int i = 0; i < count; i++)
+        if (sim_command_changes(&commands[i])) {
+            simulator_cut(simulator);
+            return;
+        }
 }
 
 /* Leaves the newest state: a save while behind it is still of all that was done. */
@@ -181,10 +192,12 @@ static void leave(Simulator *simulator)
 static bool load(Simulator *simulator, uint64_t place)
 {
     Error error = {{0}};
+    const bool accelerations = simulator->scene.world.acceleration; /* once kept they stay */
     if (!past_load(simulator->past, place, simulator->world, &simulator->scene, &simulator->next, &error)) {
         simulator_tell(simulator, false, error.message);
         return false;
     }
+    simulator->scene.world.acceleration = accelerations;
     simulator->at = past_before(simulator->past, place);
     return true;
 }
@@ -236,7 +249,8 @@ static void arrive(Simulator *simulator)
     simulator->status.time = info.time;
     pthread_mutex_unlock(&simulator->lock);
     tell_travel(simulator);
-    if (!simulator_publish(simulator, &error))
+    if (!simulator->follows && simulator->follower_count == 0 && /* else all at once: simulator_lead_travel */
+        !simulator_publish(simulator, &error))
         simulator_tell(simulator, true, error.message);
     simulator_gauge_back(simulator, info.time);
     simulator_probes_back(simulator, info.time);
@@ -248,8 +262,11 @@ static uint64_t place_of(const Simulator *simulator, const Wish *wish)
     const uint64_t first = past_first(past), at = simulator->at, back = (uint64_t)wish->frames;
     if (!wish->by_frames && isinf(wish->time) && wish->time > 0)
         return past_last(past);
-    if (!wish->by_frames) /* times are told as fractions of a bar: a place this near is meant */
-        return past_find(past, wish->time + 1e-9);
+    if (!wish->by_frames) { /* times are told as fractions of a bar: a place this near is meant */
+        const uint64_t place = past_find(past, wish->time + 1e-9);
+        return place +
+               (wish->after && place < past_last(past) && past_place(past, place).time < wish->time - 1e-9);
+    }
     return at > first + back ? at - back : first;
 }
 
@@ -272,8 +289,7 @@ static void tell_once(Simulator *simulator, bool *told, const char *words)
 static void finish_present(Simulator *simulator, Work *work)
 {
     WorldInfo info;
-    if (work->commands.count > 0)
-        simulator_cut(simulator);
+    simulator_cut_for(simulator, work->commands.commands, work->commands.count);
     world_info(simulator->world, &info);
     for (int i = 0; i < work->commands.count; i++) {
         work->commands.commands[i].step = info.step;

@@ -48,7 +48,7 @@ bool simulator_publish(Simulator *simulator, Error *error)
     describe(simulator, &info);
     pthread_mutex_unlock(&simulator->lock);
     simulator->published++;
-    return simulator->here || upload_write(simulator->upload, simulator->world, error);
+    return simulator->on_gpu || upload_write(simulator->upload, simulator->world, error);
 }
 
 static void awaken(const Simulator *simulator)
@@ -63,6 +63,7 @@ void simulator_make_world(Simulator *simulator)
     Error error = {{0}};
     snprintf(simulator->start.world.backend, sizeof simulator->start.world.backend, "%s",
              simulator->scene.world.backend); /* the one at hand, which this thread can do */
+    simulator->start.world.acceleration |= simulator->scene.world.acceleration; /* once kept they stay */
     simulator->scene = simulator->start;
     world_destroy(simulator->world);
     simulator->told_trouble = (TroubleTold){0};
@@ -82,6 +83,8 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
     Error error = {{0}};
     if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
         simulator_tell(simulator, false, error.message);
+    } else if (simulator->behind) { /* simulator_cut_for: what comes after stays, and so its commands */
+        return;
     } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
         simulator->recording_lost = true;
         simulator_past_begin(simulator);
@@ -189,8 +192,7 @@ static bool obey_all(Simulator *simulator, Work *work)
     work->commands = simulator->queue;
     simulator->queue.count = 0;
     pthread_mutex_unlock(&simulator->lock);
-    if (work->commands.count > 0)
-        simulator_cut(simulator);
+    simulator_cut_for(simulator, work->commands.commands, work->commands.count);
     simulator_obey_recorded(simulator);
     world_info(simulator->world, &info);
     for (int i = 0; i < work->commands.count; i++) {
@@ -224,7 +226,7 @@ void simulator_frame_begin(Simulator *simulator)
     world_info(simulator->world, &info);
     simulator_past_keep(simulator);
     simulator->frame = (FrameInHand){.begun = true, .from_s = info.time};
-    if (simulator->here && simulator->timer)
+    if (simulator->on_gpu && simulator->timer)
         simulator->frame.clock = gl_timer_stage_clock(simulator->timer);
 }
 
@@ -249,11 +251,27 @@ static void watch_fluid(Simulator *simulator)
         simulator_tell(simulator, false, words);
 }
 
+/* States between two frames are shown only where nobody follows, or is to be shown with another one. */
+static bool shows(const Simulator *simulator, const WorldInfo *info)
+{
+    return !simulator->follows && (simulator->follower_count == 0 || !info->within_frame);
+}
+
+/* Brings the followers along at the end of a frame. Returns what it took, ms. */
+static double lead(Simulator *simulator, bool ok, const WorldInfo *info)
+{
+    const double began = wall_ms();
+    if (simulator->follower_count == 0 || !ok || info->within_frame)
+        return 0;
+    simulator_lead(simulator);
+    return wall_ms() - began;
+}
+
 /* One step of the frame in hand. On a GPU without a clock of its own nothing is measured: what the CPU sees
    of such a step says nothing of it. */
 void simulator_frame_step(Simulator *simulator)
 {
-    StageClock *clock = simulator->here && !simulator->timer ? NULL : &simulator->frame.clock;
+    StageClock *clock = simulator->on_gpu && !simulator->timer ? NULL : &simulator->frame.clock;
     Error error = {{0}};
     const double began = wall_ms();
     WorldInfo info;
@@ -266,15 +284,18 @@ void simulator_frame_step(Simulator *simulator)
     tell_news(simulator, &info);
     if (ok)
         watch_fluid(simulator); /* before the state is shown: a frame is as good as over then */
-    if (ok && simulator->here)
-        ok = simulator_publish(simulator, &error);
-    else if (ok)
-        STAGE (clock, STAGE_UPLOAD)
-            ok = simulator_publish(simulator, &error);
+    const double led = lead(simulator, ok, &info);
+    if (ok && shows(simulator, &info)) {
+        if (simulator->on_gpu)
+            ok = simulator_show(simulator, &error);
+        else
+            STAGE (clock, STAGE_UPLOAD)
+                ok = simulator_show(simulator, &error);
+    }
     awaken(simulator);
-    simulator->frame.spent_ms += wall_ms() - began;
+    simulator->frame.spent_ms += wall_ms() - began - led;
+    if (!ok)
+        simulator_tell(simulator, true, error.message); /* before its end, which would look sound */
     if (!ok || !info.within_frame)
         simulator_frame_end(simulator);
-    if (!ok)
-        simulator_tell(simulator, true, error.message);
 }

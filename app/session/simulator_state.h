@@ -40,6 +40,7 @@ typedef struct Obeyed {
 /* A time to go to. */
 typedef struct Wish {
     bool pending, by_frames;
+    bool after;  /* the place at that time or the first one after it; else before it */
     double time; /* s */
     int frames;  /* back from where it is */
 } Wish;
@@ -81,9 +82,14 @@ struct Simulator {
     Obeyed obeyed[OBEYED_MAX];
 
     /* of the thread that steps alone */
-    bool here;          /* that is the caller's: the backend is on a GPU */
-    GlTimer *timer;     /* for the stages there; may be NULL */
-    Scene start, scene; /* as given; as the commands have changed it */
+    bool here;    /* that is the caller's: a backend is on a GPU, */
+    bool on_gpu;  /* its own */
+    bool follows; /* it is another one's thread */
+    int follower_count;
+    Simulator *followers[SIMULATOR_FOLLOWERS];
+    pthread_mutex_t showing; /* states of it and of its followers are being shown, or taken */
+    GlTimer *timer;          /* for the stages there; may be NULL */
+    Scene start, scene;      /* as given; as the commands have changed it */
     World *world;
     Work *work;
     FrameInHand frame;
@@ -107,7 +113,7 @@ struct Simulator {
     bool behind;         /* there are later places: time follows the recording, */
     size_t next;         /* whose command this is the next one then */
     Newest newest;       /* then */
-    bool told_short, told_other, told_long, told_none;
+    bool told_short, told_other, told_long, told_none, told_kept;
     Upload *upload;
     void (*wake)(void);
     uint64_t taken; /* commands */
@@ -132,6 +138,19 @@ void simulator_frame_begin(Simulator *simulator);
 void simulator_frame_step(Simulator *simulator); /* may end the frame */
 void simulator_frame_end(Simulator *simulator);
 
+/* simulator_work.c: the wish that waits, with the lock held. */
+void simulator_take_wish(Simulator *simulator, Work *work);
+
+/* simulator_lead.c: what the followers do where it begins, begins anew, or has gone to another time; after a
+   frame, before its state is shown. */
+void simulator_lead_begin(Simulator *simulator);
+void simulator_lead_restart(Simulator *simulator);
+void simulator_lead_travel(Simulator *simulator);
+void simulator_lead(Simulator *simulator);
+
+/* Shows the state, and those of the followers. */
+bool simulator_show(Simulator *simulator, Error *error);
+
 /* simulator_past.c: of the thread that steps. Where a new world begins, or goes on with another backend; at
    the begin of a frame, and at its end. */
 void simulator_past_begin(Simulator *simulator);
@@ -147,6 +166,9 @@ void simulator_obey_recorded(Simulator *simulator);
 
 /* The user acts: what comes after the present state will not be. */
 void simulator_cut(Simulator *simulator);
+
+/* The same where one of the commands to be obeyed changes that. */
+void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int count);
 
 /* simulator_gauge.c: after a frame, and where a new world begins. */
 void simulator_gauge(Simulator *simulator);

@@ -53,7 +53,7 @@ static void take_save(Simulator *simulator, Work *work)
 }
 
 /* With the settings that wait, which were asked for before it. Where no step can follow they wait on. */
-static void take_wish(Simulator *simulator, Work *work)
+void simulator_take_wish(Simulator *simulator, Work *work)
 {
     command_queue_drop_poses(&simulator->queue);
     work->travel = simulator->status.past.travelling = true;
@@ -82,7 +82,7 @@ static bool find_work(Simulator *simulator, Work *work, double *until)
         work->reset = true;
         simulator->reset = false;
     } else if (simulator->wish.pending && simulator->status.ready) {
-        take_wish(simulator, work);
+        simulator_take_wish(simulator, work);
     } else if (frame_due(simulator, until)) {
         work->frame = true;
         simulator->singles -= simulator->singles > 0;
@@ -107,12 +107,16 @@ static bool take_work(Simulator *simulator, Work *work)
 
 static void do_work(Simulator *simulator, Work *work)
 {
-    if (work->reset)
+    if (work->reset) {
         simulator_restart(simulator, work);
+        simulator_lead_restart(simulator);
+    }
     if (work->save)
         simulator_save_session(simulator, work->save_path);
-    if (work->travel)
+    if (work->travel) {
         simulator_travel(simulator, work);
+        simulator_lead_travel(simulator);
+    }
     if (work->frame)
         simulator_frame_begin(simulator);
 }
@@ -121,6 +125,7 @@ static void begin(Simulator *simulator)
 {
     if (!simulator->world && !simulator->status.failed)
         simulator_make_world(simulator);
+    simulator_lead_begin(simulator);
     pthread_mutex_lock(&simulator->lock);
     simulator->idle = true; /* what has passed until now is not caught up with */
     pthread_mutex_unlock(&simulator->lock);
@@ -156,8 +161,12 @@ static bool start_thread(Simulator *simulator)
 /* The thread, or the world here. */
 static bool start(Simulator *simulator, Error *error)
 {
-    simulator->here = world_on_gpu(&simulator->scene.world);
+    simulator->here = simulator->on_gpu = world_on_gpu(&simulator->scene.world);
+    for (int i = 0; i < simulator->follower_count; i++)
+        simulator->here |= simulator->followers[i]->on_gpu;
     simulator->ended = simulator->quit = false;
+    if (simulator->follows)
+        return true;
     if (!simulator->here)
         return start_thread(simulator) || error_set(error, "no thread for the simulation");
     begin(simulator);
@@ -172,6 +181,7 @@ static void release(Simulator *simulator)
     free(simulator->work);
     recording_destroy(&simulator->recording);
     pthread_cond_destroy(&simulator->changed);
+    pthread_mutex_destroy(&simulator->showing);
     pthread_mutex_destroy(&simulator->lock);
     free(simulator);
 }
@@ -197,6 +207,11 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
     pthread_cond_init(&simulator->changed, &clock);
     pthread_condattr_destroy(&clock);
     pthread_mutex_init(&simulator->lock, NULL);
+    pthread_mutex_init(&simulator->showing, NULL);
+    simulator->follows = setup->follows;
+    simulator->follower_count = setup->follower_count;
+    for (int i = 0; i < setup->follower_count; i++)
+        simulator->followers[i] = setup->followers[i];
     simulator->timer = setup->timer;
     simulator->work = calloc(1, sizeof *simulator->work);
     if (setup->past_bytes > 0)
@@ -227,6 +242,8 @@ static void end_here(Simulator *simulator)
 static bool end(Simulator *simulator, double patience_ms, bool for_good)
 {
     const double until = wall_ms() + patience_ms;
+    if (simulator->follows)
+        return true;
     if (simulator->here) {
         end_here(simulator);
         return true;
@@ -258,7 +275,7 @@ double simulator_work(Simulator *simulator, double budget_ms)
 {
     const double enough = wall_ms() + budget_ms;
     double until = INFINITY;
-    if (!simulator->here)
+    if (!simulator->here || simulator->follows)
         return INFINITY;
     do {
         if (simulator->frame.begun) {
@@ -271,7 +288,7 @@ double simulator_work(Simulator *simulator, double budget_ms)
         if (!found)
             return fmax(until - wall_ms(), 0);
         do_work(simulator, simulator->work);
-    } while (wall_ms() < enough);
+    } while (wall_ms() < enough || (simulator->frame.begun && simulator->follower_count > 0));
     return 0;
 }
 
@@ -299,9 +316,9 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
         world_info(simulator->world, &info);
         now.step = info.step;
         snprintf(before, sizeof before, "%s", simulator->scene.world.backend);
-        simulator_cut(simulator);
+        simulator_cut_for(simulator, &now, 1);
         simulator_obey(simulator, &now);
-        simulator->here = world_on_gpu(&simulator->scene.world);
+        simulator->on_gpu = world_on_gpu(&simulator->scene.world);
         if (strcmp(before, simulator->scene.world.backend) != 0) { /* no way back from there */
             simulator_past_begin(simulator);
             simulator_past_keep(simulator);

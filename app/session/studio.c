@@ -9,7 +9,7 @@ bool studio_open(Studio *studio, const ViewDef *view, const WorldDef *def, const
     if (!studio->renderer || world_shares(world))
         return studio->renderer;
     world_info(world, &info);
-    studio->upload = upload_create(info.capacity, studio->attributes, error);
+    studio->upload = upload_create(info.capacity, upload_of_worlds(studio->attributes), error);
     return studio->upload;
 }
 

@@ -18,14 +18,19 @@ const char *sweeps_value(const Sweep sweeps[], int count, int which, size_t comb
     return sweeps[which].values[combination % (size_t)sweeps[which].count];
 }
 
+const char *sweep_typed(const Sweep *sweep)
+{
+    return sweep->typed ? sweep->typed : sweep->key;
+}
+
 void sweeps_name(const Sweep sweeps[], int count, size_t combination, const char *equals, char *name,
                  size_t size)
 {
     size_t used = 0;
     snprintf(name, size, "%s", "");
     for (int i = 0; i < count && used < size; i++)
-        used += (size_t)snprintf(name + used, size - used, "%s%s%s%s", i ? ", " : "", sweeps[i].key, equals,
-                                 sweeps_value(sweeps, count, i, combination));
+        used += (size_t)snprintf(name + used, size - used, "%s%s%s%s", i ? ", " : "", sweep_typed(&sweeps[i]),
+                                 equals, sweeps_value(sweeps, count, i, combination));
 }
 
 bool sweep_set(const char *key, const char *value, const char *option, char said[SWEEP_SAID],

@@ -11,7 +11,10 @@ size_t sweeps_combinations(const Sweep sweeps[], int count);
 /* The value that sweep number `which` has in a combination. */
 const char *sweeps_value(const Sweep sweeps[], int count, int which, size_t combination);
 
-/* "key=value, key=value", `equals` between key and value; "" without sweeps. */
+/* The key as the user wrote it. */
+const char *sweep_typed(const Sweep *sweep);
+
+/* "key=value, key=value", keys as the user wrote them, `equals` between key and value; "" without sweeps. */
 void sweeps_name(const Sweep sweeps[], int count, size_t combination, const char *equals, char *name,
                  size_t size);
 

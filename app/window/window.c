@@ -20,6 +20,8 @@ struct Window {
     WindowEvent events[EVENTS_MAX]; /* a ring */
     int place[4];                   /* x, y, width, height before full screen, in screen coordinates */
     bool full;
+    double mouse[2]; /* of the last move, screen coordinates */
+    bool mouse_known;
     WindowClaimed *claimed; /* NULL: none is */
     void *claimer;
     char renderer[256];
@@ -72,17 +74,20 @@ static void on_text(GLFWwindow *glfw, unsigned codepoint)
     append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_TEXT, .codepoint = codepoint});
 }
 
+/* Where the mouse was: glfwGetCursorPos says where it is now, behind a slow picture long after the press. */
 static void on_button(GLFWwindow *glfw, int button, int action, int modifiers)
 {
-    double x, y;
+    Window *window = glfwGetWindowUserPointer(glfw);
     const double scale = density(glfw);
-    glfwGetCursorPos(glfw, &x, &y);
-    append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_BUTTON,
-                                                          .button = button,
-                                                          .modifiers = modifiers,
-                                                          .down = action == GLFW_PRESS,
-                                                          .x = x * scale,
-                                                          .y = y * scale});
+    double at[2] = {window->mouse[0], window->mouse[1]};
+    if (!window->mouse_known)
+        glfwGetCursorPos(glfw, &at[0], &at[1]);
+    append(window, &(WindowEvent){.kind = WINDOW_BUTTON,
+                                  .button = button,
+                                  .modifiers = modifiers,
+                                  .down = action == GLFW_PRESS,
+                                  .x = at[0] * scale,
+                                  .y = at[1] * scale});
 }
 
 /* A mouse may report a thousand places a second: the last of a row will do. */
@@ -90,6 +95,8 @@ static void on_move(GLFWwindow *glfw, double x, double y)
 {
     Window *window = glfwGetWindowUserPointer(glfw);
     const double scale = density(glfw);
+    window->mouse[0] = x, window->mouse[1] = y;
+    window->mouse_known = true;
     WindowEvent *last = &window->events[(window->first + window->count + EVENTS_MAX - 1) % EVENTS_MAX];
     if (window->count > 0 && last->kind == WINDOW_MOVE)
         last->x = x * scale, last->y = y * scale;

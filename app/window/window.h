@@ -15,7 +15,7 @@ typedef struct Window Window;
 typedef enum WindowEventKind {
     WINDOW_KEY,    /* key, modifiers, down; held keys repeat */
     WINDOW_TEXT,   /* codepoint */
-    WINDOW_BUTTON, /* button, modifiers, down, x, y */
+    WINDOW_BUTTON, /* button, modifiers, down; x, y: where it was then */
     WINDOW_MOVE,   /* x, y */
     WINDOW_WHEEL,  /* y: notches away from the user */
     WINDOW_FOCUS,  /* down: whether the window has it now */

@@ -34,7 +34,7 @@ static void print_scalar(const Node *node, FILE *file)
     fputc('"', file);
 }
 
-static void print_flow(const Node *node, FILE *file)
+void node_print(const Node *node, FILE *file)
 {
     if (node->kind == NODE_SCALAR) {
         print_scalar(node, file);
@@ -45,7 +45,7 @@ static void print_flow(const Node *node, FILE *file)
     for (const Node *child = node->first; child; child = child->next) {
         if (mapping)
             fprintf(file, "%s: ", child->key);
-        print_flow(child, file);
+        node_print(child, file);
         fputs(child->next ? ", " : "", file);
     }
     fputc(mapping ? '}' : ']', file);
@@ -77,7 +77,7 @@ static void print_value(const Node *node, int indent, bool top, bool in_list, FI
         print_children(node, indent, in_list, file);
         return;
     }
-    print_flow(node, file);
+    node_print(node, file);
     if (node->said)
         fprintf(file, "%*s# %.*s", INDENT, "", (int)strcspn(node->said, "\r\n"), node->said);
     fputc('\n', file);

@@ -10,4 +10,7 @@
    a comment. */
 void tree_print(const Tree *tree, FILE *file);
 
+/* The same of one node, on one line: [1, {a: b}]. */
+void node_print(const Node *node, FILE *file);
+
 #endif

@@ -14,22 +14,28 @@
 _Static_assert(SCALAR_COUNT <= 32 && VECTOR_COUNT <= 32, "a bit for each in ParticleWants");
 
 /* A formula of shaders/derived/derived.comp, over: `place` and `velocity` of the particle; `carried`, its
-   scalar `carries`; with `near_too` and the velocity or the scalar read, `gradient` and `slope` of them;
-   `near`, how many others are within the support radius; frame_velocity and frame_turn, of the box, in its
-   axes. */
+   scalar `carries`; `three`, its scalars from `threes` on; with `near_too` and the velocity or the scalar
+   read, `gradient` and `slope` of them; `near`, how many others are within the support radius; frame_velocity
+   and frame_turn, of the box, in its axes. */
 typedef struct Recipe {
     const char *value;   /* NULL: the state has it */
     unsigned attributes; /* PARTICLE_VELOCITY, or 0 */
     int carries;         /* a Scalar of the state, or NOTHING */
-    bool near_too;       /* needs neighbours */
+    bool near_too;       /* needs neighbours; then without `threes` */
+    int threes;          /* the first of three Scalars of the state, or 0 */
+    bool births;         /* id and births */
 } Recipe;
 
 enum { NOTHING = -1 };
 
 static const Recipe scalar_recipes[SCALAR_COUNT] = {
+    /* where the state says it by ids, and not a number a particle */
+    [SCALAR_BORN] = {"born_of(i)", 0, NOTHING, false, .births = true},
+    [SCALAR_AGE] = {"age_since(carried)", 0, SCALAR_BORN, false},
     [SCALAR_VELOCITY_X] = {"velocity.x", PARTICLE_VELOCITY, NOTHING, false},
     [SCALAR_VELOCITY_Y] = {"velocity.y", PARTICLE_VELOCITY, NOTHING, false},
     [SCALAR_VELOCITY_Z] = {"velocity.z", PARTICLE_VELOCITY, NOTHING, false},
+    [SCALAR_ACCELERATION] = {"length(three)", 0, NOTHING, false, SCALAR_ACCELERATION_X},
     /* of a volume, that particles of different size may be compared, and slices show a field */
     [SCALAR_KINETIC_ENERGY] = {"0.5 * carried * dot(velocity, velocity)", PARTICLE_VELOCITY, SCALAR_DENSITY,
                                false},
@@ -43,13 +49,17 @@ static const Recipe vector_recipes[VECTOR_COUNT] = {
     [VECTOR_VORTICITY] = {"vec4(curl(gradient), 0.0)", PARTICLE_VELOCITY, NOTHING, true},
     [VECTOR_PRESSURE_GRADIENT] = {"vec4(slope, 0.0)", 0, SCALAR_PRESSURE, true},
     [VECTOR_BOX_VELOCITY] = {"vec4(frame_velocity + cross(frame_turn, place), 0.0)", 0, NOTHING, false},
+    [VECTOR_FRICTION_BEFORE] = {"vec4(three, 0.0)", 0, NOTHING, false, SCALAR_FRICTION_BEFORE_X},
+    [VECTOR_ACCELERATION] = {"vec4(three, 0.0)", 0, NOTHING, false, SCALAR_ACCELERATION_X},
 };
 
 /* ---- what is read ---- */
 
 static unsigned reads(const Recipe *recipe)
 {
-    return recipe->attributes | (recipe->carries == NOTHING ? 0 : PARTICLE_SCALAR(recipe->carries));
+    const unsigned threes = recipe->threes ? 7U * PARTICLE_SCALAR(recipe->threes) : 0;
+    return recipe->attributes | threes | (recipe->births ? PARTICLE_ID : 0) |
+           (recipe->carries == NOTHING ? 0 : PARTICLE_SCALAR(recipe->carries));
 }
 
 unsigned wants_attributes(const ParticleWants *wants)
@@ -63,11 +73,22 @@ unsigned wants_attributes(const ParticleWants *wants)
     for (int v = 0; v < VECTOR_COUNT; v++)
         if (wants->vectors & VECTOR_BIT(v))
             attributes |= v == VECTOR_VELOCITY ? PARTICLE_VELOCITY : reads(&vector_recipes[v]);
-    return attributes;
+    return attributes & PARTICLE_SCALAR(SCALAR_BORN) ? attributes | PARTICLE_ID : attributes;
+}
+
+/* SCALAR_BIT: the births too, where something reads them. */
+static uint32_t wanted_scalars(const ParticleWants *wants)
+{
+    return wants->scalars | (wants_attributes(wants) & PARTICLE_SCALAR(SCALAR_BORN));
 }
 
 static bool has(const Recipe *recipe, const ParticleBuffers *particles)
 {
+    for (int k = 0; recipe->threes && k < 3; k++)
+        if (!particles->scalar[recipe->threes + k].buffer)
+            return false;
+    if (recipe->births && !(particles->births && particles->id.buffer))
+        return false;
     return (!(recipe->attributes & PARTICLE_VELOCITY) || particles->velocity.buffer) &&
            (recipe->carries == NOTHING || particles->scalar[recipe->carries].buffer);
 }
@@ -90,6 +111,8 @@ static const char *reads_defines(const Recipe *recipe)
     return moves && carries ? "#define VELOCITIES 1\n#define CARRIED 1\n"
            : moves          ? "#define VELOCITIES 1\n"
            : carries        ? "#define CARRIED 1\n"
+           : recipe->threes ? "#define THREES 1\n"
+           : recipe->births ? "#define BIRTHS 1\n"
                             : "";
 }
 
@@ -130,7 +153,7 @@ static bool follow(Derived *derived, unsigned *program, const Recipe *recipe, co
 bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error)
 {
     for (int s = 0; s < SCALAR_COUNT; s++)
-        if ((wants->scalars & SCALAR_BIT(s)) &&
+        if ((wanted_scalars(wants) & SCALAR_BIT(s)) &&
             !follow(derived, &derived->scalar_program[s], &scalar_recipes[s], scalar_list[s].name, "float",
                     error))
             return false;
@@ -155,8 +178,64 @@ void derived_destroy(Derived *derived)
     }
     glDeleteBuffers(SCALAR_COUNT, derived->scalar_buffer);
     glDeleteBuffers(VECTOR_COUNT, derived->vector_buffer);
+    glDeleteBuffers(1, &derived->births);
     neighbourhood_destroy(&derived->neighbourhood);
     *derived = (Derived){0};
+}
+
+/* ---- memory ---- */
+
+static void give_back(unsigned *buffer, size_t *capacity)
+{
+    glDeleteBuffers(1, buffer);
+    *buffer = 0;
+    *capacity = 0;
+}
+
+static bool needs_near(const ParticleWants *wants, const DerivedPack *pack, Derived *derived)
+{
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if ((wants->scalars & SCALAR_BIT(s)) && scalar_recipes[s].near_too &&
+            (!pack || pack_of(derived, &scalar_recipes[s]) == pack))
+            return true;
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        if ((wants->vectors & VECTOR_BIT(v)) && vector_recipes[v].near_too &&
+            (!pack || pack_of(derived, &vector_recipes[v]) == pack))
+            return true;
+    return false;
+}
+
+void derived_give_back(Derived *derived, const ParticleWants *wants)
+{
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        if (!(wanted_scalars(wants) & SCALAR_BIT(s)))
+            give_back(&derived->scalar_buffer[s], &derived->scalar_capacity[s]);
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        if (!(wants->vectors & VECTOR_BIT(v)))
+            give_back(&derived->vector_buffer[v], &derived->vector_capacity[v]);
+    for (int p = 0; p < 2; p++)
+        if (!needs_near(wants, &derived->pack[p], derived)) {
+            glDeleteTextures(1, &derived->pack[p].texels);
+            derived->pack[p].texels = 0;
+            give_back(&derived->pack[p].buffer, &derived->pack[p].capacity);
+        }
+    if (derived->sorts && !needs_near(wants, NULL, derived)) {
+        neighbourhood_destroy(&derived->neighbourhood);
+        derived->sorts = false;
+    }
+    derived->lacks = NULL;
+}
+
+size_t derived_bytes(const Derived *derived)
+{
+    size_t bytes = 0;
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        bytes += 4 * derived->scalar_capacity[s];
+    for (int v = 0; v < VECTOR_COUNT; v++)
+        bytes += 16 * derived->vector_capacity[v];
+    for (int p = 0; p < 2; p++)
+        bytes += 16 * derived->pack[p].capacity;
+    return bytes;
 }
 
 /* ---- the pass ---- */
@@ -187,6 +266,7 @@ static void set_space(unsigned program, const DerivedSpace *space, const Particl
     glProgramUniform1f(program, MOMENT_SCALE_AT, moment_scale(particles->support_radius, space->flat));
     glProgramUniform1ui(program, TWO_DIMENSIONS_AT, space->flat);
     glProgramUniform3f(program, PERIOD_AT, period[0], period[1], period[2]);
+    glProgramUniform1f(program, NOW_AT, (float)particles->time);
     set_frame(program, &particles->box);
 }
 
@@ -199,6 +279,9 @@ static void bind(unsigned program, const Recipe *recipe, const ParticleBuffers *
                           (GLintptr)velocity->offset, (GLsizeiptr)(particles->count * velocity->stride));
         glProgramUniform1ui(program, VELOCITY_STRIDE_AT, (GLuint)(velocity->stride / 4));
     }
+    for (int k = 0; recipe->threes && k < 3; k++)
+        particle_bind_one((unsigned)(THREES_STORAGE + k), &particles->scalar[recipe->threes + k],
+                          particles->count, 0);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, DERIVED_STORAGE, to);
 }
 
@@ -213,12 +296,18 @@ static void run(const Derived *derived, unsigned program, const Recipe *recipe, 
     work_run(count);
 }
 
-static void reserve(unsigned *buffer, size_t *capacity, size_t count, size_t stride, const char *label)
+/* False where the GPU has no memory for it: then there is none, and `lacks` says of what. */
+static bool reserve(Derived *derived, unsigned *buffer, size_t *capacity, size_t count, size_t stride,
+                    const char *label)
 {
     if (count <= *capacity)
-        return;
+        return true;
     *capacity = work_capacity(*capacity, count);
-    work_buffer_remake(buffer, *capacity * stride, label);
+    if (work_buffer_ask(buffer, *capacity * stride, label))
+        return true;
+    *capacity = 0;
+    derived->lacks = label;
+    return false;
 }
 
 /* What a fill has done so far, and for whom. */
@@ -230,18 +319,20 @@ typedef struct Making {
     unsigned packed[2]; /* of each pack: what stands there, PARTICLE_*; 0: nothing yet */
 } Making;
 
-static void reserve_pack(DerivedPack *pack, size_t count)
+static bool reserve_pack(Derived *derived, DerivedPack *pack, size_t count)
 {
     if (count <= pack->capacity)
-        return;
-    reserve(&pack->buffer, &pack->capacity, count, 16, "derived pack");
+        return true;
+    if (!reserve(derived, &pack->buffer, &pack->capacity, count, 16, "neighbours of particles"))
+        return false;
     glDeleteTextures(1, &pack->texels);
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &pack->texels);
     glTextureBuffer(pack->texels, GL_RGBA32F, pack->buffer);
+    return true;
 }
 
 /* Sorts the particles and what is read of neighbours, once for all that read the same. */
-static void prepare_near(Making *making, const Recipe *recipe)
+static bool prepare_near(Making *making, const Recipe *recipe)
 {
     Derived *derived = making->derived;
     DerivedPack *pack = pack_of(derived, recipe);
@@ -250,24 +341,44 @@ static void prepare_near(Making *making, const Recipe *recipe)
         neighbourhood_build(&derived->neighbourhood, making->particles);
     making->sorted = true;
     if (!pack)
-        return;
+        return true;
     if (*packed != reads(recipe)) {
-        reserve_pack(pack, making->particles->count);
+        if (!reserve_pack(derived, pack, making->particles->count))
+            return false;
         bind(pack->program, recipe, making->particles, pack->buffer);
         neighbourhood_run(&derived->neighbourhood, pack->program);
         *packed = reads(recipe);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     glBindTextureUnit(OTHERS_UNIT, pack->texels);
+    return true;
+}
+
+/* The table goes to the GPU for each picture that reads it: emissions are few beside particles. */
+static void bind_births(Derived *derived, unsigned program, const ParticleBuffers *particles)
+{
+    const Births *births = particles->births;
+    const Birth none = {0};
+    if (!derived->births) {
+        glCreateBuffers(1, &derived->births);
+        glObjectLabel(GL_BUFFER, derived->births, -1, "births");
+    }
+    glNamedBufferData(derived->births, (GLsizeiptr)((births->count ? births->count : 1) * sizeof none),
+                      births->count ? births->of : &none, GL_STREAM_DRAW);
+    particle_bind_one(IDS_STORAGE, &particles->id, particles->count, 0);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, BIRTHS_STORAGE, derived->births);
+    glProgramUniform1ui(program, BIRTHS_COUNT_AT, (GLuint)births->count);
 }
 
 static ParticleAttribute make(Making *making, const Recipe *recipe, unsigned program, unsigned buffer,
                               size_t stride)
 {
-    if (recipe->near_too)
-        prepare_near(making, recipe);
+    if (recipe->near_too && !prepare_near(making, recipe))
+        return (ParticleAttribute){0};
     set_space(program, making->space, making->particles);
     bind(program, recipe, making->particles, buffer);
+    if (recipe->births)
+        bind_births(making->derived, program, making->particles);
     run(making->derived, program, recipe, making->particles->count);
     return (ParticleAttribute){buffer, 0, stride};
 }
@@ -285,9 +396,11 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
     for (int s = 0; s < SCALAR_COUNT; s++) {
         const unsigned program = derived->scalar_program[s];
         if (particles->scalar[s].buffer ||
-            !due(wants->scalars & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
+            !due(wanted_scalars(wants) & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
             continue;
-        reserve(&derived->scalar_buffer[s], &derived->scalar_capacity[s], count, 4, scalar_list[s].name);
+        if (!reserve(derived, &derived->scalar_buffer[s], &derived->scalar_capacity[s], count, 4,
+                     scalar_list[s].name))
+            continue;
         particles->scalar[s] = make(&making, &scalar_recipes[s], program, derived->scalar_buffer[s], 4);
     }
     if (wants->vectors & VECTOR_BIT(VECTOR_VELOCITY))
@@ -297,7 +410,9 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
         if (particles->vector[v].buffer ||
             !due(wants->vectors & VECTOR_BIT(v), program, &vector_recipes[v], particles))
             continue;
-        reserve(&derived->vector_buffer[v], &derived->vector_capacity[v], count, 16, vector_list[v].name);
+        if (!reserve(derived, &derived->vector_buffer[v], &derived->vector_capacity[v], count, 16,
+                     vector_list[v].name))
+            continue;
         particles->vector[v] = make(&making, &vector_recipes[v], program, derived->vector_buffer[v], 16);
     }
 }

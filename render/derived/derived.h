@@ -50,14 +50,22 @@ typedef struct Derived {
     bool sorts;                                                          /* `neighbourhood` is there */
     Neighbourhood neighbourhood;
     DerivedPack pack[2]; /* of velocities; of a scalar */
+    unsigned births;     /* buffer: the table of ParticleBuffers.births */
+    const char *lacks;   /* what the GPU had no memory for since derived_give_back; NULL: nothing */
 } Derived;
 
 /* Makes the programs for what is wanted and not there yet. False when a shader does not compile. */
 bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error);
 void derived_destroy(Derived *derived);
 
+/* Gives the memory back of all that is not wanted; its programs stay. */
+void derived_give_back(Derived *derived, const ParticleWants *wants);
+
+/* Of values and of what sums over neighbours read, but for the neighbourhood. */
+size_t derived_bytes(const Derived *derived);
+
 /* Computes all that is wanted, derived and not there yet from the rest of `particles`, and writes there where
-   it stands: up to the next call. */
+   it stands: up to the next call. What there is no memory for is not there, and `derived->lacks` names it. */
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles);
 

@@ -39,20 +39,22 @@ void ranges_destroy(Ranges *ranges)
     glDeleteProgram(ranges->find);
     glDeleteBuffers(1, &ranges->bins);
     mailbox_destroy(&ranges->found);
+    for (int s = 0; s < SCALAR_COUNT; s++)
+        mailbox_destroy(&ranges->late[s].found);
     *ranges = (Ranges){0};
 }
 
-static void bind(const Ranges *ranges, const ParticleAttribute *values, size_t count)
+static void bind(const Ranges *ranges, const Mailbox *found, const ParticleAttribute *values, size_t count)
 {
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, SCALARS_STORAGE, values->buffer, (GLintptr)values->offset,
                       (GLsizeiptr)(count * values->stride));
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, RANKS_FOUND_STORAGE, ranges->found.buffer);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, RANKS_FOUND_STORAGE, found->buffer);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, RANK_BINS_STORAGE, ranges->bins);
     glProgramUniform1ui(ranges->count, SCALAR_STRIDE_AT, (GLuint)(values->stride / 4));
     glProgramUniform1ui(ranges->count, GRID_PARTICLES_AT, (GLuint)count);
 }
 
-static void run(const Ranges *ranges, GLuint digit, size_t count)
+static void run_digit(const Ranges *ranges, GLuint digit, size_t count)
 {
     glUseProgram(ranges->count);
     glUniform1ui(DIGIT_AT, digit);
@@ -60,6 +62,15 @@ static void run(const Ranges *ranges, GLuint digit, size_t count)
     glUseProgram(ranges->find);
     glUniform1ui(DIGIT_AT, digit);
     work_dispatch(1);
+}
+
+static void send(const Ranges *ranges, Mailbox *to, const ParticleAttribute *values, size_t count)
+{
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    bind(ranges, to, values, count);
+    for (GLuint digit = 0; digit < DIGITS; digit++)
+        run_digit(ranges, digit, count);
+    mailbox_send(to);
 }
 
 /* From bits whose order is that of the numbers: in_order of ranks_count.comp. */
@@ -79,16 +90,57 @@ static ScalarRange range_of(const Found *found)
     return (ScalarRange){at[0], at[3], at[0], at[3], true, true};
 }
 
+static const ScalarRange none = {.known = true};
+
+static ScalarRange range_found(const Found *found)
+{
+    return found && found->known > 0 ? range_of(found) : none;
+}
+
 ScalarRange ranges_find(Ranges *ranges, const ParticleAttribute *values, size_t count)
 {
-    static const ScalarRange none = {.known = true};
     if (count == 0 || !values->buffer)
         return none;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    bind(ranges, values, count);
-    for (GLuint digit = 0; digit < DIGITS; digit++)
-        run(ranges, digit, count);
-    mailbox_send(&ranges->found);
-    const Found *found = mailbox_wait(&ranges->found);
-    return found && found->known > 0 ? range_of(found) : none;
+    send(ranges, &ranges->found, values, count);
+    return range_found(mailbox_wait(&ranges->found));
+}
+
+static bool same(const RangeOf *a, const RangeOf *b)
+{
+    return a->step == b->step && a->time == b->time && a->count == b->count &&
+           a->values.buffer == b->values.buffer && a->values.offset == b->values.offset;
+}
+
+/* What came of it, if it did. Where waiting failed nothing will come: the last range stays. */
+static void take(RangeLate *late, const Found *found)
+{
+    if (late->found.fence)
+        return;
+    if (found)
+        late->range = range_found(found);
+    late->of = late->asked;
+}
+
+ScalarRange ranges_follow(Ranges *ranges, Scalar scalar, const ParticleBuffers *particles, bool *behind)
+{
+    RangeLate *late = &ranges->late[scalar];
+    const ParticleAttribute *values = &particles->scalar[scalar];
+    const RangeOf now = {particles->step, particles->time, particles->count, *values};
+    if (now.count == 0 || !values->buffer)
+        return none;
+    if (!late->found.buffer && !mailbox_create(&late->found, "ranks found late", sizeof(Found))) {
+        mailbox_destroy(&late->found);
+        return ranges_find(ranges, values, now.count);
+    }
+    take(late, mailbox_look(&late->found));
+    if (!late->found.fence && !(late->range.known && same(&late->of, &now))) {
+        send(ranges, &late->found, values, now.count);
+        late->asked = now;
+    }
+    if (!late->range.known) {
+        take(late, mailbox_wait(&late->found));
+        late->range.known = true;
+    }
+    *behind |= !same(&late->of, &now);
+    return late->range;
 }

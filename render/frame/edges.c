@@ -45,7 +45,7 @@ void edges_draw(const Edges *edges, const Frame *frame)
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
-    glDepthMask(GL_FALSE);
+    glDepthMask(frame->depths);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glUseProgram(edges->program);

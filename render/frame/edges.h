@@ -1,5 +1,5 @@
-/* The edges of the box: thin, smooth lines, hidden by what is in front of them. Blends colour, tests depth.
- */
+/* The edges of the box: thin, smooth lines, hidden by what is in front of them. Blends colour, tests depth;
+   leaves its own where Frame.depths. */
 #ifndef SLOSH_EDGES_H
 #define SLOSH_EDGES_H
 

@@ -14,6 +14,15 @@ typedef struct ParticleRadii {
     float drawn, reach, shadow; /* Frame.particle_radius, particle_reach, shadow_radius */
 } ParticleRadii;
 
+enum { FRAME_PARTS_MAX = 8 };
+
+/* A part of the picture, as the legend names it. */
+typedef struct FramePart {
+    bool own;       /* it has that colour; else those of the scalar shown */
+    float color[3]; /* linear */
+    char words[64];
+} FramePart;
+
 typedef struct Frame {
     int width, height; /* pixels */
     const ViewDef *def;
@@ -43,6 +52,9 @@ typedef struct Frame {
     float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */
     float farthest;            /* greatest distance of a particle along the eye's axis, m */
     bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
+    unsigned over_depth;       /* GL texture: depths of the target, and of overlays and edges, for a view that
+                                  has draw_front; 0: there are none of them */
+    bool depths;               /* overlays and edges leave their depth, all that is wanted of them */
     unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool beyond[2];            /* an automatic range leaves some out, below and above it */
@@ -50,10 +62,18 @@ typedef struct Frame {
         size_range[2]; /* the same as range of the def's opacity and size; 0 where they have none */
     unsigned curves;   /* which of the two the view draws: VIEW_OPACITY, VIEW_SIZE */
     const char *shown, *shown_unit; /* what that range is of, for the legend */
-    const char *note;               /* a line below the legend, static; NULL: none */
-    bool by_fluid;                  /* coloured by the fluids' own colours */
-    bool flat;                      /* the picture is no look into space: no edges of the box */
-    bool plain;                     /* colours as they are, without light and shadow */
+    bool no_solids;                 /* the view draws the solids: none is opaque */
+    bool no_colors;                 /* nothing is coloured by that range: the legend does not show it */
+    int part_count;
+    FramePart parts[FRAME_PARTS_MAX];
+    const char *note; /* a line below the legend, static; NULL: none */
+    bool by_fluid;    /* coloured by the fluids' own colours */
+    bool flat;        /* the picture is no look into space: no edges of the box */
+    bool more;        /* further pictures follow at once: view and overlays may take their time over
+                         several */
+    bool *behind;     /* becomes true where an overlay shows a number of the picture before; NULL: the GPU is
+                         waited for instead */
+    bool plain;       /* colours as they are, without light and shadow */
 } Frame;
 
 /* Balls of the def's radius; of that many spacings where the def says 0. */
@@ -62,7 +82,7 @@ ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, 
 /* Frame.slab: a scene of two dimensions is as deep as its particles. */
 double frame_slab(const ParticleBuffers *particles);
 
-/* Fills all of `frame` but timer, counts, floor_light and plain. */
+/* Fills all of `frame` but timer, counts, floor_light, behind and plain. */
 void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,
                 ParticleRadii radii, Covered covered);
 

@@ -153,12 +153,13 @@ static void draw_curves(Text *text, const Frame *frame, float bottom)
 static float draw_scalar(Text *text, const Frame *frame)
 {
     enum { HEIGHT_EM = 15 };
-    Layout layout = make_layout(text, frame, SCALAR_WIDTH_EM, HEIGHT_EM);
-    float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
-          y1 = layout.bottom - 1.0F * em;
     char unit[32], title[80];
     legend_unit(frame->shown_unit, unit);
     snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
+    const float widest = text_width(text, 1, title) / text_height(text) + 1.6F; /* long names */
+    Layout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), HEIGHT_EM);
+    float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
+          y1 = layout.bottom - 1.0F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     text_draw(text, x, layout.top + 0.8F * em, 1, layout.ink, TEXT_LEFT, title);
     draw_bar(text, frame->def, frame->beyond, x, y0, x + 1.2F * em, y1);
@@ -197,6 +198,75 @@ static float draw_fluids(Text *text, const Frame *frame)
     return height;
 }
 
+/* Below what stands down to `top`, in letters. */
+static float draw_parts(Text *text, const Frame *frame, float top)
+{
+    const float em = text_height(text);
+    uint8_t rgb[3 * COLORMAP_SIZE];
+    float widest = 0;
+    for (int i = 0; i < frame->part_count; i++)
+        widest = fmaxf(widest, text_width(text, 1, frame->parts[i].words) / em);
+    const float gap = top > 0 ? 0.5F : 0, height = 1.6F * (float)frame->part_count + 0.9F;
+    const Layout layout = make_layout(text, frame, widest + 3.3F, top + gap + height);
+    const float x = layout.left + 0.8F * em, first = layout.bottom - (height - 0.75F) * em;
+    text_rectangle(text, layout.left, layout.bottom - height * em, layout.right, layout.bottom, 0.5F * em,
+                   layout.panel);
+    const bool bent = colormap_fill_bent(frame->def->colormap, &frame->def->color_curve, rgb);
+    for (int i = 0; i < frame->part_count; i++) {
+        const FramePart *part = &frame->parts[i];
+        const float y = first + 1.6F * (float)i * em;
+        if (part->own)
+            text_rectangle(text, x, y, x + em, y + em, 0.2F * em, fluid_rgba(part->color));
+        else if (bent && !frame->by_fluid)
+            text_gradient(text, x, y, x + em, y + em, map_color(rgb, 0), map_color(rgb, 255));
+        text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, part->words);
+    }
+    return top + gap + height;
+}
+
+/* What the colours are of; returns its height in letters. */
+static float draw_colors(Text *text, const Frame *frame)
+{
+    if (frame->no_colors)
+        return 0;
+    if (!frame->by_fluid)
+        return draw_scalar(text, frame);
+    return frame->world->fluid_count > 0 ? draw_fluids(text, frame) : 0;
+}
+
+/* How many bytes of a line are within that width: up to a space, at least a word. */
+static size_t line_bytes(Text *text, const char *line, float width)
+{
+    char part[512];
+    size_t bytes = strcspn(line, " ");
+    while (line[bytes]) {
+        const size_t end = bytes + 1 + strcspn(line + bytes + 1, " ");
+        snprintf(part, sizeof part, "%.*s", (int)end, line);
+        if (end >= sizeof part || text_width(text, 1, part) > width)
+            break;
+        bytes = end;
+    }
+    return bytes;
+}
+
+/* As many lines as it takes: none is cut off at the left. */
+static float draw_note(Text *text, const Frame *frame, float top)
+{
+    enum { LINE_MOST = 512 };
+    const Layout layout = make_layout(text, frame, 0, top);
+    const char *rest = frame->note;
+    float y = layout.bottom + 0.6F * layout.em;
+    while (*rest) {
+        char line[LINE_MOST];
+        const size_t bytes = line_bytes(text, rest, layout.right - layout.em);
+        snprintf(line, sizeof line, "%.*s", (int)bytes, rest);
+        text_draw(text, layout.right, y, 1, layout.faint, TEXT_RIGHT, line);
+        y += 1.4F * layout.em;
+        rest += bytes + strspn(rest + bytes, " ");
+    }
+    return (y - layout.bottom) / layout.em - 0.6F;
+}
+
 void legend_line(Text *text, const Frame *frame, float x, float y, const char *line)
 {
     const Layout layout = make_layout(text, frame, 0, 0);
@@ -209,14 +279,11 @@ void legend_draw(Text *text, const Frame *frame, double time)
     char label[40];
     snprintf(label, sizeof label, "%.2f s", time);
     legend_line(text, frame, em, (float)frame->height - 2 * em, label);
-    float bottom = !frame->by_fluid                ? draw_scalar(text, frame)
-                   : frame->world->fluid_count > 0 ? draw_fluids(text, frame)
-                                                   : 0;
-    if (frame->note) {
-        const Layout layout = make_layout(text, frame, 0, bottom);
-        text_draw(text, layout.right, layout.bottom + 0.6F * em, 1, layout.faint, TEXT_RIGHT, frame->note);
-        bottom += 1.4F;
-    }
+    float bottom = draw_colors(text, frame);
+    if (frame->part_count > 0)
+        bottom = draw_parts(text, frame, bottom);
+    if (frame->note)
+        bottom += draw_note(text, frame, bottom);
     if (bottom > 0)
         draw_curves(text, frame, bottom);
 }

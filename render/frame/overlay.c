@@ -118,11 +118,37 @@ void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const S
     overlays->count = particles->count;
 }
 
+bool overlays_any(const Overlays *overlays)
+{
+    bool any = false;
+    for (int i = 0; overlay_list[i]; i++)
+        any |= overlays->state[i] != NULL;
+    return any;
+}
+
 void overlays_draw(const Overlays *overlays, const ParticleBuffers *particles, const Frame *frame)
 {
     for (int i = 0; overlay_list[i]; i++)
         if (overlays->state[i])
             overlay_list[i]->draw(overlays->state[i], particles, frame);
+}
+
+bool overlays_unfinished(const Overlays *overlays)
+{
+    bool any = false;
+    for (int i = 0; overlay_list[i]; i++)
+        any |= overlays->state[i] && overlay_list[i]->unfinished &&
+               overlay_list[i]->unfinished(overlays->state[i]);
+    return any;
+}
+
+int overlays_choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX], char words[160])
+{
+    for (int i = 0; overlay_list[i]; i++)
+        if (overlay_list[i]->choose)
+            return overlay_list[i]->choose(def, id, settings, words);
+    snprintf(words, 160, "no overlay follows particles");
+    return 0;
 }
 
 void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame)

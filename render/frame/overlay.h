@@ -5,6 +5,7 @@
 
 #include "render/frame/frame.h"
 #include "render/frame/text.h"
+#include "render/frame/view.h"
 #include "sim/base/error.h"
 #include "sim/base/key.h"
 #include "sim/base/room.h"
@@ -33,8 +34,15 @@ typedef struct OverlayKind {
        Of what is derived a state between pictures has view.color_by alone. */
     void (*take)(void *state, const ParticleBuffers *particles, const Subject *subject, GlTimer *timer);
     /* Draws colour into frame->target behind the view, within its own stages of frame->timer, and tests
-       against the depth there. */
+       against the depth there. With Frame.depths it leaves its own depth too, and is drawn once more for its
+       colour. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* Whether a further picture of the same would be better than the last, where Frame.more. NULL: none is.
+     */
+    bool (*unfinished)(const void *state);
+    /* What it asks for where a user takes the particle of that id: live settings, and words for the user; how
+       many, 0 with the reason. NULL: nothing. */
+    int (*choose)(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX], char words[160]);
     /* A line for the legend: what the overlay shows and at which scale; NULL: none. */
     void (*legend)(void *state, const Frame *frame, char *line, size_t size);
 } OverlayKind;
@@ -70,6 +78,9 @@ bool overlays_check(const Subject *subject, const char **key, Error *error);
 bool overlays_follow(Overlays *overlays, const Subject *subject, Error *error);
 void overlays_destroy(Overlays *overlays);
 
+/* Whether one is shown. */
+bool overlays_any(const Overlays *overlays);
+
 /* Whether one of them keeps something of states (OverlayKind.take). */
 bool overlays_take_any(const Overlays *overlays);
 
@@ -77,6 +88,13 @@ bool overlays_take_any(const Overlays *overlays);
 void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,
                    GlTimer *timer);
 void overlays_draw(const Overlays *overlays, const ParticleBuffers *particles, const Frame *frame);
+
+/* Whether one of them is unfinished. */
+bool overlays_unfinished(const Overlays *overlays);
+
+/* OverlayKind.choose of the first of the list that has one. */
+int overlays_choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX],
+                    char words[160]);
 
 /* Their lines, from the lower left corner up, above that of the time. */
 void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame);

@@ -182,6 +182,13 @@ bool view_accepts(View *view, const Subject *subject, Error *error)
     return !view->kind->accepts || view->kind->accepts(view->state, subject, error);
 }
 
+void view_want(const ViewDef *def, ParticleWants *wants)
+{
+    const ViewKind *kind = view_find(def->kind);
+    if (kind && kind->want)
+        kind->want(def, wants);
+}
+
 void view_show(const View *view, const ViewDef *def, Frame *frame)
 {
     frame->curves = view->kind->curves;
@@ -200,9 +207,25 @@ void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame)
     view->kind->draw(view->state, particles, frame);
 }
 
-const char *view_note(const View *view)
+void view_draw_front(View *view, const Frame *frame)
 {
-    return view->kind->note ? view->kind->note(view->state) : NULL;
+    if (view->kind->draw_front)
+        view->kind->draw_front(view->state, frame);
+}
+
+bool view_unfinished(const View *view)
+{
+    return view->kind->unfinished && view->kind->unfinished(view->state);
+}
+
+const char *view_note(View *view, bool *behind)
+{
+    return view->kind->note ? view->kind->note(view->state, behind) : NULL;
+}
+
+const char *view_lacks(const View *view)
+{
+    return view->kind->lacks ? view->kind->lacks(view->state) : NULL;
 }
 
 bool view_pick(const View *view, const double pixel[2], double at[3])
@@ -213,4 +236,10 @@ bool view_pick(const View *view, const double pixel[2], double at[3])
 int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out)
 {
     return view->kind->probe ? view->kind->probe(view->state, at, count, out) : -1;
+}
+
+ViewProbing view_probing(const View *view, const ViewDef *def)
+{
+    static const ViewProbing nothing = {.by = VIEW_PROBE_NOTHING};
+    return view->kind->probing ? view->kind->probing(view->state, def) : nothing;
 }

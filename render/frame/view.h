@@ -7,6 +7,7 @@
 #include "sim/base/error.h"
 #include "sim/base/key.h"
 #include "sim/gl/particle_buffers.h"
+#include "sim/surface/ranged_volume.h"
 
 typedef struct View View;
 
@@ -30,7 +31,7 @@ typedef struct ViewGrade {
 
 /* A live setting, "path=value". */
 typedef struct ViewSetting {
-    char text[96];
+    char text[224]; /* the ids of trails are the longest */
 } ViewSetting;
 
 enum { VIEW_SETTINGS_MAX = 4 };
@@ -62,9 +63,50 @@ typedef struct ViewProbe {
     } what;
     double value;
     const char *name, *unit; /* of the value; static */
+    const char *words;       /* the value as words, up to the next answer; NULL: it has none */
+    int64_t id;              /* of the particle that it is the value of; VIEW_NO_ID: of none, or not known */
 } ViewProbe;
 
-enum { VIEW_PROBES_MAX = 16 };
+enum { VIEW_PROBES_MAX = 16, VIEW_NO_ID = -1 };
+
+/* What is asked of the last picture; at most VIEW_PROBES_MAX in all. */
+typedef struct ViewAsks {
+    int count;
+    double at[VIEW_PROBES_MAX][3]; /* places, m, box's frame */
+    bool mouse;                    /* and what is under it: */
+    double pixel[2];               /* from the left and the top */
+} ViewAsks;
+
+/* The answers: of the places in their order, then of the mouse. */
+typedef struct ViewProbes {
+    int count;
+    bool mouse; /* the last one is of what is under it */
+    bool now;   /* they are what the last picture shows, of what was asked; else the next one knows more */
+    bool asked; /* it is known whether there is a place under the mouse, in this picture or the one before: */
+    bool placed;
+    double place[3];
+    ViewProbe probe[VIEW_PROBES_MAX];
+} ViewProbes;
+
+/* How the renderer finds values in the picture of a view that has no probe of its own. */
+typedef struct ViewProbing {
+    enum {
+        VIEW_PROBE_NOTHING,
+        VIEW_PROBE_BALL, /* at a place within the ball of a particle that one's own; else there is no fluid */
+        VIEW_PROBE_MEAN  /* the mean by the method's kernel (Shepard 1968), of fluids the nearest one */
+    } by;
+    unsigned radii; /* GL buffer, of balls: a float each, m; 0: all have Frame.particle_radius */
+} ViewProbing;
+
+/* A file of volume data that settings name, and where the data go. */
+typedef struct ViewFile {
+    char key[64]; /* below the view's */
+    const char *name;
+    const RangedVolume **data; /* NULL: it could not be read */
+    const char *wrong;         /* why there may be none there; NULL: there may */
+} ViewFile;
+
+enum { VIEW_FILES_MAX = 8 };
 
 typedef struct ViewKind {
     const char *name, *help;
@@ -75,6 +117,8 @@ typedef struct ViewKind {
     /* False, with the reason and the key at fault, where no driver could draw the subject; NULL: all can be
      * drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);
+    /* The files that the def names, to be read with the scene; how many. NULL: none. */
+    int (*files)(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
     double radius;                /* of a particle, in spacings, where ViewDef.radius is 0 */
     unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: of the def's curves those that it draws */
     const KeyOwner *curves_where; /* in use where it does; NULL: always */
@@ -93,6 +137,8 @@ typedef struct ViewKind {
     /* Whether a view made for `a` may draw `b`, both with defs of this kind, as far as keys with KEY_REBUILD
        do not say so; NULL: it may. What else differs is read anew for each picture. */
     bool (*same)(const Subject *a, const Subject *b);
+    /* Adds what the view reads of particles beside what colours, opacity and size are by. NULL: nothing. */
+    void (*want)(const ViewDef *def, ParticleWants *wants);
     /* Whether the view, as it was made, can draw the subject; NULL: it always can. */
     bool (*accepts)(void *state, const Subject *subject, Error *error);
     /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
@@ -101,9 +147,20 @@ typedef struct ViewKind {
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* What the legend is to say of the picture that was drawn, static; may wait for it. NULL: nothing. May be
+    /* The same of what lies before overlays and edges (Frame.over_depth), which are drawn behind `draw`: that
+       leaves it out. NULL: they are tested against the depth that `draw` leaves. */
+    void (*draw_front)(void *state, const Frame *frame);
+    /* Whether a further picture of the same would be better than the last, where Frame.more. NULL: none is.
+     */
+    bool (*unfinished)(const void *state);
+    /* What the legend is to say of the picture that was drawn, static; may wait for it. With `behind` it does
+       not: what it says may be of a picture before then, and *behind becomes true. NULL: nothing. May be
+       NULL.
+     */
+    const char *(*note)(void *state, bool *behind);
+    /* What the last picture lacks of what the def asks for, words of one line, static; NULL: nothing. May be
        NULL. */
-    const char *(*note)(const void *state);
+    const char *(*lacks)(const void *state);
     /* What of it the mouse may take in the window, at most HANDLES_MAX; how many. NULL: nothing. */
     int (*handles)(const ViewDef *def, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);
     /* The live settings, at most VIEW_SETTINGS_MAX, by which handle `index`, as it was when it was taken,
@@ -119,6 +176,8 @@ typedef struct ViewKind {
     /* What the last picture shows at at most VIEW_PROBES_MAX places; how many are known. Waits for nothing:
        on a GPU they may be those of the picture before, with the places of then. NULL: none is ever known. */
     int (*probe)(void *state, const double (*at)[3], int count, ViewProbe *out);
+    /* How values are found where there is no such probe. NULL: none are. */
+    ViewProbing (*probing)(const void *state, const ViewDef *def);
 } ViewKind;
 
 extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
@@ -151,12 +210,18 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
 /* Whether a view made for `a` may draw `b`. */
 bool view_same(const Subject *a, const Subject *b);
 bool view_accepts(View *view, const Subject *subject, Error *error);
+/* Adds what the def's view reads of particles; nothing where it is not known. */
+void view_want(const ViewDef *def, ParticleWants *wants);
 void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
-const char *view_note(const View *view);
+void view_draw_front(View *view, const Frame *frame);
+const char *view_note(View *view, bool *behind);
+const char *view_lacks(const View *view);
+bool view_unfinished(const View *view);
 bool view_pick(const View *view, const double pixel[2], double at[3]);
 /* -1: none is ever known. */
 int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out);
+ViewProbing view_probing(const View *view, const ViewDef *def);
 
 #endif

@@ -13,7 +13,8 @@ ViewDef view_def_shared(void)
                      .floor = true,
                      .camera_auto = true,
                      .camera = {.fov_deg = 32},
-                     .background = {0.72, 0.76, 0.80}};
+                     .background = {0.72, 0.76, 0.80},
+                     .resolution = 1};
 }
 
 static unsigned curve_bit(const ScalarCurve *curve)

@@ -15,7 +15,13 @@ typedef struct CameraDef {
     double fov_deg; /* vertical field of view, degrees */
 } CameraDef;
 
-enum { VIEW_KINDS_MAX = 8, OVERLAY_KINDS_MAX = 4, VIEW_OWN_SIZE = 512 };
+enum {
+    VIEW_KINDS_MAX = 8,
+    OVERLAY_KINDS_MAX = 4,
+    VIEW_OWN_SIZE = 1792,
+    VIEW_FILE_SIZE = 256,
+    VIEW_SET_SIZE = 512
+};
 
 /* Room for the own settings of a view or an overlay, a struct that only its owner knows: see view_own in
    render/frame/view.h, overlay_own in render/frame/overlay.h. */
@@ -50,9 +56,13 @@ typedef struct ViewDef {
     bool camera_auto;                /* the camera shows the whole box; else `camera` */
     CameraDef camera;
     double background[3]; /* linear RGB 0..1, at the horizon */
+    double resolution;    /* pixels drawn for a pixel shown, each way; more than 0, at most 1 */
 
     /* The same as of_view of each overlay of its list. */
     ViewOwn of_overlay[OVERLAY_KINDS_MAX];
+    /* Of one among several, whose states it shows; "": the scene's. Nothing here reads them. */
+    char file[VIEW_FILE_SIZE]; /* a recorded run */
+    char set[VIEW_SET_SIZE];   /* the scene with these settings: KEY_SETTINGS */
 } ViewDef;
 
 /* What there is to be shown, and how. */

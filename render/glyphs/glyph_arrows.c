@@ -3,7 +3,6 @@
 #include "render/particles/work.h"
 #include "render/plane/plane.h"
 #include "render/plane/plane_kernel.h"
-#include "shaders/glyphs/glyphs_bindings.h"
 #include "shaders/shared/bindings.h"
 #include "sim/gl/program.h"
 
@@ -12,7 +11,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { COMMAND_WORDS = 5, SAMPLES_MOST = 1000000, USUAL_SAMPLES = 24 };
+enum { SAMPLES_MOST = 1000000, USUAL_SAMPLES = 24 };
 
 bool glyph_arrows_create(GlyphArrows *arrows, Error *error)
 {
@@ -21,7 +20,8 @@ bool glyph_arrows_create(GlyphArrows *arrows, Error *error)
     arrows->particles = program_create("glyphs of particles", particles, NULL, error);
     arrows->samples = arrows->particles ? program_create("glyphs of samples", samples, NULL, error) : 0;
     arrows->sorts = arrows->samples != 0;
-    return arrows->sorts && neighbourhood_create(&arrows->neighbourhood, error);
+    return arrows->sorts && neighbourhood_create(&arrows->neighbourhood, error) &&
+           glyph_tallies_create(&arrows->tallies, error);
 }
 
 void glyph_arrows_destroy(GlyphArrows *arrows)
@@ -31,7 +31,7 @@ void glyph_arrows_destroy(GlyphArrows *arrows)
     if (arrows->sorts)
         neighbourhood_destroy(&arrows->neighbourhood);
     glDeleteBuffers(1, &arrows->arrows);
-    glDeleteBuffers(1, &arrows->command);
+    glyph_tallies_destroy(&arrows->tallies);
     glDeleteBuffers(1, &arrows->no_scalar);
     *arrows = (GlyphArrows){0};
 }
@@ -39,10 +39,8 @@ void glyph_arrows_destroy(GlyphArrows *arrows)
 static void reserve(GlyphArrows *arrows, size_t count)
 {
     enum { ARROW_BYTES = 8 * sizeof(float) };
-    if (!arrows->command) {
-        work_buffer_remake(&arrows->command, sizeof(uint32_t[COMMAND_WORDS + GLYPH_BINS]), "glyphs' command");
+    if (!arrows->no_scalar)
         work_buffer_remake(&arrows->no_scalar, sizeof(uint32_t[4]), "glyphs without a scalar");
-    }
     if (count <= arrows->capacity)
         return;
     arrows->capacity = work_capacity(arrows->capacity, count);
@@ -53,11 +51,12 @@ static void reserve(GlyphArrows *arrows, size_t count)
 static void begin(const GlyphArrows *arrows)
 {
     static const uint32_t none = 0, one = 1;
+    const unsigned command = arrows->tallies.box.buffer;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    glClearNamedBufferData(arrows->command, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
-    glClearNamedBufferSubData(arrows->command, GL_R32UI, sizeof one, sizeof one, GL_RED_INTEGER,
-                              GL_UNSIGNED_INT, &one);
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_COMMAND_STORAGE, arrows->command);
+    glClearNamedBufferData(command, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &none);
+    glClearNamedBufferSubData(command, GL_R32UI, sizeof one, sizeof one, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                              &one);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_COMMAND_STORAGE, command);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, arrows->arrows);
 }
 
@@ -204,27 +203,9 @@ void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, co
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-static double round_up(double x)
+const GlyphTally *glyph_arrows_count(GlyphArrows *arrows, const ParticleBuffers *particles,
+                                     const Frame *frame)
 {
-    static const double rounds[] = {1, 1.5, 2, 3, 5, 7};
-    const double power = pow(10, floor(log10(x)));
-    for (size_t i = 0; i < sizeof rounds / sizeof *rounds; i++)
-        if (x <= 1.0001 * rounds[i] * power)
-            return rounds[i] * power;
-    return 10 * power;
-}
-
-double glyph_arrows_usual(const GlyphArrows *arrows)
-{
-    uint32_t bins[GLYPH_BINS];
-    uint64_t all = 0, below = 0;
-    int bin = 0;
-    if (arrows->most == 0)
-        return 0;
-    glGetNamedBufferSubData(arrows->command, sizeof(uint32_t[COMMAND_WORDS]), sizeof bins, bins);
-    for (int i = 0; i < GLYPH_BINS; i++)
-        all += bins[i];
-    for (; bin < GLYPH_BINS && 20 * below < 19 * all; bin++)
-        below += bins[bin];
-    return all > 0 ? round_up(exp2((bin - 0.5 * GLYPH_BINS) / GLYPH_OCTAVE_BINS)) : 0;
+    static const GlyphTally none;
+    return arrows->most > 0 ? glyph_tallies_follow(&arrows->tallies, particles, frame) : &none;
 }

@@ -4,7 +4,7 @@
 #ifndef SLOSH_GLYPH_ARROWS_H
 #define SLOSH_GLYPH_ARROWS_H
 
-#include "render/glyphs/glyphs_def.h"
+#include "render/glyphs/glyph_tally.h"
 #include "render/particles/neighbourhood.h"
 #include "render/particles/particle_bind.h"
 
@@ -12,14 +12,14 @@
 typedef struct GlyphArrows {
     unsigned particles, samples; /* programs */
     Neighbourhood neighbourhood;
-    bool sorts;         /* `neighbourhood` is there, or what a failure has left of it */
-    unsigned arrows;    /* buffer: foot and vector, two vec4 an arrow */
-    unsigned command;   /* buffer: of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins */
-    unsigned no_scalar; /* buffer: stands in for a scalar that is not there */
-    size_t capacity;    /* arrows that there is room for */
-    size_t most;        /* that the last run may have made; 0: none */
-    double apart;       /* from one to the next, about, m */
-    bool coarser;       /* than was asked for: there would be too many */
+    bool sorts;           /* `neighbourhood` is there, or what a failure has left of it */
+    unsigned arrows;      /* buffer: foot and vector, two vec4 an arrow */
+    GlyphTallies tallies; /* and the command that draws: six indices an arrow */
+    unsigned no_scalar;   /* buffer: stands in for a scalar that is not there */
+    size_t capacity;      /* arrows that there is room for */
+    size_t most;          /* that the last run may have made; 0: none */
+    double apart;         /* from one to the next, about, m */
+    bool coarser;         /* than was asked for: there would be too many */
 } GlyphArrows;
 
 /* False when a shader does not compile; glyph_arrows_destroy is needed in either case. */
@@ -29,8 +29,8 @@ void glyph_arrows_destroy(GlyphArrows *arrows);
 /* Those of that state. */
 void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame);
 
-/* Of all magnitudes above 0 nineteen of twenty are at most that, to a bin of an eighth of an octave, rounded
-   up to 1, 1.5, 2, 3, 5 or 7 times a power of ten; 0 where there are none. Waits for the GPU. */
-double glyph_arrows_usual(const GlyphArrows *arrows);
+/* What is counted of those made last, of that state: as glyph_tallies_follow. */
+const GlyphTally *glyph_arrows_count(GlyphArrows *arrows, const ParticleBuffers *particles,
+                                     const Frame *frame);
 
 #endif

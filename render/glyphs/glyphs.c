@@ -16,6 +16,8 @@ typedef struct Glyphs {
     ColorTable colors;
     QuadIndices quads;
     double unit, length; /* an arrow of `length` m stands for `unit`; 0: there are none */
+    uint32_t left_out;   /* vectors without a number, where the legend or the scale asks for it */
+    bool plain;          /* the state has no scalar to colour them by */
 } Glyphs;
 
 static void destroy(void *state)
@@ -45,10 +47,15 @@ static void *create(const Subject *subject, Error *error)
 }
 
 /* An arrow of the usual length is half as long again as the way from one to the next. */
-static void make_scale(Glyphs *glyphs, const GlyphsDef *def)
+static void make_scale(Glyphs *glyphs, const ParticleBuffers *particles, const Frame *frame)
 {
+    const GlyphsDef *def = glyphs_def(frame->def);
+    const bool fixed = def->scale > 0;
+    const GlyphTally *tally =
+        frame->def->legend || !fixed ? glyph_arrows_count(&glyphs->arrows, particles, frame) : NULL;
+    glyphs->left_out = tally ? tally->left_out : 0;
     glyphs->length = 1.5 * glyphs->arrows.apart;
-    glyphs->unit = def->scale > 0 ? glyphs->length / def->scale : glyph_arrows_usual(&glyphs->arrows);
+    glyphs->unit = fixed ? glyphs->length / def->scale : glyph_usual(tally);
 }
 
 static void set_look(const Glyphs *glyphs, const Frame *frame)
@@ -63,7 +70,7 @@ static void set_look(const Glyphs *glyphs, const Frame *frame)
     glUniform1f(GLYPH_LIFT_AT, (float)lift);
     glUniform1ui(GLYPH_IS_FLUID_AT, frame->def->color_by == SCALAR_FLUID);
     glUniform4f(GLYPH_COLOR_AT, (float)def->color[0], (float)def->color[1], (float)def->color[2],
-                def->color_by == GLYPHS_PLAIN);
+                def->color_by == GLYPHS_PLAIN || glyphs->plain);
 }
 
 static void draw_arrows(Glyphs *glyphs, const Frame *frame)
@@ -78,7 +85,7 @@ static void draw_arrows(Glyphs *glyphs, const Frame *frame)
     set_look(glyphs, frame);
     color_table_follow(&glyphs->colors, frame->def->colormap, &frame->def->color_curve);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, glyphs->arrows.arrows);
-    quad_indices_draw_indirect(&glyphs->quads, glyphs->arrows.most, glyphs->arrows.command, 0);
+    quad_indices_draw_indirect(&glyphs->quads, glyphs->arrows.most, glyphs->arrows.tallies.box.buffer, 0);
 }
 
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
@@ -87,7 +94,8 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     GL_STAGE(frame->timer, STAGE_OVERLAY)
     {
         glyph_arrows_make(&glyphs->arrows, particles, frame);
-        make_scale(glyphs, glyphs_def(frame->def));
+        make_scale(glyphs, particles, frame);
+        glyphs->plain = !particle_shown(particles, frame->def->color_by)->buffer;
         if (glyphs->arrows.most > 0 && glyphs->unit > 0)
             draw_arrows(glyphs, frame);
     }
@@ -97,12 +105,16 @@ static void legend(void *state, const Frame *frame, char *line, size_t size)
 {
     const Glyphs *glyphs = state;
     const ScalarRow *vector = &vector_list[glyphs_def(frame->def)->vector];
+    char left_out[64] = "";
+    if (glyphs->left_out > 0)
+        snprintf(left_out, sizeof left_out, "; %u without a number left out", glyphs->left_out);
     if (glyphs->arrows.most == 0 || !(glyphs->unit > 0))
-        snprintf(line, size, "%s: no arrows", vector->name);
+        snprintf(line, size, "%s: no arrows%s", vector->name, left_out);
     else
-        snprintf(line, size, "%s: an arrow of %.3g m is %.3g %s%s", vector->name, glyphs->length,
+        snprintf(line, size, "%s: an arrow of %.3g m is %.3g %s%s%s", vector->name, glyphs->length,
                  glyphs->unit, vector->unit,
-                 glyphs->arrows.coarser ? "; coarser than view.glyphs.cell, which has too many" : "");
+                 glyphs->arrows.coarser ? "; coarser than view.glyphs.cell, which has too many" : "",
+                 left_out);
 }
 
 static bool check(const Subject *subject, const char **key, Error *error)

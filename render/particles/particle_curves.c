@@ -63,8 +63,7 @@ static void reserve(ParticleCurve *curve, size_t count, size_t floats)
     work_buffer_remake(&curve->values, curve->capacity * floats * sizeof(GLfloat), "particle curve");
 }
 
-/* No points: the curve is 1. */
-static void set_curve(const ScalarCurve *said, const double range[2], double unit, bool there)
+void particle_curve_set(const ScalarCurve *said, const double range[2], double unit, bool there)
 {
     GLfloat point[2 * CONTROL_POINTS_MAX] = {0};
     const ControlPoints *points = &said->curve;
@@ -82,7 +81,7 @@ void particle_curve_run(unsigned program, const ScalarCurve *said, const double 
 {
     glUseProgram(program);
     particle_bind(program, particles, scalar_of_curve(said));
-    set_curve(said, range, unit, is_there(said, particles));
+    particle_curve_set(said, range, unit, is_there(said, particles));
     glUniform1ui(CURVE_PARTICLES_AT, (GLuint)particles->count);
     work_run(particles->count);
 }

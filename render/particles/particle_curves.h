@@ -36,6 +36,10 @@ void particle_curves_destroy(ParticleCurves *curves);
    range. */
 void particle_curves_make(ParticleCurves *curves, const ParticleBuffers *particles, const Frame *frame);
 
+/* Gives the program in use that curve over that range, its y in units of `unit`: shaders/common/curve.glsl.
+   Where it is not `there` the curve is 1. */
+void particle_curve_set(const ScalarCurve *said, const double range[2], double unit, bool there);
+
 /* Runs a form of shaders/render/particle_curve.comp for that curve over all particles, into what the caller
    has bound; the curve's y count in units of `unit`. */
 void particle_curve_run(unsigned program, const ScalarCurve *said, const double range[2], double unit,

@@ -12,6 +12,7 @@ typedef struct Slot {
     GLuint buffer;
     char *bytes;           /* mapped for the buffer's whole life */
     ParticleBuffers state; /* what stands in it */
+    Births births;         /* of a world's */
 } Slot;
 
 /* Offsets in each slot, bytes; SIZE_MAX for what is not carried. */
@@ -64,6 +65,11 @@ static bool slot_create(Slot *slot, size_t size)
     return slot->bytes != NULL;
 }
 
+unsigned upload_of_worlds(unsigned attributes)
+{
+    return attributes & ~PARTICLE_SCALAR(SCALAR_BORN);
+}
+
 Upload *upload_create(size_t capacity, unsigned attributes, Error *error)
 {
     Upload *upload = calloc(1, sizeof *upload);
@@ -111,8 +117,10 @@ void upload_destroy(Upload *upload)
         return;
     glDeleteSync(upload->fence);
     glDeleteBuffers(1, &upload->device);
-    for (int i = 0; i < SLOTS; i++)
+    for (int i = 0; i < SLOTS; i++) {
         glDeleteBuffers(1, &upload->slots[i].buffer);
+        births_free(&upload->slots[i].births);
+    }
     slots_destroy(&upload->turn);
     free(upload);
 }
@@ -169,11 +177,14 @@ bool upload_write(Upload *upload, World *world, Error *error)
         return false;
     Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
     ParticleArrays arrays = slot_arrays(upload, slot);
-    if (!world_read(world, &arrays))
+    arrays.scalar[SCALAR_BORN] = NULL; /* by ids */
+    if (!world_read(world, &arrays) || !world_births(world, &slot->births))
         return error_set(error, "no memory to read %zu particles", info.count);
     ParticleBuffers *out = &slot->state;
     particle_buffers_describe(&info, out);
     describe(upload, slot);
+    out->scalar[SCALAR_BORN] = (ParticleAttribute){0};
+    out->births = &slot->births;
     slots_write_end(&upload->turn);
     return true;
 }

@@ -21,6 +21,9 @@ typedef struct Upload Upload;
 Upload *upload_create(size_t capacity, unsigned attributes, Error *error);
 void upload_destroy(Upload *upload); /* NULL is allowed */
 
+/* What it carries for the states of worlds where pictures read these: births come as the world's table. */
+unsigned upload_of_worlds(unsigned attributes);
+
 /* Whether each state that is taken is copied once into the GPU's own memory, from which all passes of its
    pictures read it, and not each over the bus. At first: yes, but on a software renderer, which has one
    memory. To be said before the first state is taken. False when memory is short. */

@@ -1,6 +1,7 @@
 #include "render/particles/work.h"
 
 #include "shaders/shared/bindings.h"
+#include "sim/gl/debug.h"
 
 #include <epoxy/gl.h>
 
@@ -10,6 +11,20 @@ void work_buffer_remake(unsigned *buffer, size_t size, const char *label)
     glCreateBuffers(1, buffer);
     glObjectLabel(GL_BUFFER, *buffer, -1, label);
     glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, 0);
+}
+
+bool work_buffer_ask(unsigned *buffer, size_t size, const char *label)
+{
+    gl_debug_errors(); /* what is asked below is of this buffer */
+    gl_debug_asks_for_memory(true);
+    work_buffer_remake(buffer, size, label);
+    const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
+    gl_debug_asks_for_memory(false);
+    if (none) {
+        glDeleteBuffers(1, buffer);
+        *buffer = 0;
+    }
+    return !none;
 }
 
 size_t work_capacity(size_t capacity, size_t count)

@@ -2,10 +2,14 @@
 #ifndef SLOSH_WORK_H
 #define SLOSH_WORK_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Replaces *buffer (0: none yet) by one of `size` bytes whose contents are not defined. */
 void work_buffer_remake(unsigned *buffer, size_t size, const char *label);
+
+/* The same where there may be no memory for it: false, and *buffer is 0. */
+bool work_buffer_ask(unsigned *buffer, size_t size, const char *label);
 
 /* How many buffers are to have room for that have it for `capacity` (0: none yet) and need it for `count`,
    which is more: half as much again, so that where particles are poured in not every picture makes them anew.

@@ -98,13 +98,20 @@ static void draw(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *part
     glDisable(GL_BLEND);
 }
 
-bool plane_sum_none(const PlaneSum *sum)
+bool plane_sum_none(PlaneSum *sum, bool *behind)
 {
-    GLuint any = 0;
+    static const GLuint unknown = 2;
+    GLuint any = unknown;
     if (!sum->asked)
         return sum->none;
-    glGetQueryObjectuiv(sum->query, GL_QUERY_RESULT, &any);
-    return !any;
+    glGetQueryObjectuiv(sum->query, behind ? GL_QUERY_RESULT_NO_WAIT : GL_QUERY_RESULT, &any);
+    if (any != unknown) {
+        sum->none = !any;
+        sum->asked = false;
+    }
+    if (behind)
+        *behind |= sum->asked;
+    return sum->none;
 }
 
 /* The CPU's sums become the texture. */
@@ -133,14 +140,17 @@ bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *pa
     if (!plane_sum_prepare(sum, job->kernel, error) || !follow_samples(sum, job->samples, error))
         return false;
     fill(sum, job); /* which what shows the sums reads too */
+    bool lost = false;
+    plane_sum_none(sum, &lost); /* of the run before, before it is forgotten */
     sum->asked = false;
     sum->by_rows = some && by_rows(job);
     if (sum->by_rows)
         return add_rows(sum, job, particles, error);
     glClearNamedFramebufferfv(sum->framebuffer, GL_COLOR, 0, none);
-    sum->none = !some;
-    if (!some)
+    if (!some) {
+        sum->none = true;
         return true;
+    }
     if (!sum->query)
         glGenQueries(1, &sum->query);
     sum->asked = true;

@@ -24,8 +24,8 @@ typedef struct PlaneSum {
     QuadIndices quads;
     PlaneRows rows;
     bool by_rows; /* the last run: rows.out has its sums too */
-    bool none;    /* no particle reaches the rectangle, where the last run has not asked a GPU: */
-    bool asked;   /* the query, which has it then */
+    bool none;    /* no particle reaches the rectangle, as far as is known: */
+    bool asked;   /* the query of the last run on a GPU has it */
     unsigned query;
 } PlaneSum;
 
@@ -37,8 +37,9 @@ bool plane_sum_prepare(PlaneSum *sum, int kernel, Error *error);
 bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error);
 void plane_sum_destroy(PlaneSum *sum);
 
-/* Whether no particle reaches the rectangle; waits for the last run on a GPU. */
-bool plane_sum_none(const PlaneSum *sum);
+/* Whether no particle reaches the rectangle; waits for the last run on a GPU. With `behind` it does not wait:
+   it may be of a run before then, and *behind becomes true. */
+bool plane_sum_none(PlaneSum *sum, bool *behind);
 
 /* The sums of the last run, 4 floats a sample, rows from the bottom up; waits for them. */
 void plane_sum_read(const PlaneSum *sum, float *out);

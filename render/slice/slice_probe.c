@@ -81,7 +81,8 @@ static void answer(const SliceProbe *probe, int index, ViewProbe *out)
     const PlaneProbes *probes = &probe->probe.probes;
     const float *sums = probe->probe.sums[index];
     const double field = (double)sums[1] + sums[2];
-    *out = (ViewProbe){.now = probes->run == probe->run, .name = probes->name, .unit = probes->unit};
+    *out = (ViewProbe){
+        .now = probes->run == probe->run, .name = probes->name, .unit = probes->unit, .id = VIEW_NO_ID};
     memcpy(out->at, probes->at[index], sizeof out->at);
     out->seen = pixel_of(probe, out->at, out->pixel);
     if (probes->sample[index][0] < 0)

@@ -3,6 +3,7 @@
 #include "render/frame/colormap.h"
 #include "render/frame/legend.h"
 #include "render/particles/half.h"
+#include "render/particles/particle_curves.h"
 #include "render/plane/plane_kernel.h"
 #include "render/plane/plane_sum.h"
 #include "render/slice/slice_plane.h"
@@ -18,7 +19,7 @@
 #include <string.h>
 
 typedef struct SliceView {
-    PlaneSum sum;
+    PlaneSum sum, veil; /* of what is shown; of what opacity goes by, where that is another */
     unsigned program, vertex_array;
     ColorTable colors;
     bool has_scalar; /* that is shown */
@@ -33,6 +34,7 @@ static void destroy(void *state)
 {
     SliceView *view = state;
     plane_sum_destroy(&view->sum);
+    plane_sum_destroy(&view->veil);
     plane_probe_destroy(&view->probe.probe);
     glDeleteProgram(view->program);
     glDeleteVertexArrays(1, &view->vertex_array);
@@ -50,7 +52,7 @@ static bool check(const Subject *subject, const char **key, Error *error)
            error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
 }
 
-/* That of the list's first view, with the slice's colours; a slice draws no opacities and sizes. */
+/* That of the list's first view, with the slice's colours; opacity is that of the plane. */
 static void follow_def(SliceView *view, const ViewDef *def)
 {
     view->balls_def = *def;
@@ -78,7 +80,8 @@ static void *create(const Subject *subject, Error *error)
     }
     glCreateVertexArrays(1, &view->vertex_array);
     if (color_table_create(&view->colors, subject->def->colormap, &subject->def->color_curve, error))
-        view->program = program_create("slice show", stages, NULL, error);
+        view->program = program_create("slice show", stages,
+                                       subject->def->opacity.by ? "#define VEILED 1\n" : NULL, error);
     const int kernel = plane_kernel_of(slice_def(subject->def)->kernel, subject->world);
     if (view->program && plane_sum_prepare(&view->sum, kernel, error) && create_balls(view, subject, error))
         return view;
@@ -176,10 +179,8 @@ static void begin_in_space(const SliceView *view, const Frame *frame)
 }
 
 /* The plane covers what is beyond it, and nothing is drawn twice. */
-static void begin_blending(double opacity)
+static void begin_blending(void)
 {
-    if (opacity >= 1)
-        return;
     glEnable(GL_BLEND);
     glBlendEquation(GL_FUNC_ADD);
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
@@ -193,8 +194,33 @@ static unsigned what_is_shown(const SliceView *view, const Frame *frame)
     return slice_def(frame->def)->raw ? SLICE_RAW : SLICE_MEAN;
 }
 
-static void show_sums(SliceView *view, const PlaneJob *job, const Frame *frame)
+/* Opacity by a scalar: the sums of it; NULL: particles lack it, and the plane is as opaque as without. */
+static PlaneSum *sum_veil(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles,
+                          const Frame *frame)
 {
+    const Scalar scalar = scalar_of_curve(&frame->def->opacity);
+    PlaneJob own = *job;
+    Error error;
+    if (!particles->scalar[scalar].buffer)
+        return NULL;
+    if (view->has_scalar && scalar == job->scalar)
+        return &view->sum;
+    own.scalar = scalar;
+    return plane_sum_run(&view->veil, &own, particles, &error) ? &view->veil : NULL;
+}
+
+static void set_veil(const SliceView *view, const PlaneSum *veils, const Frame *frame)
+{
+    particle_curve_set(&frame->def->opacity, frame->opacity_range, 1, veils != NULL);
+    glBindTextureUnit(VEIL_UNIT, veils ? veils->sums : view->sum.sums);
+    if (veils == &view->veil)
+        set_filter(veils->sums, slice_def(frame->def)->show == SLICE_FLAT ? GL_NEAREST : GL_LINEAR);
+}
+
+/* `veils`: as of sum_veil. */
+static void show_sums(SliceView *view, const PlaneJob *job, const PlaneSum *veils, const Frame *frame)
+{
+    const bool veiled = frame->def->opacity.by != 0;
     const SliceDef *def = slice_def(frame->def);
     const bool flat = def->show == SLICE_FLAT;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
@@ -203,9 +229,12 @@ static void show_sums(SliceView *view, const PlaneJob *job, const Frame *frame)
         begin_flat(view, job, frame);
     else {
         begin_in_space(view, frame);
-        begin_blending(def->opacity);
     }
+    if (veiled || (!flat && def->opacity < 1))
+        begin_blending();
     glUseProgram(view->program);
+    if (veiled)
+        set_veil(view, veils, frame);
     glUniform1ui(FLAT_AT, flat);
     glUniform1ui(SHOWN_AT, what_is_shown(view, frame));
     glUniform1f(CUT_AT, (float)def->cut);
@@ -319,12 +348,12 @@ static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers
     flat_part(job, frame, probe->part);
 }
 
-static const char *note(const void *state)
+static const char *note(void *state, bool *behind)
 {
-    const SliceView *view = state;
-    return !view->probe.drawn           ? "the plane misses the box"
-           : plane_sum_none(&view->sum) ? "no fluid on the plane"
-                                        : NULL;
+    SliceView *view = state;
+    return !view->probe.drawn                   ? "the plane misses the box"
+           : plane_sum_none(&view->sum, behind) ? "no fluid on the plane"
+                                                : NULL;
 }
 
 static bool pick(const void *state, const double pixel[2], double at[3])
@@ -348,8 +377,13 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     draw_balls(view, frame);
     view->has_scalar =
         frame->def->color_by != SCALAR_FLUID && particles->scalar[frame->def->color_by].buffer != 0;
+    const PlaneSum *veils = NULL;
     GL_STAGE(frame->timer, STAGE_BLEND)
-    made = make_job(particles, frame, &job) && plane_sum_run(&view->sum, &job, particles, &error);
+    {
+        made = make_job(particles, frame, &job) && plane_sum_run(&view->sum, &job, particles, &error);
+        if (made && frame->def->opacity.by != 0)
+            veils = sum_veil(view, &job, particles, frame);
+    }
     view->probe.drawn = made;
     if (made)
         remember(view, &job, particles, frame);
@@ -358,7 +392,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
         if (slice_def(frame->def)->show == SLICE_FLAT)
             clear_flat(frame);
         if (made) /* else the plane misses the box, or memory that was there is not there now */
-            show_sums(view, &job, frame);
+            show_sums(view, &job, veils, frame);
     }
 }
 
@@ -381,6 +415,7 @@ const ViewKind view_slice = {
     .name = "slice",
     .help = "a scalar on a plane through the fluid, exact in each sample",
     .radius = 0.5,
+    .curves = VIEW_OPACITY,
     .keys = slice_keys,
     .grades = slice_grades,
     .def = &slice_usual,

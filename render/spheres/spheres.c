@@ -186,6 +186,13 @@ static void spheres_draw(void *state, const ParticleBuffers *particles, const Fr
         shade_visible(spheres, particles, frame);
 }
 
+/* A ball's door is not asked: what is not drawn there may be told where balls overlap. */
+static ViewProbing spheres_probing(const void *state, const ViewDef *def)
+{
+    const Spheres *spheres = state;
+    return (ViewProbing){VIEW_PROBE_BALL, def->size.by != 0 ? spheres->curves.size.values : 0};
+}
+
 const ViewKind view_spheres = {
     .name = "spheres",
     .help = "every particle as a lit sphere, exact in each pixel",
@@ -197,4 +204,5 @@ const ViewKind view_spheres = {
     .prepare = spheres_prepare,
     .cast = spheres_cast,
     .draw = spheres_draw,
+    .probing = spheres_probing,
 };

@@ -302,6 +302,12 @@ static const ViewShapes *splat_shapes(const ViewDef *def)
     return splat_def(def)->shape == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
 }
 
+static ViewProbing splat_probing(const void *state, const ViewDef *def)
+{
+    (void)state, (void)def;
+    return (ViewProbing){.by = VIEW_PROBE_MEAN};
+}
+
 static const KeyOwner spheres = {.key = "view.splat.level", .value = "0"};
 
 const ViewKind view_splat = {
@@ -322,4 +328,5 @@ const ViewKind view_splat = {
     .prepare = splat_prepare,
     .cast = splat_cast,
     .draw = splat_draw,
+    .probing = splat_probing,
 };

@@ -6,6 +6,7 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool trail_lines_create(TrailLines *lines, Error *error)
@@ -21,7 +22,7 @@ bool trail_lines_create(TrailLines *lines, Error *error)
     if (lines->head)
         lines->show =
             program_create_pair("trails show", "common/screen.vert", "trails/trails_show.frag", error);
-    return lines->show != 0;
+    return lines->show && trail_sheet_create(&lines->sheet, error);
 }
 
 void trail_lines_destroy(TrailLines *lines)
@@ -34,24 +35,32 @@ void trail_lines_destroy(TrailLines *lines)
     color_table_destroy(&lines->colors);
     glDeleteTextures(1, &lines->kept);
     quad_indices_destroy(&lines->quads);
+    trail_sheet_destroy(&lines->sheet);
+    free(lines->pieces);
     *lines = (TrailLines){0};
+}
+
+static TrailSight sight_of(const TrailStore *store, const Frame *frame)
+{
+    TrailSight sight;
+    matrix_multiply(frame->camera.view, frame->box_to_world, sight.box_to_eye);
+    memcpy(sight.tangent, frame->camera.tangent, sizeof sight.tangent);
+    sight.near_plane = frame->camera.near_plane;
+    sight.half_width = (float)(trails_def(frame->def)->width / 2);
+    for (int k = 0; k < 3; k++)
+        sight.wrap[k] = frame->world->periodic[k] ? (float)store->box_size[k] / 2 : INFINITY;
+    return sight;
 }
 
 static TrailLook look_of(const TrailStore *store, const Frame *frame)
 {
-    TrailLook look;
-    matrix_multiply(frame->camera.view, frame->box_to_world, look.box_to_eye);
-    memcpy(look.tangent, frame->camera.tangent, sizeof look.tangent);
-    look.near_plane = frame->camera.near_plane;
-    look.half_width = (float)(trails_def(frame->def)->width / 2);
-    for (int k = 0; k < 3; k++)
-        look.wrap[k] = frame->world->periodic[k] ? (float)store->box_size[k] / 2 : INFINITY;
-    look.width = frame->width;
-    look.height = frame->height;
-    look.scalar = frame->def->color_by;
-    look.drops = store->ring.drops;
-    look.made = store->made;
-    return look;
+    return (TrailLook){.sight = sight_of(store, frame),
+                       .by_cpu = store->mapped_places && trails_def(frame->def)->by == TRAILS_AUTO,
+                       .width = frame->width,
+                       .height = frame->height,
+                       .scalar = frame->def->color_by,
+                       .drops = store->ring.drops,
+                       .made = store->made};
 }
 
 static bool same_numbers(const float *a, const float *b, int count)
@@ -62,17 +71,23 @@ static bool same_numbers(const float *a, const float *b, int count)
     return same;
 }
 
-static bool same_look(const TrailLook *a, const TrailLook *b)
+static bool same_sight(const TrailSight *a, const TrailSight *b)
 {
     return same_numbers(a->box_to_eye, b->box_to_eye, 16) && same_numbers(a->tangent, b->tangent, 2) &&
            same_numbers(a->wrap, b->wrap, 3) && a->near_plane == b->near_plane &&
-           a->half_width == b->half_width && a->width == b->width && a->height == b->height &&
-           a->scalar == b->scalar && a->drops == b->drops && a->made == b->made;
+           a->half_width == b->half_width;
+}
+
+static bool same_look(const TrailLook *a, const TrailLook *b)
+{
+    return same_sight(&a->sight, &b->sight) && a->by_cpu == b->by_cpu && a->width == b->width &&
+           a->height == b->height && a->scalar == b->scalar && a->drops == b->drops && a->made == b->made;
 }
 
 static void follow_size(TrailLines *lines, const TrailLook *look)
 {
-    if (lines->kept && look->width == lines->look.width && look->height == lines->look.height)
+    if (lines->kept && !lines->look.by_cpu && look->width == lines->look.width &&
+        look->height == lines->look.height)
         return;
     glDeleteTextures(1, &lines->kept);
     glCreateTextures(GL_TEXTURE_2D, 1, &lines->kept);
@@ -84,8 +99,8 @@ static void follow_size(TrailLines *lines, const TrailLook *look)
 static void set_lines(const TrailLook *look, GLuint program)
 {
     glUseProgram(program);
-    glUniform1f(HALF_WIDTH_AT, look->half_width);
-    glUniform3fv(TRAIL_WRAP_AT, 1, look->wrap);
+    glUniform1f(HALF_WIDTH_AT, look->sight.half_width);
+    glUniform3fv(TRAIL_WRAP_AT, 1, look->sight.wrap);
 }
 
 static void set_color(const TrailStore *store, const Frame *frame, GLuint program, float strength)
@@ -113,7 +128,7 @@ static void draw_column(TrailLines *lines, const TrailStore *store, uint64_t num
 }
 
 /* Of all columns, where it is of another look; else those that are new. */
-static void keep(TrailLines *lines, const TrailStore *store, const TrailLook *look)
+static void keep_by_gpu(TrailLines *lines, const TrailStore *store, const TrailLook *look)
 {
     const TrailRing *ring = &store->ring;
     glBindFramebuffer(GL_FRAMEBUFFER, lines->framebuffer);
@@ -132,10 +147,118 @@ static void keep(TrailLines *lines, const TrailStore *store, const TrailLook *lo
     lines->drawn = ring->end;
 }
 
+/* ---- by the CPU ---- */
+
+static TrailPoints points_of(const TrailStore *store, uint64_t number)
+{
+    const size_t begin = trail_store_column(store, number);
+    return (TrailPoints){store->mapped_places + 4 * begin, store->mapped_owners + begin};
+}
+
+/* Whether lines lead from a column to that later one. */
+static bool leads(const TrailRing *ring, uint64_t from, uint64_t to)
+{
+    bool joins = true;
+    for (uint64_t k = from; k != to; k++)
+        joins &= trail_ring_joins(ring, k + 1);
+    return joins;
+}
+
+/* From numbers[1] to numbers[2]; of numbers[0] lines may lead there. */
+static TrailPieces pieces_of(const TrailStore *store, const uint64_t numbers[3], Scalar scalar)
+{
+    const TrailRing *ring = &store->ring;
+    const TrailColumn *from = trail_ring_at(ring, numbers[1]), *to = trail_ring_at(ring, numbers[2]);
+    TrailPieces pieces = {.from = points_of(store, numbers[1]),
+                          .to = points_of(store, numbers[2]),
+                          .times = {(float)from->time, (float)to->time},
+                          .known = from->scalar == scalar && to->scalar == scalar};
+    if (leads(ring, numbers[0], numbers[1]))
+        pieces.earlier = points_of(store, numbers[0]);
+    return pieces;
+}
+
+/* The column at which the pieces from that one end: a multiple of the step, so that they stay the same from
+   state to state, or the last one that is fixed, and behind that the present one. */
+static uint64_t next_column(const TrailLines *lines, const TrailRing *ring, uint64_t from)
+{
+    const uint64_t next = (from / lines->step + 1) * lines->step;
+    return from + 1 < ring->end && next >= ring->end ? ring->end - 1 : from + 1 < ring->end ? next : from + 1;
+}
+
+static bool reserve(TrailLines *lines, size_t count)
+{
+    if (count > lines->pieces_room) {
+        free(lines->pieces);
+        lines->pieces = malloc(count * sizeof *lines->pieces);
+        lines->pieces_room = lines->pieces ? count : 0;
+    }
+    return count <= lines->pieces_room;
+}
+
+/* Columns from `first` on, and the present state's. */
+static bool draw_columns(TrailLines *lines, const TrailStore *store, uint64_t first)
+{
+    const TrailRing *ring = &store->ring;
+    size_t count = 0, fixed = 0;
+    if (!reserve(lines, ring->head + 1 - first))
+        return false;
+    uint64_t numbers[3] = {first - 2, first - 1, first};
+    while (numbers[2] <= ring->head) {
+        if (leads(ring, numbers[1], numbers[2]))
+            lines->pieces[count++] = pieces_of(store, numbers, lines->look.scalar);
+        fixed = numbers[2] < ring->end ? count : fixed;
+        numbers[0] = numbers[1];
+        numbers[1] = numbers[2];
+        numbers[2] = next_column(lines, ring, numbers[1]);
+    }
+    return trail_sheet_draw(&lines->sheet, &lines->look.sight, lines->pieces, fixed, count,
+                            (size_t)store->slots);
+}
+
+/* The step of a picture that is drawn anew: all columns, or while the look changes so many that the pieces
+   are no more than the def asks for. A longer piece across a periodic side might be taken for a short one. */
+static uint64_t step_of(const TrailLines *lines, const TrailStore *store, const Frame *frame, bool changed)
+{
+    const double columns = (double)(store->ring.end - store->ring.begin),
+                 most = trails_def(frame->def)->moving;
+    const bool *periodic = frame->world->periodic, any = periodic[0] || periodic[1] || periodic[2];
+    if (!changed || !frame->more || any || most == 0 || lines->look.width == 0)
+        return 1;
+    return (uint64_t)fmax(1, ceil(columns * store->slots / most));
+}
+
+/* False when memory is short. */
+static bool keep_by_cpu(TrailLines *lines, TrailStore *store, const TrailLook *look, const Frame *frame)
+{
+    const TrailRing *ring = &store->ring;
+    const bool changed = !same_look(look, &lines->look), coarse = lines->step > 1 && !lines->twice;
+    bool anew;
+    trail_store_wait(store);
+    if (!trail_sheet_follow(&lines->sheet, look->width, look->height, &anew))
+        return false;
+    if (anew || changed || coarse) {
+        lines->step = step_of(lines, store, frame, changed);
+        lines->look = *look;
+        lines->drawn = ring->begin;
+        trail_sheet_clear(&lines->sheet);
+    }
+    const bool drawn = draw_columns(lines, store, lines->drawn > ring->begin ? lines->drawn : ring->begin);
+    lines->drawn = ring->end;
+    return drawn;
+}
+
+/* ---- over the view ---- */
+
 static void show(TrailLines *lines, const TrailStore *store, const Frame *frame, GLenum test, float strength)
 {
+    const bool by_cpu = lines->look.by_cpu;
     glDepthFunc(test);
-    set_color(store, frame, lines->show, strength);
+    set_color(store, frame, by_cpu ? lines->sheet.program : lines->show, strength);
+    if (by_cpu) {
+        trail_sheet_show(&lines->sheet);
+        return;
+    }
     glBindVertexArray(lines->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     if (store->ring.head < store->ring.end)
@@ -150,28 +273,45 @@ static void show_all(TrailLines *lines, const TrailStore *store, const Frame *fr
     const float through = (float)trails_def(frame->def)->through;
     const bool all = frame->slab > 0; /* in two dimensions particles do not hide them */
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glViewport(0, 0, frame->width, frame->height);
     glEnable(GL_DEPTH_TEST);
-    glDepthMask(GL_FALSE);
+    glDepthMask(frame->depths);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glBindTextureUnit(TRAIL_LINES_UNIT, lines->kept);
     color_table_follow(&lines->colors, frame->def->colormap, &frame->def->color_curve);
     frame_cut_to_bounds(frame);
     show(lines, store, frame, all ? GL_ALWAYS : GL_GEQUAL, 1);
-    if (through > 0 && !all)
+    if (through > 0 && !all && !frame->depths)
         show(lines, store, frame, GL_LESS, through);
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_BLEND);
     glDepthMask(GL_TRUE);
 }
 
-void trail_lines_draw(TrailLines *lines, const TrailStore *store, const Frame *frame)
+static void keep(TrailLines *lines, TrailStore *store, const TrailLook *look, const Frame *frame)
+{
+    TrailLook by_gpu = *look;
+    if (look->by_cpu && keep_by_cpu(lines, store, look, frame))
+        return;
+    by_gpu.by_cpu = false;
+    lines->step = 1;
+    follow_size(lines, &by_gpu);
+    trail_store_bind(store);
+    keep_by_gpu(lines, store, &by_gpu);
+}
+
+void trail_lines_draw(TrailLines *lines, TrailStore *store, const Frame *frame)
 {
     if (store->slots == 0 || store->ring.end == store->ring.begin)
         return;
     const TrailLook look = look_of(store, frame);
-    follow_size(lines, &look);
-    trail_store_bind(store);
-    keep(lines, store, &look);
+    keep(lines, store, &look, frame);
+    lines->twice = frame->depths;
     show_all(lines, store, frame);
+}
+
+bool trail_lines_unfinished(const TrailLines *lines)
+{
+    return lines->step > 1;
 }

@@ -6,6 +6,7 @@
 #include "shaders/trails/trails_bindings.h"
 #include "sim/gl/debug.h"
 #include "sim/gl/program.h"
+#include "sim/gl/timer.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
 
@@ -39,6 +40,11 @@ static void drop_buffers(TrailStore *store)
     glDeleteBuffers(1, &store->seen);
     glDeleteBuffers(1, &store->claims);
     glDeleteBuffers(1, &store->none);
+    if (store->taken)
+        glDeleteSync(store->taken);
+    store->taken = NULL;
+    store->mapped_places = NULL;
+    store->mapped_owners = NULL;
     store->places = store->owners = store->seen = store->claims = store->none = 0;
     store->slots = 0;
     trail_ring_destroy(&store->ring);
@@ -66,19 +72,50 @@ static void count_slots(TrailStore *store, const TrailsDef *def, int points)
     store->stride = wanted > most ? (int)((store->capacity + most - 1) / most) : def->stride;
     store->slots = (int)(wanted > most ? most : wanted > store->least ? wanted : store->least);
     if (store->listed_count > 0)
-        store->slots = store->listed_count;
+        store->slots = TRAILS_LISTED_MAX; /* others may come */
+}
+
+/* As work_buffer_remake, where the CPU draws them too. */
+static const void *make_mapped(unsigned *buffer, size_t size, const char *label)
+{
+    const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+    glDeleteBuffers(1, buffer);
+    glCreateBuffers(1, buffer);
+    glObjectLabel(GL_BUFFER, *buffer, -1, label);
+    glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, access);
+    return glMapNamedBufferRange(*buffer, 0, (GLsizeiptr)size, access);
+}
+
+static void make_points(TrailStore *store, size_t points)
+{
+    static const char *const labels[] = {"trails' points", "trails' owners"};
+    if (gl_renderer_is_software()) {
+        store->mapped_places = make_mapped(&store->places, points * POINT_BYTES, labels[0]);
+        store->mapped_owners = make_mapped(&store->owners, points * sizeof(uint32_t), labels[1]);
+    } else {
+        work_buffer_remake(&store->places, points * POINT_BYTES, labels[0]);
+        work_buffer_remake(&store->owners, points * sizeof(uint32_t), labels[1]);
+    }
 }
 
 static bool make_buffers(TrailStore *store)
 {
     const size_t slots = (size_t)store->slots, points = slots * (size_t)store->ring.room;
     gl_debug_errors(); /* what is asked below is of these buffers */
-    work_buffer_remake(&store->places, points * POINT_BYTES, "trails' points");
-    work_buffer_remake(&store->owners, points * sizeof(uint32_t), "trails' owners");
+    make_points(store, points);
     work_buffer_remake(&store->seen, slots * sizeof(uint32_t), "trails seen");
     work_buffer_remake(&store->claims, slots * sizeof(uint32_t), "trails claimed");
     work_buffer_remake(&store->none, 4 * sizeof(uint32_t), "trails without a scalar");
     return gl_errors_take(GL_OUT_OF_MEMORY) == 0;
+}
+
+/* Whether the list of ids is the same, or the same and more behind it. */
+static bool list_goes_on(const TrailStore *store, const TrailsDef *def)
+{
+    uint32_t ids[TRAILS_LISTED_MAX];
+    const int count = trails_listed(def, ids), had = store->listed_count;
+    return strcmp(def->ids, store->def.ids) == 0 ||
+           (had > 0 && count >= had && memcmp(ids, store->listed, sizeof *ids * (size_t)had) == 0);
 }
 
 /* Whether there is room for that state by those settings; else all begins anew. */
@@ -86,14 +123,16 @@ static bool has_room(const TrailStore *store, const TrailsDef *def, size_t count
 {
     const TrailsDef *was = &store->def;
     return store->slots > 0 && count <= store->capacity && def->stride == was->stride &&
-           trails_points(def) + 1 == store->ring.room && strcmp(def->ids, was->ids) == 0;
+           trails_points(def) + 1 == store->ring.room && list_goes_on(store, def);
 }
 
 static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
 {
     const int points = trails_points(def);
-    if (has_room(store, def, count))
+    if (has_room(store, def, count)) {
+        store->listed_count = trails_listed(def, store->listed);
         return;
+    }
     drop_buffers(store);
     store->made++;
     store->listed_count = trails_listed(def, store->listed);
@@ -105,7 +144,7 @@ static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
     if (!trail_ring_create(&store->ring, def->length, trails_every(def), points) || !make_buffers(store))
         drop_buffers(store);
     else {
-        static const uint32_t no_number = 0x7fc00000; /* which is drawn in gray */
+        static const uint32_t no_number = 0x7fc00000;
         clear(store->seen, 0, (size_t)store->slots, 0);
         clear(store->none, 0, 4, no_number);
     }
@@ -183,6 +222,24 @@ static bool claim(const TrailStore *store, const ParticleBuffers *particles)
     return true;
 }
 
+static void fence(TrailStore *store)
+{
+    if (store->taken)
+        glDeleteSync(store->taken);
+    glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
+    store->taken = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+}
+
+void trail_store_wait(TrailStore *store)
+{
+    if (!store->taken)
+        fence(store);
+    while (glClientWaitSync(store->taken, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000) == GL_TIMEOUT_EXPIRED)
+        ;
+    glDeleteSync(store->taken);
+    store->taken = NULL;
+}
+
 static void set3(GLuint program, GLint location, const double v[3])
 {
     glProgramUniform3f(program, location, (GLfloat)v[0], (GLfloat)v[1], (GLfloat)v[2]);
@@ -221,7 +278,8 @@ static void run_take(const TrailStore *store, const ParticleBuffers *particles, 
 void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const ViewDef *def)
 {
     const TrailsDef *own = trails_def(def);
-    const Scalar scalar = def->color_by;
+    const bool has = particle_shown(particles, def->color_by)->buffer;
+    const Scalar scalar = has ? def->color_by : SCALAR_COUNT; /* which none shows */
     make_room(store, own, particles->count);
     if (store->slots == 0 || (particles->count > 0 && !particles->id.buffer))
         return;
@@ -233,5 +291,7 @@ void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const
         go_back(store);
     clear(store->owners, trail_store_column(store, store->ring.head), (size_t)store->slots, 0);
     if (particles->count > 0)
-        run_take(store, particles, scalar, claim(store, particles));
+        run_take(store, particles, def->color_by, claim(store, particles));
+    if (store->mapped_places)
+        fence(store);
 }

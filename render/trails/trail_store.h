@@ -23,6 +23,9 @@ typedef struct TrailStore {
     int stride;      /* in ids, at least the def's */
     size_t capacity; /* particles that the slots are for */
     uint64_t made;   /* how often all began anew */
+    const float *mapped_places; /* on a software driver: the CPU reads them too, NULL elsewhere, */
+    const uint32_t *mapped_owners;
+    void *taken;                 /* fence behind the last column; NULL: it has been waited for */
     double box_size[3], spacing; /* of the state taken last, m */
     int listed_count;            /* of `listed`; 0: by stride; -1: no list, and no trails */
     uint32_t listed[TRAILS_LISTED_MAX];
@@ -38,6 +41,9 @@ void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const
 
 /* Where a column begins in `places` and `owners`, in elements. */
 unsigned trail_store_column(const TrailStore *store, uint64_t number);
+
+/* Until the CPU may read what is mapped, and nothing of GL before the last column is under way. */
+void trail_store_wait(TrailStore *store);
 
 /* For a program that reads places and owners. */
 void trail_store_bind(const TrailStore *store);

@@ -5,6 +5,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct Trails {
     TrailStore store;
@@ -37,7 +38,7 @@ static bool check(const Subject *subject, const char **key, Error *error)
     uint32_t ids[TRAILS_LISTED_MAX];
     *key = "view.trails.ids";
     return trails_listed(trails_def(subject->def), ids) >= 0 ||
-           error_set(error, "\"%s\" is no list of at most %d ids; \"3 17 250\" is one, and all is by stride",
+           error_set(error, "\"%s\" is no list of at most %d ids; [3, 17, 250] is one, and all is by stride",
                      trails_def(subject->def)->ids, TRAILS_LISTED_MAX);
 }
 
@@ -62,6 +63,11 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     trail_lines_draw(&trails->lines, &trails->store, frame);
 }
 
+static bool unfinished(const void *state)
+{
+    return trail_lines_unfinished(&((const Trails *)state)->lines);
+}
+
 /* What is not as the keys say. */
 static void legend(void *state, const Frame *frame, char *line, size_t size)
 {
@@ -82,6 +88,55 @@ static void wants(const ViewDef *def, ParticleWants *wants)
     wants->attributes |= PARTICLE_ID;
 }
 
+/* False where the list has no room for it: nothing is added. */
+static bool add_id(char list[TRAILS_IDS_SIZE], uint32_t id)
+{
+    const size_t used = strlen(list), room = TRAILS_IDS_SIZE - used;
+    const int needs = snprintf(list + used, room, "%s%u", used ? " " : "", id);
+    const bool fits = needs >= 0 && (size_t)needs < room;
+    if (!fits)
+        list[used] = 0;
+    return fits;
+}
+
+/* The list of ids without that one; whether it was there. */
+static bool without(const uint32_t ids[], int count, uint32_t id, char list[TRAILS_IDS_SIZE])
+{
+    bool was = false;
+    *list = 0;
+    for (int i = 0; i < count; i++) {
+        was |= ids[i] == id;
+        if (ids[i] != id)
+            add_id(list, ids[i]);
+    }
+    return was;
+}
+
+#define IDS_ARE "view.trails.ids="
+_Static_assert(sizeof((ViewSetting *)0)->text >= sizeof IDS_ARE + TRAILS_IDS_SIZE, "a full list fits");
+
+/* Its trail is added to those that are shown, or taken away. Of all by stride it becomes the only one. */
+static int choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX], char words[160])
+{
+    const TrailsDef *own = trails_def(def);
+    uint32_t ids[TRAILS_LISTED_MAX];
+    char list[TRAILS_IDS_SIZE];
+    const int listed = trails_listed(own, ids), count = own->show && listed > 0 ? listed : 0;
+    const bool was = without(ids, count, id, list);
+    if (!was && (count == TRAILS_LISTED_MAX || !add_id(list, id))) {
+        snprintf(words, 160,
+                 "%d particles have a trail, and no more can; a click on one of them takes its away", count);
+        return 0;
+    }
+    snprintf(words, 160, "particle %u has %s%s", id, was ? "no trail any more" : "a trail",
+             was && !*list                      ? "; it was the last"
+             : !was && own->show && listed == 0 ? ", and it alone: those by stride are gone"
+                                                : "");
+    snprintf(settings[0].text, sizeof settings[0].text, IDS_ARE "%s", *list ? list : "all");
+    snprintf(settings[1].text, sizeof settings[1].text, "view.trails.show=%s", *list ? "true" : "false");
+    return 2;
+}
+
 const OverlayKind overlay_trails = {
     .name = "trails",
     .help = "paths of particles, faded with age",
@@ -95,5 +150,7 @@ const OverlayKind overlay_trails = {
     .destroy = destroy,
     .take = take,
     .draw = draw,
+    .unfinished = unfinished,
+    .choose = choose,
     .legend = legend,
 };

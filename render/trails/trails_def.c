@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A trail of a second through as many points as a window has pictures: where the box moves all are drawn anew
-   for each picture. */
-const TrailsDef trails_usual = {.stride = 20, .length = 1, .width = 1.5, .ids = "all"};
+/* A trail of a second through as many points as a window has pictures; as many pieces while it moves as two
+   processors draw in some 5 ms. */
+const TrailsDef trails_usual = {.stride = 20, .length = 1, .width = 1.5, .moving = 50000, .ids = "all"};
 
 #define AT(field) offsetof(TrailsDef, field)
 
@@ -18,10 +18,11 @@ const Key trails_keys[] = {
     MAPPING("view.trails", "of the overlay trails: the paths of particles, beside any view"),
     BOOLEAN("view.trails.show", L, AT(show), "draw them"),
     INTEGER("view.trails.stride", L, 1, 1000000, AT(stride), "every so many particles, by their ids, has one; more than 20,000 at once there are not"),
-    TEXT("view.trails.ids", L, TRAILS_IDS_SIZE, AT(ids), NULL, "all: by stride; or the ids of up to 16 particles, as \"3 17 250\": only these have one"),
+    TEXT("view.trails.ids", L | KEY_WORDS, TRAILS_IDS_SIZE, AT(ids), NULL, "all: by stride; or the ids of up to 16 particles, as [3, 17, 250]: only these have one"),
     NUMBER("view.trails.length", L | O, "s", 0, 1000, AT(length), "from the particle back; older parts have faded"),
     NUMBER("view.trails.every", L, "s", 0, 1000, AT(every), "between two points, at least; 0: 64 in a trail"),
     NUMBER("view.trails.width", L | O, "pixels", 0, 50, AT(width), "of the lines"),
+    INTEGER("view.trails.moving", L, 0, 100000000, AT(moving), "pieces in a picture of the window while camera or box move, where the CPU draws them: fewer and longer ones than at rest; 0: all"),
     NUMBER("view.trails.through", L, "", 0, 1, AT(through), "how much shows of what fluid and solids hide"),
     VEC3("view.trails.region_min", L, "m", -1e6, 1e6, AT(region_min), "the least corner of a box: only particles have one that are in there when they are let in or these keys change; equal corners: all"),
     VEC3("view.trails.region_max", L, "m", -1e6, 1e6, AT(region_max), "its greatest corner"),

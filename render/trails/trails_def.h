@@ -4,7 +4,14 @@
 
 #include "render/frame/overlay.h"
 
-enum { TRAILS_LISTED_MAX = 16, TRAILS_IDS_SIZE = 96, TRAILS_MOST = 20000, TRAILS_POINTS_MAX = 1000 };
+enum { TRAILS_LISTED_MAX = 16, TRAILS_MOST = 20000, TRAILS_POINTS_MAX = 1000 };
+enum { TRAILS_IDS_SIZE = 11 * TRAILS_LISTED_MAX }; /* ids have up to ten digits, each with what follows it */
+
+/* What draws them. */
+typedef enum TrailsBy {
+    TRAILS_AUTO, /* the CPU on a software driver, else the GPU */
+    TRAILS_QUADS /* the GPU, for comparison */
+} TrailsBy;
 
 typedef struct IN_A_ROOM TrailsDef {
     bool show;                              /* as OverlayShow */
@@ -12,10 +19,12 @@ typedef struct IN_A_ROOM TrailsDef {
     double length;                          /* s */
     double every;                           /* s between points; 0: length / 64 */
     double width;                           /* pixels */
+    int moving;                             /* pieces a picture while camera or box move; 0: all */
     double through;                         /* how much of what is hidden shows, 0 .. 1 */
     double region_min[3], region_max[3];    /* m, box's frame: only what starts in there; equal: wherever */
     double plane_point[3], plane_normal[3]; /* only what has crossed that plane; a normal of 0: all */
     char ids[TRAILS_IDS_SIZE];              /* "3 17 250": only these; "all": by stride */
+    TrailsBy by;                            /* no key */
 } TrailsDef;
 
 extern const OverlayKind overlay_trails;

@@ -183,6 +183,13 @@ static void show(const ViewDef *def, Frame *frame)
     frame->beyond[0] = frame->beyond[1] = false;
 }
 
+/* Where the rays show the fluid: translucent fluid where it hides half of what is behind. */
+static ViewProbing probing(const void *state, const ViewDef *def)
+{
+    (void)state;
+    return (ViewProbing){.by = volume_def(def)->show == VOLUME_SHADED ? VIEW_PROBE_MEAN : VIEW_PROBE_NOTHING};
+}
+
 /* Which colours and opacities volume and shaders carry. */
 static bool same(const Subject *a, const Subject *b)
 {
@@ -212,4 +219,5 @@ const ViewKind view_volume = {
     .show = show,
     .cast = cast,
     .draw = draw,
+    .probing = probing,
 };

@@ -12,6 +12,6 @@ vec3 particle_color(uint index)
         return fluid_color[fluid_words[index * fluid_stride] & 7u].rgb;
     float value = (scalar_words[index * scalar_stride] - range_low) * range_scale;
     if (is_nan(value))
-        return vec3(1.0, 0.0, 0.6);
+        return no_number_color;
     return texelFetch(colormap, ivec2(clamp(value, 0.0, 1.0) * 255.0 + 0.5, 0), 0).rgb;
 }

@@ -12,6 +12,7 @@ layout(location = MOMENT_SCALE_AT) uniform float moment_scale;   // 20 n / h^(d 
 layout(location = TWO_DIMENSIONS_AT) uniform uint two_dimensions;
 layout(location = PERIOD_AT) uniform vec3 period;                // of periodic sides, m; 0: there are walls
 layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // of the box's origin, in the box's axes, m/s
+layout(location = NOW_AT) uniform float now;                      // of the state, s
 layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // of the box, in its axes, rad/s
 
 #ifdef NEAR
@@ -99,6 +100,13 @@ vec3 curl(mat3 gradient) // gradient[b][a] = d v_a / d x_b
 }
 #endif
 
+// None is negative: between two states one may be shown that the later of them sent out. What is not known stays so.
+float age_since(float born)
+{
+    float age = now - born;
+    return age < 0.0 ? 0.0 : age;
+}
+
 void main()
 {
     uint at = invocation();
@@ -119,5 +127,6 @@ void main()
 #endif
     vec3 velocity = velocity_of(i);
     float carried = carried_of(i);
+    vec3 three = three_of(i);
     derived[i] = VALUE;
 }

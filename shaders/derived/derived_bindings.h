@@ -6,6 +6,9 @@
 /* Storage buffers */
 #define VELOCITIES_STORAGE 3
 #define DERIVED_STORAGE    9
+#define THREES_STORAGE     4 /* and the two behind it: of passes that need no neighbours */
+#define IDS_STORAGE        4 /* of the pass that needs births */
+#define BIRTHS_STORAGE     5
 /* of ranges */
 #define RANKS_FOUND_STORAGE 4
 #define RANK_BINS_STORAGE   5
@@ -22,5 +25,7 @@
 #define FRAME_VELOCITY_AT  21
 #define FRAME_TURN_AT      22
 #define DIGIT_AT           23
+#define NOW_AT             24
+#define BIRTHS_COUNT_AT    25
 
 #endif

@@ -46,8 +46,10 @@ Hit meet_disc(Hit best, vec3 ray, vec3 from, float at, float radius)
 vec3 albedo()
 {
     float level = clamp((value - range_low) * range_scale, 0.0, 1.0) * 255.0 + 0.5;
-    if (plain.a > 0.0 || is_nan(value))
+    if (plain.a > 0.0)
         return plain.rgb;
+    if (is_nan(value))
+        return no_number_color;
     return is_fluid != 0u ? fluid_color[uint(value + 0.5) & 7u].rgb : texelFetch(colormap, ivec2(level, 0), 0).rgb;
 }
 

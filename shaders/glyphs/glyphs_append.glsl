@@ -6,15 +6,19 @@ struct Arrow {
     vec4 vector; // x y z in its unit; 0
 };
 
-// The first five words are those of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins.
-layout(std430, binding = GLYPH_COMMAND_STORAGE) buffer Command { uint command[5 + GLYPH_BINS]; };
+// The first five words are those of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins, and how many arrows
+// are left out because they are no numbers.
+layout(std430, binding = GLYPH_COMMAND_STORAGE) buffer Command { uint command[5 + GLYPH_BINS + 1]; };
 layout(std430, binding = GLYPH_ARROWS_STORAGE) writeonly buffer Arrows { Arrow arrows[]; };
 
-// What is no number, or no arrow at all, is none.
+// What is no number has no arrow, nor has what stands still.
 void append(vec3 at, vec3 vector, float value)
 {
     float square = dot(vector, vector);
-    if (is_nan(vec4(at, square)) || square > 1e30 || square <= 0.0 || any(greaterThan(abs(at), vec3(1e30))))
+    bool unknown = is_nan(vec4(at, square)) || square > 1e30 || any(greaterThan(abs(at), vec3(1e30)));
+    if (unknown)
+        atomicAdd(command[5 + GLYPH_BINS], 1u);
+    if (unknown || square <= 0.0)
         return;
     uint place = atomicAdd(command[0], 6u) / 6u;
     arrows[place] = Arrow(vec4(at, value), vec4(vector, 0.0));

@@ -5,15 +5,13 @@
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
 #include "common/nan.glsl"
+#include "common/curve.glsl"
 
 #ifndef LEAST
 #define LEAST 0.0
 #endif
 layout(local_size_x = 64) in;
 layout(location = CURVE_PARTICLES_AT) uniform uint particles;   // how many
-layout(location = CURVE_POINTS_AT) uniform uint points;         // how many; 0: the curve is 1
-layout(location = CURVE_RANGE_AT) uniform vec2 scalar_range;    // its low end, 1 / its width
-layout(location = CURVE_POINT_AT) uniform vec2 point[CURVE_POINTS_MAX];
 #ifdef VEILED
 #include "common/particle_ids.glsl"
 layout(std430, binding = VEILS_STORAGE) writeonly buffer Veils { vec2 veil[]; };
@@ -22,19 +20,6 @@ layout(std430, binding = SHAPES_STORAGE) buffer Shapes { vec4 shape[]; };
 #else
 layout(std430, binding = SHAPES_STORAGE) buffer Shapes { float shape_radius[]; };
 #endif
-
-// Straight lines, constant beyond the ends: lines_at in sim/base/lines.c.
-float curve_at(float x)
-{
-    uint k = 0u;
-    while (k + 1u < points && point[k + 1u].x <= x)
-        k++;
-    if (points == 0u)
-        return 1.0;
-    if (k + 1u == points || x <= point[0].x)
-        return point[k].y;
-    return mix(point[k].y, point[k + 1u].y, (x - point[k].x) / (point[k + 1u].x - point[k].x));
-}
 
 void main()
 {

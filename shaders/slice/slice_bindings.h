@@ -5,6 +5,7 @@
 
 /* Texture units */
 #define SUMS_UNIT 1
+#define VEIL_UNIT 6 /* the sums of the scalar by which opacity goes */
 
 /* Locations of uniforms */
 #define SHOWN_AT    16

@@ -1,7 +1,12 @@
 // Colours of the sums: the colormap's, magenta where most is no number, nothing where there is no fluid.
 #include "common/frame.glsl"
+#include "common/nan.glsl"
 #include "shaders/slice/slice_bindings.h"
 
+#ifdef VEILED
+#include "common/curve.glsl"
+layout(binding = VEIL_UNIT) uniform sampler2D veils;
+#endif
 layout(binding = SUMS_UNIT) uniform sampler2D sums;
 layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
 layout(location = SHOWN_AT) uniform uint shown;
@@ -10,6 +15,17 @@ layout(location = ISOLINES_AT) uniform uint isolines;
 layout(location = OPACITY_AT) uniform float opacity;
 layout(location = 0) in vec2 share;
 layout(location = 0) out vec4 color;
+
+// How opaque the plane is there, by a scalar; what is no number is to be seen.
+float veil()
+{
+#ifdef VEILED
+    vec4 sum = texture(veils, share);
+    return sum.b > sum.g ? 1.0 : curve_at((sum.r / max(sum.g, 1e-30) - scalar_range.x) * scalar_range.y);
+#else
+    return 1.0;
+#endif
+}
 
 void main()
 {
@@ -24,6 +40,10 @@ void main()
     color = texelFetch(colormap, ivec2(clamp((value - range_low) * range_scale, 0.0, 1.0) * 255.0 + 0.5, 0), 0);
     float nearest = round(level);
     bool line = isolines > 0u && nearest > 0.5 && nearest < float(isolines) + 0.5 && abs(level - nearest) < 0.7 * wide && wide < 0.7;
-    color.a = opacity;
-    color.rgb = unknown ? vec3(1.0, 0.0, 0.6) : line ? color.rgb * 0.15 : color.rgb;
+    color.a = opacity * veil();
+#ifdef VEILED
+    if (color.a <= 0.0)
+        discard;
+#endif
+    color.rgb = unknown ? no_number_color : line ? color.rgb * 0.15 : color.rgb;
 }

@@ -10,7 +10,6 @@ layout(location = TRAIL_BEFORE_AT) uniform uint before;
 layout(location = TRAIL_EARLIER_AT) uniform uint earlier; // or TRAIL_NO_COLUMN
 layout(location = TRAIL_WRAP_AT) uniform vec3 wrap;       // a longer way leads through a periodic side, m
 layout(location = TRAIL_TIMES_AT) uniform vec2 times;     // of the column before and of this one
-layout(location = TRAIL_KNOWN_AT) uniform uint known;     // 0: their scalars are not those that are shown
 layout(location = HALF_WIDTH_AT) uniform float half_width;
 layout(location = 0) noperspective out float across; // pixels from the line's middle
 layout(location = 1) noperspective out vec2 stamp;   // time and scalar
@@ -67,6 +66,5 @@ void main()
     vec3 here = mix(from, to, share);
     across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 0.5);
     stamp = vec2(mix(times.x, times.y, share), mix(places[a].w, places[b].w, share));
-    stamp.y = known != 0u ? stamp.y : uintBitsToFloat(0x7fc00000u);
     gl_Position = vec4(here.xy / view_tangent + side * across * 2.0 * pixel_size * -here.z, near_plane, -here.z);
 }

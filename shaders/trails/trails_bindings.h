@@ -9,6 +9,7 @@
 #define TRAIL_OWNERS_STORAGE 5
 #define TRAIL_SEEN_STORAGE   6
 #define TRAIL_CLAIMS_STORAGE 7
+#define TRAIL_BLOCKS_STORAGE 4 /* of a picture that the CPU draws */
 
 /* Texture units */
 #define TRAIL_LINES_UNIT 1
@@ -36,5 +37,7 @@
 
 #define TRAIL_NO_COLUMN  0xffffffffu
 #define TRAIL_LISTED_IDS 16
+#define TRAIL_TILE_SIDE  16 /* pixels; */
+#define TRAIL_BLOCK_SIDE 64 /* whole tiles */
 
 #endif

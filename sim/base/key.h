@@ -23,7 +23,9 @@ typedef enum KeyType {
     KEY_COLOR,   /* sRGB 0..1 in the file, linear in the struct: float[3] or double[3] */
     KEY_CURVE,   /* a number or rows [s, number]: double, and a TimeTable at `aux` */
     KEY_RANGE,   /* "auto", "symmetric" or [low, high]: double[2] and bool[2] */
-    KEY_POINTS   /* rows [x, y], x 0 to 1, or the name of such: ControlPoints; `names` are of ControlPreset */
+    KEY_POINTS,  /* rows [x, y], x 0 to 1, or the name of such: ControlPoints; `names` are of ControlPreset */
+    KEY_SETTINGS /* a mapping of paths of keys, or of mappings of such, and their values: a text, in which
+                    each setting is a line "path=value" */
 } KeyType;
 
 enum {
@@ -33,7 +35,8 @@ enum {
     KEY_INDEX = 8,    /* choice: stored as its place in the list (an enum), not as its name */
     KEY_SINGLE = 16,  /* color: stored as float[3] */
     KEY_IDLE = 32,    /* changes no bit of a run; of a mapping: nor do the keys below it */
-    KEY_REBUILD = 64  /* a view whose key it is must be made anew when the value changes */
+    KEY_REBUILD = 64, /* a view whose key it is must be made anew when the value changes */
+    KEY_WORDS = 128   /* of a text: a list of words may stand there too, [3, 17]: stored as "3 17" */
 };
 
 /* What reads some of the keys only: a method, a mode, a part of the scene. Where it is not in use such a key
@@ -54,12 +57,13 @@ typedef struct Key {
     KeyType type;
     unsigned flags;
     const char *unit; /* "" without */
-    double min, max;  /* of each component; of a text, a list or names: its length; equal: not bounded */
-    size_t offset;    /* of the field in the owner's struct or, under "[]", in the innermost list's element */
+    double min,
+        max; /* of each component; of a text, settings, a list or names: its length; equal: not bounded */
+    size_t offset; /* of the field in the owner's struct or, under "[]", in the innermost list's element */
     size_t aux; /* offset of what goes with it: the count of a list or of names (int), a variant's kind (int),
                    a range's bool[2]: automatic, and then symmetric; a curve's TimeTable; a mapping's bool
                    that is false once the mapping is there */
-    size_t size; /* of a text's field, of a list's element: bytes */
+    size_t size; /* of a text's or settings' field, of a list's element: bytes */
     int variant; /* value of the kind */
     /* The names of a KEY_CHOICE or KEY_NAMES: an array of structs (or of pointers alone) that begin with the
        name and are `stride` bytes long, ended by a NULL name; or, for a list that is put together, a

@@ -89,6 +89,11 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
         .path = PATH, .type = KEY_TEXT, .flags = FLAGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),     \
         .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
     }
+#define SETTINGS(PATH, SIZE, AT, FALLBACK, HELP)                                                             \
+    {                                                                                                        \
+        .path = PATH, .type = KEY_SETTINGS, .unit = "", BOUNDS(1, (SIZE)-1), .size = (SIZE),                 \
+        .fallback = FALLBACK, PLACE(AT), .help = HELP                                                        \
+    }
 #define COLOR(PATH, FLAGS, AT, FALLBACK, HELP)                                                               \
     {                                                                                                        \
         .path = PATH, .type = KEY_COLOR, .flags = FLAGS, .unit = "", BOUNDS(0, 1), .fallback = FALLBACK,     \

@@ -12,18 +12,40 @@
     X(FLUID, "fluid", "")                                                                                    \
     X(ID, "id", "")
 
+/* Components of columns that only some methods or terms keep of a particle, and save: NAME, or of three
+   NAME_x, NAME_y and NAME_z, which stand together. A state has those that its scene's columns have; a test
+   holds names and units to the rows of columns. X(ENUM, name, unit) */
+#define OWN_SCALAR_LIST(X)                                                                                   \
+    X(RATE, "rate", "1/s")                                                                                   \
+    X(KEPT_TERM, "kept_term", "J m3")                                                                        \
+    X(TERM, "term", "J m3")                                                                                  \
+    X(BEFORE, "before", "")                                                                                  \
+    X(FRICTION_BEFORE_X, "friction_before_x", "m/s2")                                                        \
+    X(FRICTION_BEFORE_Y, "friction_before_y", "m/s2")                                                        \
+    X(FRICTION_BEFORE_Z, "friction_before_z", "m/s2")                                                        \
+    X(ACCELERATION_X, "acceleration_x", "m/s2")                                                              \
+    X(ACCELERATION_Y, "acceleration_y", "m/s2")                                                              \
+    X(ACCELERATION_Z, "acceleration_z", "m/s2")
+
+/* Of every state, but no column of it: sim/base/births.h. X(ENUM, name, unit) */
+#define BIRTH_SCALAR_LIST(X) X(BORN, "born", "s")
+
 /* Those that pictures derive from a state, of any backend or file: render/derived has a formula for each. */
 #define DERIVED_SCALAR_LIST(X)                                                                               \
     X(VELOCITY_X, "velocity_x", "m/s")                                                                       \
     X(VELOCITY_Y, "velocity_y", "m/s")                                                                       \
     X(VELOCITY_Z, "velocity_z", "m/s")                                                                       \
+    X(ACCELERATION, "acceleration", "m/s2")                                                                  \
     X(KINETIC_ENERGY, "kinetic_energy", "J/m3")                                                              \
     X(VORTICITY, "vorticity", "1/s")                                                                         \
     X(DIVERGENCE, "divergence", "1/s")                                                                       \
-    X(NEIGHBOURS, "neighbours", "")
+    X(NEIGHBOURS, "neighbours", "")                                                                          \
+    X(AGE, "age", "s")
 
 #define SCALAR_LIST(X)                                                                                       \
     STATE_SCALAR_LIST(X)                                                                                     \
+    OWN_SCALAR_LIST(X)                                                                                       \
+    BIRTH_SCALAR_LIST(X)                                                                                     \
     DERIVED_SCALAR_LIST(X)
 
 typedef enum Scalar {
@@ -33,8 +55,9 @@ typedef enum Scalar {
         SCALAR_COUNT
 } Scalar;
 
-/* The scalars of a state come first, so many of them. */
-enum { SCALAR_STATE_COUNT = SCALAR_ID + 1 };
+/* The scalars of a state come first, so many of them, those of OWN_SCALAR_LIST behind the
+   others, and the birth last. */
+enum { SCALAR_OWN = SCALAR_ID + 1, SCALAR_STATE_COUNT = SCALAR_BORN + 1 };
 
 /* In the order of Scalar, ended by a NULL name. */
 typedef struct ScalarRow {
@@ -51,7 +74,9 @@ const char *scalar_unit(Scalar scalar);
     X(VELOCITY, "velocity", "m/s")                                                                           \
     X(VORTICITY, "vorticity", "1/s")                                                                         \
     X(PRESSURE_GRADIENT, "pressure_gradient", "Pa/m")                                                        \
-    X(BOX_VELOCITY, "box_velocity", "m/s")
+    X(BOX_VELOCITY, "box_velocity", "m/s")                                                                   \
+    X(FRICTION_BEFORE, "friction_before", "m/s2")                                                            \
+    X(ACCELERATION, "acceleration", "m/s2")
 
 typedef enum Vector {
 #define X(NAME, name, unit) VECTOR_##NAME,

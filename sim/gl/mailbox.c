@@ -34,6 +34,13 @@ void mailbox_send(Mailbox *mailbox)
     mailbox->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
+/* It has arrived, or never will. */
+static const void *open(Mailbox *mailbox, GLenum arrived)
+{
+    mailbox_forget(mailbox);
+    return arrived == GL_WAIT_FAILED ? NULL : mailbox->mapped;
+}
+
 const void *mailbox_wait(Mailbox *mailbox)
 {
     if (!mailbox->fence)
@@ -42,16 +49,15 @@ const void *mailbox_wait(Mailbox *mailbox)
     do
         arrived = glClientWaitSync(mailbox->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 1000000000);
     while (arrived == GL_TIMEOUT_EXPIRED);
-    mailbox_forget(mailbox);
-    return arrived == GL_WAIT_FAILED ? NULL : mailbox->mapped;
+    return open(mailbox, arrived);
 }
 
 const void *mailbox_look(Mailbox *mailbox)
 {
-    if (!mailbox->fence ||
-        glClientWaitSync(mailbox->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0) == GL_TIMEOUT_EXPIRED)
+    if (!mailbox->fence)
         return NULL;
-    return mailbox_wait(mailbox);
+    const GLenum arrived = glClientWaitSync(mailbox->fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0);
+    return arrived == GL_TIMEOUT_EXPIRED ? NULL : open(mailbox, arrived);
 }
 
 void mailbox_forget(Mailbox *mailbox)

@@ -27,4 +27,10 @@ void world_share(World *world, unsigned attributes, ParticleBuffers *out)
     world_info(world, &info);
     particle_buffers_describe(&info, out);
     world->backend->share(world->state, attributes, out);
+    out->births = &world->births;
+}
+
+bool world_births(const World *world, Births *to)
+{
+    return births_copy(&world->births, to);
 }

@@ -4,6 +4,7 @@
 #ifndef SLOSH_PARTICLE_BUFFERS_H
 #define SLOSH_PARTICLE_BUFFERS_H
 
+#include "sim/base/births.h"
 #include "sim/base/scalar.h"
 #include "sim/box/box_motion.h"
 #include "sim/world/world.h"
@@ -51,6 +52,7 @@ typedef struct ParticleBuffers {
     ParticleAttribute velocity; /* vec4: x y z in the box's frame (m/s); w is the owner's */
     ParticleAttribute fluid;    /* uint */
     ParticleAttribute id;       /* uint */
+    const Births *births;       /* the owner's, by id; NULL: scalar[SCALAR_BORN] says it, or nothing does */
     ParticleAttribute
         scalar[SCALAR_COUNT]; /* float; the derived ones are there in pictures that ask for them */
     ParticleAttribute vector[VECTOR_COUNT]; /* vec4: x y z in the box's axes; in pictures that ask for them */
@@ -71,5 +73,8 @@ void particle_buffers_describe(const WorldInfo *info, ParticleBuffers *out);
    until its next step. world_shares tells whether it has. */
 bool world_shares(const World *world);
 void world_share(World *world, unsigned attributes, ParticleBuffers *out);
+
+/* When the world's particles were born; births_copy says when it fails. */
+bool world_births(const World *world, Births *to);
 
 #endif

@@ -35,10 +35,15 @@ static void across(const Emit *emit, int dimensions, double a[3], double b[3])
     cross_product(u, a, b);
 }
 
+double emit_time(const Emit *emit, double spacing, long index)
+{
+    return emit->start + (double)index * spacing / emit->speed;
+}
+
 void emit_place(const Emit *emit, int dimensions, double spacing, long index, double time, EmitLayer *layer)
 {
     const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    const double out = emit->start + (double)index * spacing / emit->speed, way = (time - out) * emit->speed;
+    const double way = (time - emit_time(emit, spacing, index)) * emit->speed;
     const double radius = (1 + 1e-9) * emit->radius;
     const long reach = (long)(radius / spacing), deep = dimensions == 3 ? reach : 0;
     double a[3], b[3];

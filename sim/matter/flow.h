@@ -18,6 +18,9 @@ typedef struct EmitLayer {
 /* Layers that the emitter sends out in [begin, end) s: the first of them and how many. */
 long emit_layers(const Emit *emit, double spacing, double begin, double end, long *first);
 
+/* When layer `index` comes out, s. */
+double emit_time(const Emit *emit, double spacing, long index);
+
 /* Layer `index` as it is at `time`, had it always moved as it does when it comes out: points of a square
    lattice over the disk, in two dimensions over the line that it is there. Fills count, velocity and, unless
    it is NULL, position, which must have room. */

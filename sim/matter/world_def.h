@@ -135,6 +135,7 @@ typedef struct WorldDef {
     int most;                /* particles that emitters may fill the world up to */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
+    bool acceleration;           /* of particles is kept: sim/change; no bit of a step changes with it */
     BoxLimits limits;            /* of the box in the hand */
     const InitialState *initial; /* NULL: the fills; read by world_create only */
 } WorldDef;

@@ -1,5 +1,6 @@
 #include "sim/world/column.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,23 @@ bool columns_save_own(const ColumnDef *own)
     while (own && own->name && !(own->flags & COLUMN_SAVED && column_own(own) >= 0))
         own++;
     return own && own->name;
+}
+
+void column_scalar_name(const ColumnDef *column, int component, char name[COLUMN_NAME_SIZE])
+{
+    snprintf(name, COLUMN_NAME_SIZE, column->components > 1 ? "%s_%c" : "%s", column->name, 'x' + component);
+}
+
+int columns_place(const ColumnRows *rows, Scalar scalar)
+{
+    char name[COLUMN_NAME_SIZE];
+    for (int r = 0; r < rows->count; r++)
+        for (int k = 0; column_own(rows->row[r]) >= 0 && k < rows->row[r]->components; k++) {
+            column_scalar_name(rows->row[r], k, name);
+            if (strcmp(name, scalar_name(scalar)) == 0)
+                return column_own(rows->row[r]) + k;
+        }
+    return -1;
 }
 
 void **column_array(ParticleColumns *columns, const ColumnDef *column, int component)

@@ -4,13 +4,16 @@
 #ifndef SLOSH_COLUMN_H
 #define SLOSH_COLUMN_H
 
+#include "sim/base/scalar.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 struct Constants; /* sim/world/constants.h */
+struct WorldDef;  /* sim/matter/world_def.h */
 
-enum { COLUMNS_OWN = 28, COLUMNS_KEPT = 25, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_OWN = 31, COLUMNS_KEPT = 25, COLUMNS_SHOWN = 28, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {
@@ -27,7 +30,8 @@ typedef struct ParticleColumns {
     float *viscosity;     /* of the particle's fluid, Pa s */
     float *tension;       /* the same, N/m; of cohesion scaled */
     float *kind;          /* its fluid as a number: pairs of one fluid have the same */
-    float *own[COLUMNS_OWN];   /* of the method: as its rows say; from COLUMNS_KEPT on what terms keep */
+    float *own[COLUMNS_OWN];   /* of the method: as its rows say; from COLUMNS_KEPT on what terms keep; from
+                                  COLUMNS_SHOWN on no step reads it, and NaN is what is not known */
     float *term[COLUMNS_TERM]; /* of terms that methods share (sim/world/method.h): the same */
 } ParticleColumns;
 
@@ -77,6 +81,16 @@ typedef struct ColumnRows {
 /* Rows with all these flags, of those that every method has and of the method's `own` (ended by a NULL name;
    NULL: none). With constants only those that are needed. */
 ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants);
+
+/* The scalar that a component of one of the methods' own is: NAME, or of three NAME_x, NAME_y, NAME_z. */
+enum { COLUMN_NAME_SIZE = 32 };
+void column_scalar_name(const ColumnDef *column, int component, char name[COLUMN_NAME_SIZE]);
+
+/* Which of the methods' own a scalar of OWN_SCALAR_LIST is, of these rows; -1: none of them has it. */
+int columns_place(const ColumnRows *rows, Scalar scalar);
+
+/* The scalars, SCALAR_BIT by SCALAR_BIT, that a state of the def's worlds has of its own. */
+uint32_t columns_scalars(const struct WorldDef *def);
 
 /* The array of a component; free, save and copy go through it. */
 void **column_array(ParticleColumns *columns, const ColumnDef *column, int component);

@@ -43,6 +43,16 @@ ColumnRows columns_saved(const WorldDef *def)
     return rows;
 }
 
+uint32_t columns_scalars(const WorldDef *def)
+{
+    const ColumnRows saved = columns_saved(def);
+    uint32_t scalars = 0;
+    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+        if (s < SCALAR_OWN || columns_place(&saved, (Scalar)s) >= 0)
+            scalars |= UINT32_C(1) << s;
+    return scalars;
+}
+
 ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Constants *constants)
 {
     ColumnRows rows = {0};

@@ -236,6 +236,7 @@ static void fluids_set(Constants *constants, const WorldDef *def)
         constants->viscous |= viscous;
         constants->varies |= fluid->viscosity_table.rows > 0;
     }
+    constants->accelerations = def->acceleration;
     constants->implicit.named = def->viscosity_solver == VISCOSITY_IMPLICIT;
     constants->implicit.on = constants->viscous && constants->implicit.named;
     constants->implicit.tolerance = def->viscosity_tolerance;

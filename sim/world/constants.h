@@ -73,6 +73,7 @@ typedef struct Constants {
     WallDrag drag;         /* made once `no_slip` is first true */
     int dimensions;
     bool emits, drains; /* fluid may come; go */
+    bool accelerations; /* are kept: sim/change */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     Boundary boundary; /* of the solids */

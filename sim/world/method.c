@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-extern const Term term_viscosity;
+extern const Term term_viscosity, term_change;
 
-const Term *const shared_terms[] = {&term_viscosity, NULL};
+const Term *const shared_terms[] = {&term_viscosity, &term_change, NULL};
 
 extern const Method method_mueller, method_wcsph, method_dfsph, method_pbf;
 

@@ -137,10 +137,16 @@ typedef struct Term {
     const Pass *const *passes;  /* all of them, ended by NULL */
     const ShaderTerm *terms;    /* ended by a NULL name; NULL: none */
     const ShaderBuffer *buffer; /* one; NULL: none */
-    int solve;                  /* its number among the solvers of a step, from SOLVES_OF_METHOD on */
+    int solve; /* its number among the solvers of a step, from SOLVES_OF_METHOD on; -1: it has none */
     MethodSolver solver;
-    /* Before the kick: the accelerations of all else become those of the step. */
+    /* Before the kick: the accelerations of all else become those of the step. NULL: nothing. */
     void (*substep)(const struct Substep *step);
+    /* Before and behind all of a step. NULL: nothing. */
+    void (*begin)(const struct Substep *step);
+    void (*end)(const struct Substep *step);
+    /* Where no step has filled the columns that are saved: in a new world, and in one that goes on from a
+       state without them. NULL: 0 is right. */
+    const Pass *unknown;
 } Term;
 
 /* All of them, ended by NULL. */

@@ -55,6 +55,20 @@ static float scalar_of(const ParticleColumns *p, const Constants *constants, Sca
     }
 }
 
+/* NULL: the state has none of that name. */
+static const float *own_of(const ParticleColumns *p, const Constants *constants, Scalar scalar)
+{
+    const ColumnRows saved = column_rows(constants->method->columns, COLUMN_SAVED, constants);
+    const int place = columns_place(&saved, scalar);
+    return place < 0 ? NULL : p->own[place];
+}
+
+static void read_own(const float *own, const uint32_t *at, size_t begin, size_t end, float *out)
+{
+    for (size_t k = begin; k < end; k++)
+        out[k] = own ? own[at ? at[k] : k] : NAN;
+}
+
 void particles_read(const ParticleColumns *p, const Constants *constants, const uint32_t *at, size_t begin,
                     size_t end, const ParticleArrays *out)
 {
@@ -73,9 +87,12 @@ void particles_read(const ParticleColumns *p, const Constants *constants, const 
         if (out->id)
             out->id[k] = p->id[i];
     }
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++)
+    for (int s = 0; s < SCALAR_OWN; s++)
         for (size_t k = begin; out->scalar[s] && k < end; k++)
             out->scalar[s][k] = scalar_of(p, constants, (Scalar)s, at ? at[k] : k);
+    for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
+        if (out->scalar[s])
+            read_own(own_of(p, constants, (Scalar)s), at, begin, end, out->scalar[s]);
     for (int c = 0; c < COLUMNS_OWN; c++)
         for (size_t k = begin; out->own[c] && p->own[c] && k < end; k++)
             out->own[c][k] = p->own[c][at ? at[k] : k];

@@ -108,7 +108,7 @@ typedef struct EnergySums {
 typedef struct ParticleArrays {
     float *position; /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
     float *velocity; /* 4 a particle: x y z (box frame, m/s), 0 */
-    float *scalar[SCALAR_STATE_COUNT]; /* 1 a particle */
+    float *scalar[SCALAR_STATE_COUNT]; /* 1 a particle; NaN: a column that the state has not */
     uint32_t *fluid;                   /* index into WorldDef.fluids */
     uint32_t *id;                      /* place in the initial state */
     float *own[COLUMNS_OWN]; /* 1 a particle: the method's own columns; on a GPU those that are kept */

@@ -43,9 +43,21 @@ static inline void substep_run(const Substep *step, const Pass *pass, double dt)
 static inline void substep_terms(const Substep *step)
 {
     for (const Term *const *term = shared_terms; *term; term++)
-        if ((*term)->needed(step->constants))
+        if ((*term)->substep && (*term)->needed(step->constants))
             STAGE (step->clock, STAGE_SOLVE)
                 (*term)->substep(step);
+}
+
+/* A step of the method, with what stands before and behind it. */
+static inline void substep_whole(const Substep *step, void (*method)(const Substep *step))
+{
+    for (const Term *const *term = shared_terms; *term; term++)
+        if ((*term)->begin && (*term)->needed(step->constants))
+            (*term)->begin(step);
+    method(step);
+    for (const Term *const *term = shared_terms; *term; term++)
+        if ((*term)->end && (*term)->needed(step->constants))
+            (*term)->end(step);
 }
 
 /* The kick of a step, and what emitters make of it. */

@@ -93,6 +93,11 @@ bool world_gauge(World *world, WorldGauge *gauge);
    False with the reason: the backend has no such sums, or memory is short. */
 bool world_feel(World *world, Error *error);
 
+/* From now on the world keeps the acceleration of its particles, as if WorldDef.acceleration had been set; it
+   is not known before the next step. Nothing where it does already. False with the reason: the backend
+   cannot, or memory is short. */
+bool world_keep_acceleration(World *world, Error *error);
+
 /* The means since the last call, or since world_feel; `seconds` is 0 where there was no step. Steps that the
    sentinel took back do not count. */
 void world_forces(World *world, Forces *forces);

@@ -1,6 +1,9 @@
 #include "sim/world/world_struct.h"
 
+#include <stdlib.h>
+
 static const uint64_t IDS = 0x7fffffff;
+enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to look through: ids are read back from a GPU */
 
 static void let_in(World *world, int fluid, const Emit *emit, double begin, double end)
 {
@@ -19,16 +22,32 @@ static void let_in(World *world, int fluid, const Emit *emit, double begin, doub
         if (born + layer.count > IDS)
             most = 0;
         const size_t more = world->backend->emit(world->state, &layer, most);
+        if (more > 0)
+            births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
         world->emitted += more;
         world->count += more;
     }
 }
 
-void world_flow(World *world)
+/* So that a layer is either in with the time of its birth, or the step is not begun. */
+static bool reserve(World *world, double begin, double end)
+{
+    const WorldDef *def = &world->def;
+    size_t layers = 0;
+    long first;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++)
+            layers += (size_t)emit_layers(&def->fluids[f].emits[i], def->spacing, begin, end, &first);
+    return births_reserve(&world->births, layers);
+}
+
+bool world_flow(World *world, Error *error)
 {
     const WorldDef *def = &world->def;
     const double begin = world_time_at(world, (double)world->step);
     const double end = world_time_at(world, (double)world->step + 1);
+    if (!reserve(world, begin, end))
+        return error_set(error, "no memory for when particles were born");
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++)
             let_in(world, f, &def->fluids[f].emits[i], begin, end);
@@ -37,4 +56,15 @@ void world_flow(World *world)
         world->drained += less;
         world->count -= less;
     }
+    return true;
+}
+
+void world_thin_births(World *world)
+{
+    Births *births = &world->births;
+    uint32_t *id = births->count > BIRTHS_FEW ? malloc((world->count + 1) * sizeof *id) : NULL;
+    if (id && world_read(world, &(ParticleArrays){.id = id}))
+        births_keep(births, id, world->count);
+    free(id);
+    world->births_most = 2 * births->count > BIRTHS_FEW ? 2 * births->count : BIRTHS_FEW;
 }

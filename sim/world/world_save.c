@@ -11,6 +11,7 @@
 void world_state_free(WorldState *state)
 {
     columns_destroy(&state->particles);
+    births_free(&state->births);
     *state = (WorldState){.count = 0};
 }
 
@@ -23,10 +24,16 @@ bool world_state_reserve(WorldState *state, const WorldDef *def, size_t count)
     state->method = method;
     state->capacity = count > state->capacity ? count : state->capacity;
     state->count = count;
+    state->births.count = 0;
     if (columns_create(&state->particles, &saved, state->capacity, NULL))
         return true;
     world_state_free(state);
     return false;
+}
+
+size_t world_births_bytes(const World *world)
+{
+    return world->births.count * sizeof(Birth);
 }
 
 void world_save_numbers(World *world, WorldNumbers *numbers)
@@ -69,6 +76,7 @@ bool world_save(World *world, WorldState *state, Error *error)
     if (!world_sound(world))
         return not_sound(world, error);
     if (!world_state_reserve(state, &world->def, world->count) ||
+        !births_copy(&world->births, &state->births) ||
         !world->backend->save(world->state, &state->particles))
         return error_set(error, "no memory for the state of %zu particles", world->count);
     world_save_numbers(world, &state->numbers);
@@ -97,7 +105,7 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
 static bool own_finite(const ParticleColumns *p, size_t i)
 {
     bool finite = true;
-    for (int k = 0; k < COLUMNS_OWN; k++)
+    for (int k = 0; k < COLUMNS_SHOWN; k++)
         finite &= !p->own[k] || isfinite(p->own[k][i]);
     return finite;
 }
@@ -134,7 +142,18 @@ void world_put_back(World *world, const WorldNumbers *numbers, size_t count)
     world->count = count;
     world->emitted = (uint64_t)numbers->emitted;
     world->drained = (uint64_t)numbers->drained;
+    births_cut(&world->births, world->initial + world->emitted);
     world_settle(world);
+}
+
+/* Of a state that does not say when particles were born, those of emitters are of no known time. */
+static bool take_births(World *world, const WorldState *state, Births *births)
+{
+    if (!births_copy(&state->births, births) || !births_reserve(births, 1))
+        return false;
+    if (births->count == 0 && state->numbers.emitted > 0)
+        births_add(births, (uint32_t)world->initial, NAN);
+    return true;
 }
 
 bool world_load(World *world, const WorldState *state, Error *error)
@@ -144,14 +163,19 @@ bool world_load(World *world, const WorldState *state, Error *error)
         return false;
     const WorldDef before = world->def;
     WorldDef def = before;
+    Births births = {0};
     Error none;
     live_load(numbers->live, &def);
     if (!world_adopt(world, &def, error))
         return false;
-    if (!world->backend->load(world->state, &state->particles, state->count, (size_t)numbers->guarded)) {
+    if (!take_births(world, state, &births) ||
+        !world->backend->load(world->state, &state->particles, state->count, (size_t)numbers->guarded)) {
+        births_free(&births);
         world_adopt(world, &before, &none);
         return error_set(error, "no memory for the state of %zu particles", state->count);
     }
+    births_free(&world->births);
+    world->births = births;
     world->step = (uint64_t)numbers->step;
     world->since_step = (uint64_t)numbers->since_step;
     world->since_time = numbers->since_time;
@@ -162,6 +186,7 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
     world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);
+    world_forget(world, &state->particles);
     return sentinel_mark(world, error);
 }
 

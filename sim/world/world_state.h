@@ -3,6 +3,7 @@
 #ifndef SLOSH_WORLD_STATE_H
 #define SLOSH_WORLD_STATE_H
 
+#include "sim/base/births.h"
 #include "sim/world/column.h"
 #include "sim/world/live.h"
 #include "sim/world/method.h"
@@ -53,7 +54,11 @@ typedef struct WorldState {
     size_t count, capacity;    /* particles; room for them */
     const Method *method;      /* whose columns these are, beside those of terms that its def names */
     ParticleColumns particles; /* those that are saved */
+    Births births;             /* none, where emitters sent some out: not known */
 } WorldState;
+
+/* Of what world_save copies beside the particles. */
+size_t world_births_bytes(const World *world);
 
 /* Room for so many particles of a def; what was in it is lost. False when memory is short: then it is
  * empty. */

@@ -60,6 +60,14 @@ static void start_method(World *world)
             world->backend->run(world->state, *pass, &(PassInput){0});
 }
 
+void world_forget(World *world, const ParticleColumns *known)
+{
+    for (const Term *const *term = shared_terms; *term; term++)
+        if ((*term)->unknown && (*term)->needed(&world->constants) &&
+            !(known && known->own[column_own((*term)->columns)]))
+            world->backend->run(world->state, (*term)->unknown, &(PassInput){0});
+}
+
 static bool names_check(const WorldDef *def, Error *error)
 {
     if (!backend_find(def->backend))
@@ -131,6 +139,7 @@ World *world_create(const WorldDef *def, Error *error)
     box_at(world, &world->filter, 0, &world->box);
     world_settle(world);
     start_method(world);
+    world_forget(world, NULL);
     energy_sound(world);
     if (sentinel_mark(world, error)) /* what it needs is there before the first step */
         return world;
@@ -146,6 +155,7 @@ void world_destroy(World *world)
         world->backend->destroy(world->state);
     constants_destroy(&world->constants);
     world_state_free(&world->good);
+    births_free(&world->births);
     free(world->layer);
     free(world);
 }
@@ -219,6 +229,8 @@ static bool begin_step(World *world, Error *error)
     StepState *s = &world->stepping;
     if (s->frame_left < 1) {
         sentinel_relieve(world);
+        if (world->births.count > world->births_most)
+            world_thin_births(world);
         if (!sentinel_mark(world, error))
             return false;
         s->frame_left = world->def.step_mode == STEP_CFL ? 1 : world->def.substeps * s->refine;
@@ -262,13 +274,16 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     }
     if (!begin_step(world, error))
         return false;
+    bool flowed = true;
     if (world->layer || world->def.drain_count > 0)
         STAGE (clock, STAGE_INTEGRATE)
-            world_flow(world);
+            flowed = world_flow(world, error);
+    if (!flowed)
+        return false;
     substep_prepare(world, clock, &step);
     if (world->backend->enter)
         world->backend->enter(world->state);
-    world->method->substep(&step);
+    substep_whole(&step, world->method->substep);
     if (world->backend->leave)
         world->backend->leave(world->state);
     world->kicked = true;
@@ -359,6 +374,18 @@ bool world_change(World *world, const WorldDef *def, Error *error)
     return true;
 }
 
+bool world_keep_acceleration(World *world, Error *error)
+{
+    WorldDef def = world->def;
+    def.acceleration = true;
+    if (world->def.acceleration)
+        return true;
+    if (!world_adopt(world, &def, error))
+        return false;
+    world_forget(world, NULL);
+    return sentinel_mark(world, error);
+}
+
 void world_info(const World *world, WorldInfo *info)
 {
     *info = (WorldInfo){
@@ -399,7 +426,24 @@ void world_sums(World *world, WorldSums *sums)
     world->backend->sums(world->state, sums);
 }
 
+/* By ids of its own: those of `out` may lie where it is slow to read. */
+static bool read_born(World *world, const ParticleArrays *out)
+{
+    ParticleArrays all = *out;
+    uint32_t *id = malloc((world->count + 1) * sizeof *id);
+    all.id = id;
+    all.scalar[SCALAR_BORN] = NULL;
+    const bool read = id && world->backend->read(world->state, &all);
+    for (size_t i = 0; read && i < world->count; i++) {
+        out->scalar[SCALAR_BORN][i] = births_time(&world->births, id[i]);
+        if (out->id)
+            out->id[i] = id[i];
+    }
+    free(id);
+    return read;
+}
+
 bool world_read(World *world, const ParticleArrays *out)
 {
-    return world->backend->read(world->state, out);
+    return out->scalar[SCALAR_BORN] ? read_born(world, out) : world->backend->read(world->state, out);
 }

@@ -16,6 +16,8 @@ struct World {
     void *state;                     /* the backend's */
     size_t count, initial, capacity; /* particles: now, at the start, at most */
     uint64_t emitted, drained;       /* since the start */
+    Births births;                   /* of those that were emitted and, but for the newest, are not gone */
+    size_t births_most;              /* with more than these it is looked who is gone */
     float *layer;                    /* room for an emitter's layer; NULL without emitters */
     uint64_t step;
     uint64_t since_step; /* when the present step size began, */
@@ -42,11 +44,19 @@ struct World {
 /* Makes the backend's state from the def's initial state or fills, with constants that are there. */
 bool world_start(World *world, Error *error);
 
-/* Adds the fluid that emitters send out in the step ahead, and takes fluid out of the drains. */
-void world_flow(World *world);
+/* Adds the fluid that emitters send out in the step ahead, and takes fluid out of the drains. False, and
+   nothing done, when memory is short. */
+bool world_flow(World *world, Error *error);
+
+/* Leaves out the births of layers that are gone. Before a state to go back to is marked: that one may have
+   them still. */
+void world_thin_births(World *world);
 
 /* What follows from the particles alone: the solids' places, grid, densities. */
 void world_settle(World *world);
+
+/* What terms keep of particles and `known` (NULL: nothing) has not, is not known. */
+void world_forget(World *world, const ParticleColumns *known);
 
 /* Particles that the backend has got back or taken: how many, and all that follows from them. */
 void world_put_back(World *world, const WorldNumbers *numbers, size_t count);

@@ -1,6 +1,7 @@
 /* The solver on the window's own thread, its backend on the GPU; and from one backend to another. */
 #include "tests/app/output_fixture.h"
 
+#include "app/beside/company.h"
 #include "app/session/headless.h"
 #include "app/session/recording_play.h"
 #include "app/session/simulator.h"
@@ -42,7 +43,8 @@ static void rig_open_text(Rig *rig, const char *text, bool paused)
     const SimulatorSetup setup = {.scene = &rig->scene, .recording = &rig->recording, .paused = paused};
     rig->simulator = simulator_create(&setup, &error);
     assert_non_null(rig->simulator);
-    rig->upload = upload_create(400, PARTICLE_SCALAR(SCALAR_SPEED), &error);
+    rig->upload =
+        upload_create(400, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_SCALAR(SCALAR_ACCELERATION_Y), &error);
 }
 
 static void rig_open(Rig *rig, bool paused)
@@ -76,7 +78,7 @@ static void it_works_when_asked(void **state)
     ParticleBuffers particles;
     rig_open(&rig, true);
     simulator_status(rig.simulator, &rig.status);
-    assert_true(rig.status.ready && simulator_here(rig.simulator) && simulator_fresh(rig.simulator));
+    assert_true(rig.status.ready && simulator_on_gpu(rig.simulator) && simulator_fresh(rig.simulator));
     assert_true(isinf(simulator_work(rig.simulator, 5))); /* paused: nothing is due */
     assert_true(simulator_share(rig.simulator, PARTICLE_SCALAR(SCALAR_SPEED), &particles));
     assert_true(particles.count == 400 && particles.position.buffer && particles.step == 0);
@@ -101,13 +103,58 @@ static void move(Rig *rig, const char *backend)
     char now[NAME_SIZE];
     must(simulator_move(rig->simulator, &command, rig->upload, now, &error));
     assert_string_equal(now, backend);
-    assert_int_equal(simulator_here(rig->simulator), strcmp(backend, "cpu") != 0);
+    assert_int_equal(simulator_on_gpu(rig->simulator), strcmp(backend, "cpu") != 0);
+}
+
+/* Of the first particle, m/s2. */
+static double acceleration(Rig *rig)
+{
+    ParticleBuffers particles;
+    float a;
+    if (simulator_on_gpu(rig->simulator)) {
+        must(simulator_share(rig->simulator, PARTICLE_SCALAR(SCALAR_ACCELERATION_Y), &particles));
+    } else {
+        must(upload_take(rig->upload, &particles));
+    }
+    const ParticleAttribute *from = &particles.scalar[SCALAR_ACCELERATION_Y];
+    assert_true(from->buffer);
+    glGetNamedBufferSubData(from->buffer, (GLintptr)from->offset, sizeof a, &a);
+    return (double)a;
+}
+
+/* From the next step on, over a reset and on another backend too. */
+static void accelerations_are_kept_from_when_they_are_asked_for(void **state)
+{
+    (void)state;
+    const SimCommand command = {.kind = SIM_SET, .setting = "solver.acceleration=true"};
+    char now[NAME_SIZE];
+    Rig rig;
+    rig_open(&rig, true);
+    simulator_single_step(rig.simulator, false);
+    until_step(&rig, 5);
+    must(simulator_move(rig.simulator, &command, rig.upload, now, &error));
+    assert_string_equal(now, "compute");
+    assert_true(isnan(acceleration(&rig)));
+    simulator_single_step(rig.simulator, false);
+    until_step(&rig, 10);
+    const double was = acceleration(&rig);
+    assert_true(isfinite(was));
+    move(&rig, "cpu");
+    assert_true(acceleration(&rig) == was);
+    simulator_reset(rig.simulator);
+    simulator_single_step(rig.simulator, false);
+    do {
+        usleep(1000);
+        simulator_status(rig.simulator, &rig.status);
+    } while (rig.status.step != 5);
+    assert_true(isfinite(acceleration(&rig)));
+    rig_close(&rig);
 }
 
 static double height(Rig *rig)
 {
     ParticleBuffers particles;
-    if (simulator_here(rig->simulator)) {
+    if (simulator_on_gpu(rig->simulator)) {
         must(simulator_share(rig->simulator, 0, &particles));
     } else {
         must(upload_take(rig->upload, &particles));
@@ -169,7 +216,7 @@ static void a_reset_stays_on_its_backend(void **state)
         usleep(1000);
         simulator_status(rig.simulator, &rig.status);
     } while (rig.status.step != 0);
-    assert_false(rig.status.failed || simulator_here(rig.simulator));
+    assert_false(rig.status.failed || simulator_on_gpu(rig.simulator));
     simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     rig_close(&rig);
@@ -218,16 +265,24 @@ static void a_failed_start_goes_on_elsewhere(void **state)
     recording_destroy(&recording);
 }
 
+/* In a copy, from which they are read from now on. */
+static void break_shader(const char *name)
+{
+    char command[512];
+    snprintf(command, sizeof command,
+             "rm -rf shaders && cp -r " SLOSH_SOURCE_DIR "/shaders . && echo 'float x = ;' >> shaders/%s",
+             name);
+    assert_int_equal(system(command), 0);
+    shader_source_set_directory("shaders");
+}
+
 /* Shaders that were broken while it runs: said, and the last good ones go on. */
 static void broken_shaders_leave_the_last_good_ones(void **state)
 {
     (void)state;
     Rig rig;
     rig_open(&rig, true);
-    assert_int_equal(system("rm -rf shaders && cp -r " SLOSH_SOURCE_DIR
-                            "/shaders . && echo 'float x = ;' >> shaders/sim/compute/kick.comp"),
-                     0);
-    shader_source_set_directory("shaders");
+    break_shader("sim/compute/kick.comp");
     assert_false(simulator_reload(rig.simulator, &error));
     assert_non_null(strstr(error.message, "sim/compute/kick.comp:"));
     simulator_single_step(rig.simulator, false);
@@ -257,6 +312,58 @@ static void gauges_come_late(void **state)
     rig_close(&rig);
 }
 
+/* What follows on the GPU and cannot begin anew shows nothing, and not what was freed. */
+static void what_follows_and_fails_is_empty(void **state)
+{
+    (void)state;
+    static Scene scene;
+    char text[sizeof still + 80];
+    Notes notes = {.count = 0};
+    SceneSettings settings = {.count = 0};
+    Company *company;
+    Simulator *followers[SIMULATOR_FOLLOWERS];
+    ParticleBuffers particles;
+    Rig rig = {.upload = NULL};
+    snprintf(text, sizeof text, "%sviews: [{}, {set: {solver.method: dfsph}}]\n", still);
+    must(scene_parse("a.yaml", text, strlen(text), &settings, &scene, NULL, &error) &&
+         recording_create(&rig.recording, "a.yaml", text, strlen(text), &settings, &error));
+    const CompanySetup reads = {.scene = &scene, .text = text, .size = strlen(text), .settings = &settings};
+    must(company_read(&reads, &company, &notes, &error));
+    SimulatorSetup setup = {.scene = &scene, .recording = &rig.recording, .paused = true};
+    must(company_start(company, &setup, &error));
+    setup.followers = followers;
+    setup.follower_count = company_followers(company, followers);
+    assert_int_equal(setup.follower_count, 1);
+    rig.simulator = simulator_create(&setup, &error);
+    assert_non_null(rig.simulator);
+    simulator_single_step(rig.simulator, false);
+    until_step(&rig, 5);
+    const ParticleBuffers *shown = company_state(company, &scene.views[1]);
+    assert_true(company_take(company, rig.status.time));
+    assert_true(shown->count == 400 && shown->position.buffer);
+    must(simulator_share(rig.simulator, PARTICLE_SCALAR(SCALAR_SPEED), &particles));
+    simulator_step_back(rig.simulator, false); /* without a past nothing is new */
+    do {
+        simulator_work(rig.simulator, 1);
+        simulator_status(rig.simulator, &rig.status);
+    } while (rig.status.past.travelling);
+    assert_true(!simulator_fresh(rig.simulator) && !company_fresh(company));
+    break_shader("sim/dfsph/force.comp");
+    simulator_reset(rig.simulator);
+    do {
+        simulator_work(rig.simulator, 1);
+        simulator_status(rig.simulator, &rig.status);
+    } while (rig.status.step != 0);
+    shader_source_set_directory(NULL);
+    company_take(company, rig.status.time);
+    assert_true(shown->count == 0 && !shown->position.buffer && !shown->births);
+    assert_true(company_message(company, (char[1280]){0}));
+    assert_false(rig.status.failed);
+    assert_true(simulator_destroy(rig.simulator, 10000));
+    company_destroy(company);
+    recording_destroy(&rig.recording);
+}
+
 static int setup(void **state)
 {
     context = headless_create(HEADLESS_GPU_AUTO, &error);
@@ -275,11 +382,13 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_works_when_asked),
         cmocka_unit_test(the_backend_changes_while_it_runs),
+        cmocka_unit_test(accelerations_are_kept_from_when_they_are_asked_for),
         cmocka_unit_test(a_reset_stays_on_its_backend),
         cmocka_unit_test(a_backend_that_is_none_changes_nothing),
         cmocka_unit_test(a_failed_start_goes_on_elsewhere),
         cmocka_unit_test(gauges_come_late),
         cmocka_unit_test(broken_shaders_leave_the_last_good_ones),
+        cmocka_unit_test(what_follows_and_fails_is_empty),
     };
     return cmocka_run_group_tests_name("app.simulator_gpu", tests, setup, teardown);
 }

@@ -1,6 +1,8 @@
 """`render --compare`: panels are the pictures of their settings, with one range, at one time; what is wrong starts nothing."""
 import json
+import os
 import re
+import shutil
 import signal
 import subprocess
 from time import sleep as wait
@@ -71,7 +73,7 @@ class Panels(CompareTest):
     def test_two_keys_are_a_table(self):
         _, result = self.compare('--compare', 'method=mueller,dfsph', '--compare', 'view.colormap=viridis,gray')
         self.assertEqual([p['setting'] for p in result['panels']],
-                         [f'solver.method {m}, view.colormap {c}' for m in ('mueller', 'dfsph') for c in ('viridis', 'gray')])
+                         [f'method {m}, view.colormap {c}' for m in ('mueller', 'dfsph') for c in ('viridis', 'gray')])
         self.assertEqual([p['world'] for p in result['panels']], [0, 0, 1, 1])
         self.assertEqual([p['run']['method'] for p in result['panels']], ['mueller', 'mueller', 'dfsph', 'dfsph'])
         scale = 'view.range=[{:.9g}, {:.9g}]'.format(*result['panels'][0]['range'])
@@ -136,6 +138,96 @@ class Views(CompareTest):
         self.assertIn('2 settings with 3 views each are 6 panels; at most 4 have room', said)
 
 
+class Beside(CompareTest):
+    """Panels of one picture that show other states: of other settings, of a file."""
+    PLAIN = ('--set', 'view.legend=false', '--set', 'view.range=[0, 1]')
+
+    def record(self, *more, name='run.h5part'):
+        code, said = self.slosh('run', 'scene.yaml', '-o', name, '--time', '0.2', '--every', '0.05', '--quiet', *more)
+        self.assertEqual(code, 0, said)
+
+    def shoot(self, views, *more, source='scene.yaml', time='0.12'):
+        code, said = self.slosh('render', source, '-o', 'out.png', '--time', time, '--size', '501x400', '--json', 'out.json',
+                                '--set', f'views={views}', *self.PLAIN, *more)
+        self.assertEqual(code, 0, said)
+        return said, json.loads(self.read('out.json'))
+
+    def assert_alone(self, panel, source, time, *more):
+        x, y, width, height = panel['place']
+        code, said = self.slosh('render', source, '-o', 'one.png', '--time', time, '--size', f'{width}x{height}', '--quiet',
+                                *self.PLAIN, *more)
+        self.assertEqual(code, 0, said)
+        part, one = self.picture('out.png')[y:y + height, x:x + width], self.picture('one.png')
+        numpy.testing.assert_array_equal(part[TITLE:], one[TITLE:])
+        self.assertTrue((part[:TITLE] != one[:TITLE]).any(), 'there is a title')
+
+    def test_settings_and_a_run_are_each_as_alone(self):
+        self.record('--set', 'solver.step.dt=0.005')
+        said, result = self.shoot('[{}, {set: {solver.method: dfsph, particles: {spacing: 0.125}}}, {file: run.h5part, kind: splat}]')
+        own, other, run = result['panels']
+        self.assertEqual([p['setting'] for p in result['panels']],
+                         ['', 'solver.method dfsph, particles.spacing 0.125', 'run.h5part'])
+        self.assertEqual((own['run']['method'], other['run']['method'], run['file']), ('mueller', 'dfsph', 'run.h5part'))
+        self.assertAlmostEqual(run['time'], 0.15)  # the first step at or after 0.12
+        self.assert_alone(other, 'scene.yaml', '0.12', '--method', 'dfsph', '--set', 'particles.spacing=0.125')
+        self.assert_alone(run, 'run.h5part', '0.15', '--view', 'splat')
+        self.assertRegex(said, r'^solver\.method dfsph, .*: scene.yaml:14:3: solver\.sound_speed has no effect')
+        self.assertEqual([re.sub('setting.*', '', line) for line in said.splitlines() if line.startswith('run.h5part')], [])
+        _, result = self.shoot('[{}, {file: run.h5part}]', time='0.3')
+        self.assertAlmostEqual(result['panels'][1]['time'], 0.2)  # its last one; the title says so
+
+    def test_trails_of_a_run_see_all_its_steps(self):
+        """Beside a simulation as alone: the steps between pictures too."""
+        trails = ('--view', 'none', '--set', 'view.trails.show=true', '--set', 'view.trails.length=1', '--set', 'view.trails.every=0.01')
+        self.record()
+        self.shoot('[{}, {file: run.h5part}]', *trails, time='0.2')
+        self.assert_alone({'place': [252, 0, 249, 400]}, 'run.h5part', '0.2', *trails)
+        trailed = self.picture('one.png')
+        self.slosh('render', 'run.h5part', '-o', 'one.png', '--time', '0.2', '--size', '249x400', '--view', 'none', *self.PLAIN)
+        self.assertTrue((trailed != self.picture('one.png')).any())
+
+    def test_an_entrys_own_setting_is_not_compared(self):
+        """Its value holds in each setting: one world, one name, the same picture."""
+        said, result = self.compare('--compare', 'gravity=[0, -9, 0],[0, -3, 0]', '--set',
+                                    'views=[{}, {set: {gravity: [2, -5, 0]}}]', time='0.05')
+        panels = result['panels']
+        self.assertEqual([p['setting'] for p in panels], ['gravity [0, -9, 0]', 'gravity [0, -3, 0]'] + 2 * ['gravity [2, -5, 0]'])
+        self.assertEqual([p['world'] for p in panels], [0, 1, 2, 2])
+        self.assertNotIn('makes no difference', said)
+
+    def test_runs_beside_one_another(self):
+        self.record()
+        self.record('--method', 'dfsph', '--set', 'solver.step.dt=0.03', name='other.h5part')
+        _, result = self.shoot('[{}, {file: other.h5part}]', source='run.h5part', time='0.1')
+        self.assertEqual(result['particles'], 500)
+        self.assert_alone({'place': [252, 0, 249, 400]}, 'other.h5part', '0.12')
+        self.record('--set', 'views=[{}, {file: other.h5part}]', name='third.h5part')
+        code, said = self.slosh('render', 'third.h5part', '-o', 'out.png', '--size', '64x48')
+        self.assertEqual(code, 0, said)
+        self.assertIn('third.h5part: views[1].file is left out: what stood beside this run is another file', said)
+
+    def test_what_is_wrong(self):
+        self.record()
+        for words, views in (("views[1].set solver.metod=x: unknown key 'metod'; did you mean 'method'?",
+                              '[{}, {set: {solver.metod: x}}]'),
+                             ('each entry of views has a `file`', '[{file: run.h5part}]'),
+                             ('views[1].set: view.radius is no setting of what is simulated', '[{}, {set: {view.radius: 1}}]'),
+                             ('views[1] has `file` and `set`', '[{}, {file: run.h5part, set: {gravity: 3}}]'),
+                             ('views[1].file: none.h5part: cannot be read', '[{}, {file: none.h5part}]'),
+                             ('views[1].file: scene.yaml is no recorded run', '[{}, {file: scene.yaml}]')):
+            code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--set', f'views={views}')
+            self.assertEqual((code, words in said), (2, True), said)
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--set', 'view.file=run.h5part')
+        self.assertEqual((code, 'view.file is for entries of views' in said), (2, True), said)
+        os.mkdir(self.path('below'))
+        shutil.copy(self.path('scene.yaml'), self.path('below'))
+        code, said = self.slosh('render', 'below/scene.yaml', '-o', 'out.png', '--set', 'views=[{}, {file: run.h5part}]')
+        self.assertEqual(code, 2, said)
+        self.assertIn("views[1].file: below/run.h5part is not there: it is found from the scene's folder, not from the present one, where "
+                      'there is a run.h5part; write its whole path', said)
+        self.assertEqual(self.entries(), ['below', 'run.h5part'])
+
+
 class Words(CompareTest):
     def refused(self, said, *arguments, code=2):
         done = self.slosh('render', 'scene.yaml', '-o', 'out.png', '--time', '0', *arguments)
@@ -165,14 +257,14 @@ class Words(CompareTest):
 
     def test_what_makes_no_difference_is_said(self):
         said, _ = self.compare('--compare', 'threads=1,2', '--quiet')
-        self.assertIn('solver.threads 1 and solver.threads 2 are the same in every picture: it makes no difference here', said)
+        self.assertIn('threads 1 and threads 2 are the same in every picture: it makes no difference here', said)
         said, _ = self.compare('--compare', 'gravity=[0, -9, 0],[0, -10, 0]', '--quiet')
         self.assertNotIn('the same in every picture', said)
 
     def test_notes_name_their_panel(self):
         said, _ = self.compare('--compare', 'method=mueller,dfsph', '--quiet')
-        self.assertRegex(said, r'^solver\.method dfsph: scene.yaml:14:3: solver\.sound_speed has no effect')
-        self.assertNotIn('solver.method mueller: ', said)
+        self.assertRegex(said, r'^method dfsph: scene.yaml:14:3: solver\.sound_speed has no effect')
+        self.assertNotIn('method mueller: ', said)
 
     def test_what_stands_twice(self):
         for words, arguments in (('--compare gravity has the value 9 twice', ['gravity=9,9']),
@@ -192,6 +284,11 @@ class Words(CompareTest):
         self.assertRegex(said, r'\nsolver\.step\.dt 0\.2: t = .* s: .*back to')
         self.assertRegex(said, r'\nsolver\.step\.dt 0\.2: the simulation blew up at')
         self.assertRegex(json.loads(self.read('out.json'))['error'], r'^solver\.step\.dt 0\.2: the simulation blew up')
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'frames', '--time', '1', '--fps', '100', '--size', '64x48', '--set',
+                                'solver.step.dt=0.2')
+        kept = len(os.listdir(self.path('frames')))
+        self.assertEqual((code, f'frames: the {kept} picture' in said), (1, True), said)
+        self.assertRegex(said, r'pictures? before that (is|are) whole and kept\n')
 
     def test_stopped_within_the_only_picture(self):
         """Worlds go side by side: none is far ahead of another."""
@@ -219,4 +316,4 @@ class Words(CompareTest):
 
 
 if __name__ == '__main__':
-    command.main('Panels Views', 'Words')
+    command.main('Panels Views', 'Beside Words')

@@ -32,8 +32,16 @@ def steps_of(path):
         arrays = data.GetPointData()
         names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
         own = data.GetFieldData().GetArray('TimeValue')
+        of_cells = data.GetCellData()
+        lines, order = [], data.GetLines().GetData()
+        order = vtk_to_numpy(order).tolist() if data.GetNumberOfLines() else []
+        while order:
+            lines.append(order[1:1 + order[0]])
+            order = order[1 + order[0]:]
         cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
         yield {'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
+               'lines': lines, 'cells': {of_cells.GetArrayName(k): vtk_to_numpy(of_cells.GetArray(k)).tolist()
+                                         for k in range(of_cells.GetNumberOfArrays())},
                'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
                'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
                'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
@@ -275,6 +283,101 @@ class ParaView(ExportTest):
                                              numpy.stack([vertices[axis] for axis in ('nx', 'ny', 'nz')], 1))
             with h5py.File(self.path('a.h5part'), 'r') as file:
                 self.assertEqual(step['time'], file[f'Step#{k}'].attrs['TimeValue'])
+
+
+    def test_trails(self):
+        """Each point of each line, in the world's frame; a particle that is away for a step has two lines, and so has one that
+        goes through a periodic side."""
+        self.make('--time', '0.3', '--set', 'motion=[{spin: {axis: [1, 2, 3], rate: 3}}]')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            keep = file['Step#4']['id'][:] != 40
+            for name, values in list(file['Step#4'].items()):
+                rest = values[:][keep]
+                del file['Step#4'][name]
+                file['Step#4'].create_dataset(name, data=rest)
+            for k in range(7):
+                file[f'Step#{k}']['x'][numpy.flatnonzero(file[f'Step#{k}']['id'][:] == 60)[0]] = 0.45 if k < 3 else -0.45
+            file.attrs['settings'] = numpy.bytes_(file.attrs['settings'].replace(b'\nbox.periodic = []', b'\nbox.periodic = [x]'))
+        self.export('a.vtp', '--trails', '{length: 0.25}', '--frame', 'world')
+        seen, = self.read_with_paraview('a.vtp')
+        ways = traced(self.path('a.h5part'), lambda id, at: id % 20 == 0, range(1, 7), frame=in_world)
+        (whole,) = ways[60]
+        ways[60] = [whole[:2], whole[2:]]
+        self.assert_trails(seen, ways, 'speed', 3e-7)
+        self.assertEqual(len(seen['lines']), 27)
+        self.assertEqual(seen['own_time'], max(seen['arrays']['time']))
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.assertEqual(seen['time'], file['Step#6'].attrs['TimeValue'])
+
+    def test_chosen_trails(self):
+        self.make('--time', '0.4')
+        corner, other = numpy.array([-0.2, 0.1, -1]), numpy.array([0.2, 0.4, 1])
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            for k in range(9):
+                file[f'Step#{k}']['born'] = (1e-3 * file[f'Step#{k}']['id'][:]).astype(numpy.float32)
+            plane = float(numpy.median(file['Step#5']['x']))
+            times = [file[f'Step#{k}'].attrs['TimeValue'] for k in range(9)]
+        for text, chosen, steps, scalar in (
+                ('{stride: 7, region_min: [-0.2, 0.1, -1], region_max: [0.2, 0.4, 1]}',
+                 lambda id, at: id % 7 == 0 and ((corner <= at[0]) & (at[0] <= other)).all(), range(9), 'pressure'),
+                ('{ids: [3, 17, 250], every: 0.09}', lambda id, at: id in (3, 17, 250), (0, 2, 4, 6, 8), 'velocity_y'),
+                ('{ids: "3 17 250", every: 0.09}', lambda id, at: id in (3, 17, 250), (0, 2, 4, 6, 8), 'age'),
+                (f'{{stride: 1, plane_point: [{plane}, 0, 0], plane_normal: [2, 0, 0]}}', None, range(9), 'density')):
+            self.export('a.vtp', '--trails', text, '--scalar', scalar)
+            seen, = self.read_with_paraview('a.vtp')
+            ways = traced(self.path('a.h5part'), chosen or (lambda id, at: True), steps)
+            if not chosen:  # from the last point before it
+                side = {id: [numpy.float64(at[0]) < plane for _, at, _ in way] for id, (way,) in ways.items()}
+                first = {id: next((k for k in range(1, 9) if on[k] != on[k - 1]), None) for id, on in side.items()}
+                ways = {id: [way[first[id] - 1:]] for id, (way,) in ways.items() if first[id]}
+                self.assertGreater(len(ways), 10)
+            self.assert_trails(seen, ways, scalar, 0)
+            self.assertLessEqual(set(seen['arrays']['time']), {times[k] for k in steps})
+
+    def assert_trails(self, seen, ways, scalar, tolerance):
+        fields = {'pressure': 'pressure', 'density': 'density', 'velocity_y': 'velocity_1'}
+        self.assertEqual(sorted(seen['cells']['id']), sorted(id for id, lines in ways.items() for _ in lines))
+        self.assertEqual(sorted(sum(seen['lines'], [])), list(range(len(seen['points']))))  # each point once
+        places, times, values = (numpy.array(seen['points']), seen['arrays']['time'], seen['arrays'][scalar])
+        left = {id: list(lines) for id, lines in ways.items()}
+        for id, line in zip(seen['cells']['id'], seen['lines']):
+            way = left[id].pop(0)
+            self.assertEqual([times[k] for k in line], [time for time, _, _ in way])
+            numpy.testing.assert_allclose(places[line], [at for _, at, _ in way], rtol=0, atol=tolerance)
+            if scalar == 'speed':
+                expected = [numpy.linalg.norm([row[f'velocity_{k}'] for k in range(3)]) for _, _, row in way]
+                numpy.testing.assert_allclose([values[k] for k in line], expected, rtol=3e-7)
+            elif scalar == 'age':
+                expected = [max(float(time) - float(row['born']), 0) for time, _, row in way]
+                numpy.testing.assert_allclose([values[k] for k in line], expected, rtol=0, atol=3e-8)
+            else:
+                self.assertEqual([numpy.float32(values[k]) for k in line], [row[fields[scalar]] for _, _, row in way])
+
+
+def traced(path, chosen, steps, frame=in_box):
+    """By id the lines, each a list of time, place and all numbers, of the ids that `chosen` takes by their places. A line ends
+    where a step does not have the particle; lines of one point are none."""
+    ways = {}
+    with h5py.File(path, 'r') as file:
+        for count, k in enumerate(steps):
+            group = file[f'Step#{k}']
+            columns = {name: values[:] for name, values in group.items()}
+            for i, id in enumerate(columns['id'].tolist()):
+                row = {name: values[i] for name, values in columns.items()}
+                ways.setdefault(id, []).append((count, group.attrs['TimeValue'], i, row, k))
+        places = {k: frame(file[f'Step#{k}'])[0] for k in steps}
+        inside = {k: in_box(file[f'Step#{k}'])[0] for k in steps}
+    found = {}
+    for id, way in ways.items():
+        if not chosen(id, [inside[k][i] for _, _, i, _, k in way]):
+            continue
+        lines = []
+        for n, (count, time, i, row, k) in enumerate(way):
+            if n == 0 or way[n - 1][0] + 1 != count:
+                lines.append([])
+            lines[-1].append((time, places[k][i], row))
+        found[id] = [line for line in lines if len(line) > 1]
+    return found
 
 
 class Surface(ExportTest):
@@ -548,6 +651,36 @@ class Bad(ExportTest):
         self.refused('a.h5part', 'file.pvd', words='file: is to be a folder', code=1)
 
 
+    def test_trails(self):
+        self.make('--time', '0.1')
+        vtp = ['a.h5part', 'a.vtp', '--trails']
+        self.refused(*vtp, '[]', words='--trails must be {key: value, ...}')
+        self.refused(*vtp, '{strid: 2}', words='unknown key "strid"; did you mean stride; known are stride, ids')
+        self.refused(*vtp, '{stride: 0}', words='stride must be 1 to')
+        self.refused(*vtp, '{ids: "3, -4"}', words='ids "3, -4" is no list')
+        self.refused(*vtp, '{plane_point: [0, 1, 0]}', words='plane_point is of a plane; add plane_normal')
+        self.refused(*vtp, '{region_min: [0, 2, 0], region_max: [1, 1, 1]}', words='nothing is between region_min 2 and .* along y')
+        self.refused(*vtp, '{length: 0.01}', words='a line needs two steps, and there is one .*; take a larger length')
+        self.refused(*vtp, '{}', '--time', '0', words='a line needs two steps, and there is one .*; take a later --time')
+        self.refused(*vtp, '{}', '--scalar', 'mood', words='--scalar mood is not known')
+        for option in (['--surface'], ['--raw'], ['--kernel', 'cubic'], ['--size', '9x9'], ['--color-by', 'speed']):
+            self.refused(*vtp, '{}', *option, words=f'{option[0]} makes no sense with --trails')
+        for name in ('a.pvd', 'a.ply', 'a.csv', 'vtp'):
+            self.refused('a.h5part', name, '--trails', '{}', words="trails are one file, not '.*'; name an OUT.vtp")
+        self.refused('a.h5part', 'a.vti', '--trails', '{}', '--slice', '{}', words='--trails makes no sense with --slice')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#2']['id']
+        self.refused(*vtp, '{}', words='Step#2 has no ids')
+
+    def test_no_trails(self):
+        self.make('--time', '0.1')
+        for text, words in (('{ids: "900"}', 'no particle has such an id: there are no trails'),
+                            ('{plane_point: [9, 0, 0], plane_normal: [1, 0, 0]}', 'none of 25 particles crosses that plane'),
+                            ('{region_min: [9, 9, 9], region_max: [10, 10, 10]}', 'none of 25 particles is in that region')):
+            self.assertIn(f'a.vtp: warning: {words}', self.export('a.vtp', '--trails', text, '--quiet'))
+            self.assertIn(b'NumberOfLines="0"', self.read('a.vtp'))
+
+
 class Flaws(ExportTest):
     """What no simulation writes is said, a line each; what has no place is left out."""
 
@@ -629,6 +762,13 @@ class FullDisk(ExportTest):
         for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series'):
             for size in (2000, 20000, 50000):  # LLVM's OpenMP, in the sanitized build, makes a file of 1 kB
                 self.full(output, size, '--surface')
+        self.assertEqual(self.entries(), ['a.h5part'])
+
+    def test_trails(self):
+        """Files without a name hold them until all are there."""
+        self.make('--time', '0.3')
+        for size in (100, 60000, 70000):
+            self.full('b.vtp', size, '--trails', '{stride: 1}')
         self.assertEqual(self.entries(), ['a.h5part'])
 
     def test_an_older_one_stays(self):

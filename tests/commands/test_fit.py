@@ -88,13 +88,13 @@ class Fit(FitTest):
         self.assertEqual(self.slosh('run', 'odd_fit.yaml', '-o', 'a.h5part', '--time', '0.02', '--quiet')[0], 0)
 
     def test_a_case(self):
-        found, _ = self.figures('free_fall', '--error', '5', '--method', 'wcsph', '--threads', '1')
+        found, _ = self.figures('free_fall', '--error', '5', '--method', 'mueller', '--threads', '1')
         self.assertEqual(found['error_of'], 'way of the centre')
         self.assertEqual(self.entries(), ['free_fall_fit.csv', 'free_fall_fit.yaml', 'out.json'])
         self.assertEqual(self.slosh('run', 'free_fall_fit.yaml', '-o', 'a.h5part', '--time', '0.01', '--quiet')[0], 0)
 
     def test_frames(self):
-        found, _ = self.figures('scene.yaml', '--frame-ms', '5', *FEW)
+        found, _ = self.figures('scene.yaml', '--frame-ms', '5', *FEW, '--time', '0.05')
         best = found['runs'][found['best']]
         self.assertAlmostEqual(found['goal']['cost'], 0.15)
         self.assertLessEqual(best['seconds_per_second'], 0.15)
@@ -127,7 +127,7 @@ class Trouble(FitTest):
         self.assertEqual(self.entries(), [])
 
     def test_nothing_is_within(self):
-        found, said = self.figures('scene.yaml', '--error', '0.01', *FEW, code=1)
+        found, said = self.figures('scene.yaml', '--error', '0.01', *FEW, '--time', '0.05', code=1)
         self.assertIn('no setting that was tried is within 0.01 %; the nearest is mueller', said)
         self.assertEqual((found['best'], found['error']), (None, said.splitlines()[-1]))
         nearest = min(run['error'] for run in found['runs'] if run['outcome'] == 'holds')

@@ -1,6 +1,8 @@
 """Handles in the window: what a view lets the mouse take, by real events under a virtual display."""
 import math
+import re
 
+import h5py
 import numpy
 
 import command
@@ -106,10 +108,37 @@ class Handles(Window):
         self.quit()
         self.assertIn('spheres shows no plane that could be moved; these do: slice', self.messages)
 
+    def test_a_click_gives_a_particle_a_trail(self):
+        """The nearest one to the eye under the mouse, in views of particles; a right click or E, and once more takes it away.
+        Neither moves the camera."""
+        self.write('still.yaml', STILL + VIEW.replace('kind: slice', 'kind: spheres'))
+        self.open('still.yaml')
+        self.keys('space')
+        for place in ([0.25, 0.35, 0.45], [-0.25, 0.35, 0.45]):  # of the nearest layer
+            self.drag(3, [pixel(place)])
+        self.keys('e', 'e')
+        self.at(5, 5)
+        self.keys('e')
+        out = self.quit()
+        numpy.testing.assert_allclose(out['camera_from'], EYE)
+        found = re.findall(r'particle (\d+) has (a trail|no trail any more)', self.messages)
+        self.assertEqual([words for _, words in found], ['a trail', 'a trail', 'no trail any more', 'a trail'])
+        ids = [int(id) for id, _ in found]
+        self.assertEqual(ids[1:], [ids[1]] * 3)
+        self.assertIn('there is no particle under the mouse', self.messages)
+        code, said = self.slosh('run', 'still.yaml', '-o', 'a.h5part', '--time', '0')
+        self.assertEqual(code, 0, said)
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            for id, place in zip(ids, ([0.25, 0.35, 0.45], [-0.25, 0.35, 0.45])):
+                i = numpy.flatnonzero(file['Step#0']['id'][:] == id)[0]
+                self.assertLess(numpy.linalg.norm([file['Step#0'][axis][i] for axis in 'xyz'] - numpy.array(place)), 0.09)
+
     def test_the_value_under_the_mouse_and_at_pins(self):
         first, second = [0.08, 0.2, -0.06], [-0.16, 0.15, 0.12]  # on the plane
         self.open('slice.yaml', '--set', 'view.color_by=density', '--set', 'view.slice.normal=[0.6, 0, 0.8]')
         self.keys('space')  # what is still is drawn anew for the mouse
+        self.at(WIDTH // 2, HEIGHT - 25)  # the time line's, from which it jumps into the picture
+        self.shown(0.3)
         for place in (first, second):
             self.at(*pixel(place))
             self.keys('m')
@@ -125,6 +154,7 @@ class Handles(Window):
             self.assertAlmostEqual(probe['value'], 1000, delta=50)
 
     def test_pins_are_of_the_plane_and_are_taken_away(self):
+        self.environment['force_gl_renderer'] = 'hardware'  # what is found comes a picture later, of a fluid that moves
         self.open('slice.yaml')
         self.at(*pixel([0.08, 0.2, -0.06]))
         self.keys('m', 'k')
@@ -186,13 +216,21 @@ class Handles(Window):
                          [(True, 'speed'), (False, 'speed')])
         for probe, place in zip(out['readout'], (pinned, free)):
             numpy.testing.assert_allclose(probe['at'], place, atol=0.01)
-        self.two('{color_by: density}')
+        top = [0, 0.4, 0.3]  # of the fluid
+        self.two('{kind: spheres, color_by: density}')
         self.keys('space')
-        self.at(*pixel(free, RIGHT))
+        self.at(*pixel(top, RIGHT))
+        self.keys('m')
         self.shown(0.3)
         out = self.quit()
-        self.assertEqual([(probe['what'], probe['name']) for probe in out['readout']], [('value', 'density')])
-        numpy.testing.assert_allclose(out['readout'][0]['at'], free, atol=0.01)
+        self.assertEqual([(probe['what'], probe['name'], probe['pinned']) for probe in out['readout']],
+                         [('value', 'density', True), ('value', 'density', False)])
+        pinned, free = out['readout']
+        self.assertGreaterEqual(free['id'], 0)
+        for key in ('id', 'at', 'value'):  # the ball's centre is pinned
+            self.assertEqual(pinned[key], free[key])
+        self.assertAlmostEqual(free['value'], 1000, delta=200)
+        numpy.testing.assert_allclose(free['at'], top, atol=0.11)
 
 
 if __name__ == '__main__':

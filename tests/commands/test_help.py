@@ -25,7 +25,7 @@ VALUES = {
 
 # What does not go with the rest, or needs a display: by command.
 APART = {'bench': {'--play', '--micro', '--ablate', '--seconds', '--table', '-o'},
-         'export': {'--slice', '--scalar', '--kernel', '--raw', '--size'},  # tests/commands/test_slice.py
+         'export': {'--slice', '--trails', '--scalar', '--kernel', '--raw', '--size'},  # test_slice.py, test_export.py
          'devices': {'--mapping', '--write-mapping', '--record'}}
 
 

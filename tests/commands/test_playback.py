@@ -69,6 +69,27 @@ class Pictures(PlaybackTest):
         self.write('jet.yaml', command.SCENE.replace('    fill:', jet + '    fill:', 1))
         self.compare('jet.yaml', '0.2', 'spheres')
 
+    def test_trails(self):
+        """Of a single picture too: all steps before it are seen, at least as far apart as the view says."""
+        for every in ('0', '0.02'):
+            more = ['--view', 'none', '--set', 'view.trails.show=true', '--set', 'view.trails.length=0.1', '--set', 'view.trails.stride=3',
+                    '--set', f'view.trails.every={every}', '--set', 'view.range=[0, 1]', '--time', '0.2']
+            self.run_('--time', '0.24', '--every', '0.004')
+            self.render('scene.yaml', 'scene.png', *more)
+            self.render('a.h5part', 'file.png', *more)
+            self.assert_same_picture('file.png', 'scene.png')
+            self.render('a.h5part', 'bare.png', '--view', 'none', '--time', '0.2')
+            self.assertNotEqual(self.read('file.png'), self.read('bare.png'))
+            self.render('a.h5part', 'frames', *more, '--fps', '25')
+            self.render('scene.yaml', 'frames2', *more, '--fps', '25')
+            for name in sorted(os.listdir(self.path('frames2'))):
+                self.assert_same_picture(f'frames/{name}', f'frames2/{name}')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#40']['x']
+        said = self.render('a.h5part', 'b.png', *more)
+        self.assertRegex(said, r"a\.h5part: Step#40.*; overlays do without it\n$")
+        self.assertNotEqual(self.read('b.png'), self.read('file.png'))
+
     def test_settings_of_the_view(self):
         more = ['--set', 'view.color_by=density', '--set', 'view.range=[990, 1010]', '--set', 'view.legend=false']
         self.run_('--time', '0.1', '--every', '0.1')
@@ -134,8 +155,9 @@ class Times(PlaybackTest):
         whole = time.monotonic() - began
         found = json.loads(self.read('a.json'))
         self.assertEqual((found['snapshots'], found['simulated_seconds']), (5000, 20))
-        self.assertLess(found['first_picture_seconds'], 1)
-        self.assertLess(whole, 2)
+        if 'LSAN_OPTIONS' not in os.environ:  # a sanitizer makes it several times slower
+            self.assertLess(found['first_picture_seconds'], 1)
+            self.assertLess(whole, 2)
 
 
 class Refused(PlaybackTest):

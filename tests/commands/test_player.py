@@ -114,6 +114,8 @@ class Views(PlayerTest):
         self.keys('Home')
         out = self.quit()
         self.assertEqual((out['color_by'], out['view'], out['camera_auto']), ('density', 'splat', True))
+        self.assertEqual((out['particles'], out['steps']), (500, 200))
+        self.assertEqual({'backend', 'method', 'threads', 'dt', 'sim_ms', 'limits'} & set(out), set())
 
     def test_a_scalar_that_the_file_lacks(self):
         self.record()
@@ -239,4 +241,4 @@ class Panels(PlayerTest):
 
 
 if __name__ == '__main__':
-    command.main('Time Views', 'Files')
+    command.main('Time', 'Views Panels', 'Files')

@@ -268,6 +268,10 @@ class Resume(CommandTest):
         whole = self.whole()
         with h5py.File(self.path('whole.h5part')) as file:
             counts = [len(file[f'Step#{i}']['id']) for i in range(whole)]
+            born = [file[f'Step#{i}']['born'][()] for i in range(whole)]
+            times = [float(file[f'Step#{i}'].attrs['TimeValue']) for i in range(whole)]
+        self.assertTrue(all(0 <= b.min() and b.max() <= t + 1e-6 for b, t in zip(born, times) if len(b)))
+        self.assertGreater(len(set(born[-1])), 2)
         self.assertEqual(counts[0], 0)
         self.assertGreater(max(counts), counts[-1])
         for stop in ('0', '0.1', '0.304'):

@@ -58,14 +58,26 @@ class Slice(CommandTest):
         return (numpy.array([row[:3] for row in rows], float),
                 numpy.array([float(row[3]) if row[3] else numpy.nan for row in rows]))
 
+    @staticmethod
+    def volumes(file, group):
+        """With a density of 0 and less a particle weighs nothing."""
+        mass = numpy.asarray(file.attrs['fluid_densities'])[group['fluid'][:]] * file.attrs['spacing'] ** 3
+        density = group['density'][:].astype(float)
+        return numpy.where(density > 0, mass / numpy.where(density > 0, density, 1), 0)
+
+    def spoil(self, every):
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            density = file['Step#3/density'][:]
+            density[::every], density[1::every] = 0, -1000
+            file['Step#3/density'][:] = density
+            return (density <= 0).sum()
+
     def sums(self, places, shape, scalar, step='Step#3'):
         """Sums of V W s and of V W by all particles at each place."""
         with h5py.File(self.path('a.h5part')) as file:
             group, h = file[step], file.attrs['support_radius']
             at = numpy.stack([group[axis][:] for axis in 'xyz'], 1).astype(float)
-            mass = numpy.asarray(file.attrs['fluid_densities'])[group['fluid'][:]] * file.attrs['spacing'] ** 3
-            density, value = group['density'][:].astype(float), scalar(group)
-            volume = numpy.where(density > 0, mass / numpy.where(density > 0, density, 1), 0)
+            volume, value = self.volumes(file, group), scalar(group)
         weights = [volume * shape(numpy.linalg.norm(at - place, axis=1) / h) / h ** 3 for place in places]
         return numpy.array([[(w * value).sum(), w.sum()] for w in weights])
 
@@ -96,10 +108,7 @@ class Slice(CommandTest):
             self.run_scene('--set', f'solver.method={method}', '--time', '0.3')
             for spoilt in (False, True):
                 if spoilt:
-                    with h5py.File(self.path('a.h5part'), 'r+') as file:
-                        density = file['Step#3/density'][:]
-                        density[::5], density[1::5] = 0, -1000
-                        file['Step#3/density'][:] = density
+                    self.spoil(5)
                 self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic', '--raw', '--scalar', 'speed')
                 self.compare('a.csv', cubic, lambda group: numpy.sqrt(sum(group[f'velocity_{k}'][:].astype(float) ** 2
                                                                           for k in range(3))), True)
@@ -113,7 +122,7 @@ class Slice(CommandTest):
         self.export('a.csv', '{}', '--size', '24x16', '--scalar', 'density')
         for name in ('a.csv', 'a.pvd'):
             code, said = self.slosh('export', 'a.h5part', '-o', f'no-{name}', '--slice', '{}')
-            self.assertEqual((code, 'has no pressure; take --scalar density, compression, fluid, neighbours' in said),
+            self.assertEqual((code, 'has no pressure; take --scalar density, compression, fluid, born, neighbours, age' in said),
                              (2, True), said)
         self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('no-')])
 
@@ -125,8 +134,7 @@ class Slice(CommandTest):
             if name == 'kinetic_energy':
                 return group['density'][:] * (v ** 2).sum(1) / 2
             with h5py.File(self.path('a.h5part')) as file:
-                h, rest = file.attrs['support_radius'], numpy.asarray(file.attrs['fluid_densities'])
-                volume = rest[group['fluid'][:]] * file.attrs['spacing'] ** 3 / group['density'][:]
+                h, volume = file.attrs['support_radius'], self.volumes(file, group)
             d = at[None] - at[:, None]
             for axis in periodic:
                 d[:, :, axis] -= numpy.round(d[:, :, axis])
@@ -150,6 +158,12 @@ class Slice(CommandTest):
         for name in ('vorticity', 'divergence', 'neighbours', 'kinetic_energy'):
             self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic', '--scalar', name)
             self.compare('a.csv', cubic, self.derived(name), False)
+        spoilt = self.spoil(40)
+        said = self.export('a.csv', TILTED, '--size', '61x47', '--kernel', 'cubic', '--scalar', 'divergence')
+        self.compare('a.csv', cubic, self.derived('divergence'), False)
+        self.assertIn(f'{spoilt} particles of Step#3 have a density that is not more than 0; they weigh nothing in the slice',
+                      said)
+        self.assertNotIn('in the file', said)
 
     def test_neighbours_across_periodic_sides_count(self):
         self.run_scene('--time', '0.1', '--set', 'motion=[]', '--set', 'box.periodic=[x, z]')

@@ -100,6 +100,40 @@ class Views(Window):
         out = self.quit()
         self.assertEqual((out['views'], out['chosen_view'], out['view'], out['color_by']), (3, 1, 'slice', 'density'))
 
+    def test_settings_and_a_run_beside_the_scene(self):
+        """Each at its first state at or after the scene's, as `render` draws them, forth and back."""
+        code, said = self.slosh('run', 'still.yaml', '-o', 'run.h5part', '--time', '0.3', '--every', '0.03', '--quiet')
+        self.assertEqual(code, 0, said)
+        views = ('--set', 'views=[{}, {set: {solver.step.dt: 0.015, gravity: [3, -9, 0]}}, {file: run.h5part, kind: splat}]')
+        self.open('still.yaml', *views)
+        self.shown(0.3)
+        self.keys('space', 'period', 'period')
+        for keys in ([], ['comma', 'comma'], ['r', 'period', 'period', 'period', 'period']):
+            before = self.files('png')
+            self.keys(*keys)
+            self.shown(0.6)
+            self.keys('F12')
+            self.wait_for(lambda: len(self.files('png')) > len(before), self.process)
+            name, = set(self.files('png')) - set(before)
+            last = self.read(name)
+        out = self.quit()
+        time = out['time']
+        self.assertAlmostEqual(time, 0.04)
+        self.assertEqual([round(at, 6) for at in out['times']], [0.04, 0.045, 0.06])
+        code, said = self.slosh('render', 'still.yaml', '-o', 'at.png', '--time', '0.04', '--size', '480x360', '--quiet', *views)
+        self.assertEqual(code, 0, said)
+        self.assertEqual(last, self.read('at.png'))
+
+    def test_scalars_of_what_a_panel_shows(self):
+        """S goes through those of the panel's own method; accelerations are kept with solvers side by side too."""
+        self.open('still.yaml', '--set', 'views=[{}, {set: {solver.method: dfsph}, color_by: kept_term}]')
+        self.click(*RIGHT)
+        self.keys('s')
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual((out['chosen_view'], out['color_by']), (1, 'acceleration_x'))
+        self.assertNotIn('stays while', self.messages)
+
     def test_sizes_and_other_scenes(self):
         self.open('still.yaml')
         self.keys('w', 'w')

@@ -3,6 +3,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/session/studio.h"
+#include "render/glyphs/glyphs_def.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/compute/compute.h"
 #include "sim/world/world_struct.h"
@@ -35,9 +36,11 @@ static WorldDef column_def(const char *backend)
 /* Calls that carry data from the GPU to this side, that wait for it, or ask how far it is; what the program
    calls goes through these pointers. Memory that stays mapped is read behind a fence, which is waited for. */
 static int crossings, waits, queries;
+static bool drawing;
 static PFNGLCLIENTWAITSYNCPROC wait_sync;
 static PFNGLFINISHPROC finish;
 static PFNGLGETQUERYOBJECTIVPROC query_iv;
+static PFNGLGETQUERYOBJECTUIVPROC query_uiv;
 static PFNGLGETQUERYOBJECTUI64VPROC query_ui64v;
 static PFNGLGETNAMEDBUFFERSUBDATAPROC get_named;
 static PFNGLGETBUFFERSUBDATAPROC get;
@@ -111,6 +114,13 @@ static void APIENTRY count_query_iv(GLuint query, GLenum what, GLint *value)
     query_iv(query, what, value);
 }
 
+/* A look waits for nothing. The order of `fragment` has a query of its own. */
+static void APIENTRY count_query_uiv(GLuint query, GLenum what, GLuint *value)
+{
+    queries += drawing && what != GL_QUERY_RESULT_NO_WAIT;
+    query_uiv(query, what, value);
+}
+
 static void APIENTRY count_query_ui64v(GLuint query, GLenum what, GLuint64 *value)
 {
     queries++;
@@ -132,6 +142,7 @@ static void counting(bool on)
     COUNT(glClientWaitSync, wait_sync, count_wait_sync);
     COUNT(glFinish, finish, count_finish);
     COUNT(glGetQueryObjectiv, query_iv, count_query_iv);
+    COUNT(glGetQueryObjectuiv, query_uiv, count_query_uiv);
     COUNT(glGetQueryObjectui64v, query_ui64v, count_query_ui64v);
 #undef COUNT
 }
@@ -143,7 +154,8 @@ typedef struct Viewed {
     VolumeBounds bounds;
     VolumeShow show;
     double level;
-    bool fluid; /* as the colour, which has no range */
+    bool fluid;  /* as the colour, which has no range */
+    bool glyphs; /* arrows beside it, of a length of their own */
     int crossings;
     bool software; /* crossings on a software driver only */
 } Viewed;
@@ -153,6 +165,7 @@ typedef struct Viewed {
 static const Viewed views[] = {
     {.kind = "none"},
     {.kind = "spheres"},
+    {.kind = "spheres", .glyphs = true},
     {.kind = "splat", .fluid = true},
     {.kind = "splat", .level = 0.15},
     {.kind = "volume", .method = VOLUME_GEOMETRY},
@@ -177,26 +190,33 @@ static ViewDef view_of(const Viewed *viewed)
     volume_def(&view)->show = viewed->show;
     splat_def(&view)->level = viewed->level;
     view.color_by = viewed->fluid ? SCALAR_FLUID : SCALAR_SPEED;
+    glyphs_def(&view)->show = viewed->glyphs;
     view.range_auto = true;
     return view;
 }
 
 /* Steps with the sentinel on, and pictures, coloured with a range that follows the state: two waits a frame,
-   for what the sentinel found in the frame before and for that range. */
-static void count_frames(const char *backend, const Viewed *viewed, Studio *studio, World *world)
+   for what the sentinel found in the frame before and for that range. `late`: as in the window, which waits
+   for no range, no length of arrows and nothing that a legend says. */
+static void count_frames(const char *backend, const Viewed *viewed, bool late, Studio *studio, World *world)
 {
     enum { FRAMES = 3 };
     Error error = {0};
+    renderer_set_late(studio->renderer, late);
     for (int frame = 0; frame < 2 + FRAMES; frame++) {
         if (frame == 2) { /* the first pictures make what they need */
             crossings = waits = queries = 0;
             counting(true);
         }
-        if (!world_step(world, NULL, &error) || !studio_draw(studio, world, NULL, NULL, &error))
+        bool done = world_step(world, NULL, &error);
+        drawing = true;
+        done = done && studio_draw(studio, world, NULL, NULL, &error);
+        drawing = false;
+        if (!done)
             fail_msg("%s, view %td, frame %d: %s", backend, viewed - views, frame, error.message);
     }
     counting(false);
-    const int wanted = (1 + !viewed->fluid) * FRAMES;
+    const int wanted = (1 + (!late ? !viewed->fluid + viewed->glyphs : 0)) * FRAMES;
     const int reads = viewed->software && !gl_renderer_is_software() ? 0 : FRAMES * viewed->crossings;
     if (crossings != reads || waits != wanted || queries)
         fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d and %d are known",
@@ -220,8 +240,8 @@ static void no_particle_crosses_in_a_frame(void **state)
         const ViewDef view = view_of(&views[i]);
         if (!studio_open(&studio, &view, &def, worlds[0], 64, 64, &error))
             fail_msg("%s", error.message);
-        for (int k = 0; k < 2; k++)
-            count_frames(backends[k], &views[i], &studio, worlds[k]);
+        for (int k = 0; k < 3; k++)
+            count_frames(backends[k % 2], &views[i], k > 1, &studio, worlds[k % 2]);
         studio_close(&studio);
     }
     for (int k = 0; k < 2; k++) { /* the counters count */

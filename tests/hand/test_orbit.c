@@ -128,6 +128,23 @@ static void the_poles_are_not_reached(void **state)
     }
 }
 
+/* Past a pole, too; a drag that begins beyond one begins at once. */
+static void a_drag_there_and_back_ends_where_it_began(void **state)
+{
+    (void)state;
+    Orbit orbit = level();
+    const Camera before = camera_of(&orbit);
+    for (int i = 0; i < 40; i++)
+        orbit_turn(&orbit, i < 20 ? 0.2 : -0.2, i < 20 ? -0.15 : 0.15);
+    const Camera after = camera_of(&orbit);
+    for (int i = 0; i < 16; i++)
+        check_near(after.view[i], before.view[i], 1e-6, "the matrix");
+    orbit_turn(&orbit, 0, -3);
+    orbit_settle(&orbit);
+    orbit_turn(&orbit, 0, 29 * M_PI / 180);
+    check_near(camera_of(&orbit).eye[1], 0.15 + sqrt(3), 1e-5, "the eye"); /* 60 degrees above */
+}
+
 static void the_box_stays_in_its_place_of_the_picture(void **state)
 {
     (void)state;
@@ -241,6 +258,7 @@ int main(void)
         cmocka_unit_test(it_begins_with_the_scenes_own_picture),
         cmocka_unit_test(a_drag_turns_the_scene),
         cmocka_unit_test(the_poles_are_not_reached),
+        cmocka_unit_test(a_drag_there_and_back_ends_where_it_began),
         cmocka_unit_test(the_box_stays_in_its_place_of_the_picture),
         cmocka_unit_test(a_pan_takes_the_point_along),
         cmocka_unit_test(the_wheel_goes_by_tenths_within_bounds),

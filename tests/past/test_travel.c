@@ -33,6 +33,17 @@ static const struct {
                  "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n"},
     {"compute", BOX "solver: {backend: compute, reproducible: true, sound_speed: 15,\n"
                     "  step: {dt: 0.01, substeps: 5}}\n"},
+    {"compute dfsph",
+     BOX "solver: {method: dfsph, backend: compute, reproducible: true, step: {dt: 0.01, substeps: 2}}\n"},
+    {"compute pbf",
+     BOX "solver: {method: pbf, backend: compute, reproducible: true, step: {dt: 0.01, substeps: 2}}\n"},
+    {"compute emitters",
+     "box: {size: [1, 1, 1]}\n"
+     "particles: {spacing: 0.08, most: 900}\n"
+     "fluids: [{fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.1, 0.5]}}],\n"
+     "  emit: [{disk: {centre: [0, 0.6, 0], direction: [0, -1, 0], radius: 0.25}, speed: 2}]}]\n"
+     "drains: [{block: {min: [-0.5, 0, -0.5], max: [-0.3, 0.05, 0.5]}}]\n"
+     "solver: {backend: compute, reproducible: true, sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n"},
     {"fragment", BOX "solver: {backend: fragment, sound_speed: 15, step: {dt: 0.01, substeps: 5}}\n"},
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -195,6 +206,38 @@ static void a_command_in_the_past_cuts_the_rest_off(void **state)
     assert_int_equal(replay("cut.rec"), 12 * 5);
 }
 
+/* What is only shown changes nothing of what came after: sent, and by simulator_move as the window does. */
+static void accelerations_wished_in_the_past_cut_nothing(void **state)
+{
+    (void)state;
+    for (int moves = 0; moves < 2; moves++) {
+        Rig rig;
+        Straight run;
+        char backend[NAME_SIZE];
+        SimCommand keep = {.kind = SIM_SET, .setting = "solver.acceleration=true"};
+        rig_open(&rig, plain, 64 * MIB);
+        run_straight(&rig, &run);
+        rig_go(&rig, run.time[10]);
+        if (moves)
+            must(simulator_move(rig.simulator, &keep, rig.upload, backend, &error));
+        else
+            rig_set(&rig, keep.setting);
+        for (int i = 11; i < 14; i++) {
+            rig_step(&rig);
+            look(&rig, &run, i, "after the wish");
+            assert_true(rig.simulator->scene.world.acceleration);
+        }
+        rig_go(&rig, run.time[3]);
+        look(&rig, &run, 3, "further back");
+        rig_go(&rig, INFINITY);
+        look(&rig, &run, FRAMES, "the newest");
+        assert_true(rig.simulator->scene.world.acceleration && rig.status.messages == 0);
+        rig_save(&rig, "kept.rec");
+        rig_close(&rig);
+        assert_int_equal(replay("kept.rec"), FRAMES * 5);
+    }
+}
+
 /* Within a frame of the past too. */
 static void time_runs_on_in_the_past_as_it_did(void **state)
 {
@@ -310,6 +353,8 @@ static void a_reset_keeps_what_was_set_until_then(void **state)
 {
     (void)state;
     Rig rig;
+    char backend[NAME_SIZE];
+    SimCommand keep = {.kind = SIM_SET, .setting = "solver.acceleration=true"};
     rig_open(&rig, plain, 64 * MIB);
     rig_ready(&rig);
     rig_set(&rig, "gravity=[0, -2, 0]");
@@ -318,12 +363,15 @@ static void a_reset_keeps_what_was_set_until_then(void **state)
     rig_set(&rig, "gravity=[0, -3, 0]");
     rig_step(&rig);
     rig_go(&rig, before);
+    must(simulator_move(rig.simulator, &keep, rig.upload, backend,
+                        &error)); /* not recorded: it cuts nothing */
     simulator_reset(rig.simulator);
     const double until = wall_ms() + 20000;
     do
         rig_turn(&rig);
     while (rig.status.step > 0 && wall_ms() < until);
     rig_step(&rig);
+    assert_true(rig.simulator->scene.world.acceleration);
     assert_true(rig.status.past.from == 0 && rig.status.past.to == rig.status.time);
     rig_save(&rig, "reset.rec");
     rig_close(&rig);
@@ -543,6 +591,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(trouble_is_gone_through_again),
         cmocka_unit_test(emitters_take_back_what_they_sent),
         cmocka_unit_test(a_command_in_the_past_cuts_the_rest_off),
+        cmocka_unit_test(accelerations_wished_in_the_past_cut_nothing),
         cmocka_unit_test(time_runs_on_in_the_past_as_it_did),
         cmocka_unit_test(steps_back_add_up),
         cmocka_unit_test(what_waits_applies_before_the_jump),

@@ -46,7 +46,7 @@ static void run_and_read(const char *method)
     char setting[64];
     snprintf(setting, sizeof setting, "solver.method=%s", method);
     const Scene scene = tank_scene(setting);
-    const unsigned all = PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1;
+    const unsigned all = columns_scalars(&scene.world);
     Error error = {{0}};
     Still lived[STEPS] = {{.room = 0}}, read = {.room = 0};
     Recorded recorded;
@@ -260,9 +260,15 @@ static void what_is_missing_is_told(void **state)
     open_recorded(&recorded, "a.h5part", &notes);
     assert_contains(notes.line[0], "a.h5part: has no velocity_0, velocity_1, velocity_2, density, pressure,");
     assert_contains(notes.line[0], "and particles have the volume of fluid at rest");
-    assert_int_equal(recorded.attributes, PARTICLE_FLUID); /* all of the first */
+    assert_int_equal(recorded.attributes,
+                     PARTICLE_FLUID +
+                         PARTICLE_SCALAR(SCALAR_BORN)); /* all of the first, and since the start */
+    view = recorded.scene.view;
+    view.color_by = SCALAR_AGE;
+    assert_true(recorded_has(&recorded, &view, &error));
     must(recorded_read(&recorded, 1, ~0U, &still, &error), &error);
     assert_int_equal(still.state.count, 6);
+    assert_true(still.arrays.scalar[SCALAR_BORN][5] == 0);
     assert_true(fabsf(still.arrays.position[3] - 1e-3F) < 1e-9F);
     still_free(&still);
     recorded_close(&recorded);
@@ -271,6 +277,33 @@ static void what_is_missing_is_told(void **state)
     assert_false(recorded_read(&recorded, 1, ~0U, &still, &error));
     assert_string_equal(error.message, "a.h5part: Step#1 lacks what Step#0 has");
     recorded_close(&recorded);
+}
+
+/* Without the column: all from the start where the settings have no emitter. */
+static void births_that_no_column_tells(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *set;
+        bool known;
+    } cases[] = {
+        {NULL, true},
+        {"title=\"fluids[0].emit[0] is gone\"", true},
+        {"fluids[1].emit=[{disk: {centre: [0, 0.6, 0], direction: [0, -1, 0], radius: 0.2}, speed: 1}]",
+         false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        Error error = {{0}};
+        Notes notes = {.count = 0};
+        Recorded recorded;
+        const Scene scene = tank_scene(cases[i].set);
+        Snapshot *file = snapshot_create("births.h5part", &scene, &error);
+        must(file, &error);
+        append(file, 3, 0);
+        snapshot_close(file);
+        open_recorded(&recorded, "births.h5part", &notes);
+        assert_int_equal((recorded.attributes & PARTICLE_SCALAR(SCALAR_BORN)) != 0, cases[i].known);
+        recorded_close(&recorded);
+    }
 }
 
 static void spoil_particles(hid_t file)
@@ -528,6 +561,7 @@ int main(void)
         TEST(each_scene_comes_back),
         TEST(settings_of_the_view_alone),
         TEST(what_is_missing_is_told),
+        TEST(births_that_no_column_tells),
         TEST(spoilt_particles_are_left_out),
         TEST(a_hostile_size_asks_for_no_memory),
         TEST(what_is_no_file_of_snapshots),

@@ -219,13 +219,61 @@ static void a_file_that_grows_is_followed(void **state)
     reel_destroy(reel);
 }
 
+/* Between two steps the later one; beyond the end the last. */
+static void the_step_at_or_after_a_time(void **state)
+{
+    (void)state;
+    Recorded recorded;
+    const size_t counts[] = {1, 2, 3, 4};
+    write_file("a.h5part", counts, 4, 0.1);
+    open_recorded(&recorded, "a.h5part", NULL);
+    Reel *reel =
+        reel_create(&(ReelSetup){.recorded = &recorded, .attributes = ~0U, .at_or_after = true}, &error);
+    must(reel, &error);
+    assert_seek(reel, -1, 0, 0);
+    assert_seek(reel, 0.1, 0.1, 1);
+    assert_seek(reel, 0.1001, 0.1, 2);
+    assert_seek(reel, 0.25, 0, 3);
+    assert_seek(reel, 9, 0, 3);
+    reel_destroy(reel);
+}
+
+/* Told, and shown on is what was opened. */
+static void a_file_that_is_replaced(void **state)
+{
+    (void)state;
+    ReelStatus status;
+    Reel *reel = open_reel(1U << 20);
+    const size_t counts[] = {1};
+    const double until = wall_ms() + 20000;
+    write_file("b.h5part", counts, 1, 0.1);
+    assert_seek(reel, 0.2, 0, 2);
+    must(reel_status(reel, &status, &error), &error);
+    assert_false(status.replaced);
+    assert_int_equal(status.particles, 3);
+    assert_int_equal(rename("b.h5part", "a.h5part"), 0);
+    while (!status.replaced && wall_ms() < until) {
+        usleep(10000);
+        must(reel_status(reel, &status, &error), &error);
+    }
+    assert_true(status.replaced);
+    assert_seek(reel, 0.4, 0, 4);
+    reel_destroy(reel);
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, folder_setup, folder_teardown)
     const struct CMUnitTest tests[] = {
-        TEST(what_is_asked_for_is_shown),    TEST(neighbours_are_known), TEST(steps_are_read_ahead),
-        TEST(reading_ahead_comes_to_an_end), TEST(few_steps_are_kept),   TEST(a_step_that_cannot_be_read),
+        TEST(what_is_asked_for_is_shown),
+        TEST(neighbours_are_known),
+        TEST(steps_are_read_ahead),
+        TEST(reading_ahead_comes_to_an_end),
+        TEST(few_steps_are_kept),
+        TEST(a_step_that_cannot_be_read),
         TEST(a_file_that_grows_is_followed),
+        TEST(the_step_at_or_after_a_time),
+        TEST(a_file_that_is_replaced),
     };
     return cmocka_run_group_tests(tests, context_begin, context_end);
 }

@@ -10,7 +10,7 @@ enum { ALL = 6000 };
 typedef struct Cloud {
     ParticleBuffers state;
     DerivedSpace space;
-    float position[4 * ALL], velocity[4 * ALL], density[ALL], pressure[ALL];
+    float position[4 * ALL], velocity[4 * ALL], density[ALL], pressure[ALL], three[3][ALL];
     float scalar[SCALAR_COUNT][ALL], vector[VECTOR_COUNT][4 * ALL];
 } Cloud;
 
@@ -95,11 +95,18 @@ static void derive(Cloud *cloud)
     ParticleArrays arrays = {.position = cloud->position, .velocity = cloud->velocity};
     arrays.scalar[SCALAR_DENSITY] = cloud->density;
     arrays.scalar[SCALAR_PRESSURE] = cloud->pressure;
+    for (int k = 0; k < 3; k++)
+        arrays.scalar[SCALAR_ACCELERATION_X + k] = arrays.scalar[SCALAR_FRICTION_BEFORE_X + k] =
+            cloud->three[k];
+    arrays.scalar[SCALAR_BORN] = cloud->three[0];
     assert_int_equal(wants_attributes(&wants), PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1 -
                                                    PARTICLE_SCALAR(SCALAR_FLUID) + PARTICLE_VELOCITY +
-                                                   PARTICLE_FLUID);
+                                                   PARTICLE_FLUID + PARTICLE_ID);
     Upload *upload = upload_create(
-        count, PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_DENSITY) | PARTICLE_SCALAR(SCALAR_PRESSURE),
+        count,
+        PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_DENSITY) | PARTICLE_SCALAR(SCALAR_PRESSURE) |
+            PARTICLE_SCALAR(SCALAR_BORN) |
+            7U * (PARTICLE_SCALAR(SCALAR_ACCELERATION_X) | PARTICLE_SCALAR(SCALAR_FRICTION_BEFORE_X)),
         &error);
     assert_true(upload && upload_arrays(upload, &arrays, &cloud->state, &error));
     assert_true(upload_take(upload, &particles));

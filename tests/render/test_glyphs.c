@@ -88,6 +88,8 @@ typedef struct Arrow {
     float foot[3], value, vector[3], unused;
 } Arrow;
 
+static unsigned left_out; /* of the arrows_of last */
+
 /* How many arrows that state has, and they themselves; the caller frees them. */
 static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, double *usual)
 {
@@ -105,9 +107,11 @@ static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, dou
     if (!glyph_arrows_create(&arrows, &error))
         fail_msg("%s", error.message);
     glyph_arrows_make(&arrows, &buffers, &frame);
-    *usual = glyph_arrows_usual(&arrows);
+    const GlyphTally *tally = glyph_arrows_count(&arrows, &buffers, &frame);
+    *usual = glyph_usual(tally);
+    left_out = tally->left_out;
     if (arrows.most > 0)
-        glGetNamedBufferSubData(arrows.command, 0, sizeof indices, &indices);
+        glGetNamedBufferSubData(arrows.tallies.box.buffer, 0, sizeof indices, &indices);
     *count = indices / 6;
     assert_true(*count <= arrows.most);
     Arrow *out = calloc(*count + 1, sizeof *out);
@@ -243,6 +247,49 @@ static void the_usual_length_is_a_percentile(void **state)
     upload(wind);
     free(arrows_of(wind, &def, &count, &usual));
     assert_true(fabs(usual - 300) < 1e-9);
+    wind_destroy(wind);
+}
+
+/* What is not waited for is the same a picture later; the first is waited for, and the first of another
+   vector, which has another unit. */
+static void what_is_late_is_the_same(void **state)
+{
+    (void)state;
+    static const double speeds[] = {2, 20, 20, 300}, late[] = {2, 2, 20, 20};
+    Error error = {0};
+    ViewDef def = glyphs_view(GLYPHS_PARTICLES);
+    const WorldDef world = bare_world();
+    bool behind;
+    const Frame frame = {.def = &def, .world = &world, .behind = &behind};
+    GlyphArrows arrows = {0};
+    Wind *wind = wind_create(0.05);
+    glyphs_def(&def)->stride = 1;
+    for (int i = 0; i < 20; i++)
+        add(wind, (double[3]){0.05 * i, 0.1, 0}, (double[3]){0, 0, 0});
+    assert_true(glyph_arrows_create(&arrows, &error));
+    for (int k = 0; k < 4; k++) {
+        for (int i = 0; i < 20; i++)
+            wind->velocity[4 * i] = (float)(0.8 * speeds[k]);
+        wind->state.step = (uint64_t)k;
+        if (k != 2) /* the second one is drawn twice */
+            upload(wind);
+        wind->buffers.vector[VECTOR_VELOCITY] = wind->buffers.velocity;
+        behind = false;
+        glyph_arrows_make(&arrows, &wind->buffers, &frame);
+        const double usual = glyph_usual(glyph_arrows_count(&arrows, &wind->buffers, &frame));
+        if (fabs(usual - late[k]) > 1e-9 || behind != (speeds[k] != late[k]))
+            fail_msg("%d: %g, behind %d", k, usual, behind);
+        glFinish(); /* what was sent has arrived */
+    }
+    glyphs_def(&def)->vector = VECTOR_BOX_VELOCITY;
+    behind = false;
+    ParticleBuffers moved = wind->buffers; /* whose box has the motion of the last wind */
+    moved.vector[VECTOR_BOX_VELOCITY] = wind->buffers.velocity;
+    glyph_arrows_make(&arrows, &moved, &frame);
+    const double usual = glyph_usual(glyph_arrows_count(&arrows, &moved, &frame));
+    if (fabs(usual - 300) > 1e-9 || behind)
+        fail_msg("another vector: %g, behind %d", usual, behind);
+    glyph_arrows_destroy(&arrows);
     wind_destroy(wind);
 }
 
@@ -411,6 +458,7 @@ static void what_is_no_number_is_no_arrow(void **state)
     double usual;
     free(arrows_of(wind, &def, &count, &usual));
     assert_int_equal(count, 0);
+    assert_int_equal(left_out, 3); /* and one stands still */
     assert_true(usual == 0);
     picture_of(wind, &none, empty);
     picture_of(wind, &def, rgb);
@@ -423,6 +471,35 @@ static void what_is_no_number_is_no_arrow(void **state)
     glyphs_def(&def)->at = GLYPHS_GRID;
     glyphs_def(&def)->cell = 0.1;
     compare_means(wind, &def, 20 * 10 * 4);
+    wind_destroy(wind);
+}
+
+/* An arrow whose colour is no number: magenta as in the views, in light and shade. */
+static void a_colour_that_is_no_number(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDE * HIGH], empty[3 * WIDE * HIGH];
+    ViewDef def = glyphs_view(GLYPHS_PARTICLES), none = def;
+    Wind *wind = wind_create(0.1);
+    glyphs_def(&none)->show = false;
+    glyphs_def(&def)->color_by = GLYPHS_BY_SCALAR;
+    glyphs_def(&def)->stride = 1;
+    glyphs_def(&def)->scale = 0.4;
+    add(wind, (double[3]){0, 0.5, 0}, (double[3]){1, 1, 0});
+    wind->speed[0] = NAN;
+    upload(wind);
+    picture_of(wind, &none, empty);
+    picture_of(wind, &def, rgb);
+    int drawn = 0;
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        const uint8_t *is = &rgb[(size_t)3 * (size_t)i];
+        if (memcmp(is, &empty[(size_t)3 * (size_t)i], 3) == 0)
+            continue;
+        drawn++;
+        if (!(is[0] > is[2] && is[2] > is[1] + 40))
+            fail_msg("%d %d %d is no magenta", is[0], is[1], is[2]);
+    }
+    assert_in_range(drawn, 50, 5000);
     wind_destroy(wind);
 }
 
@@ -493,7 +570,8 @@ int main(void)
         TEST(the_box_has_a_motion_of_its_own),  TEST(an_arrow_ends_where_it_should),
         TEST(a_plane_is_as_fine_as_it_should),  TEST(vorticity_has_arrows),
         TEST(glyphs_want_what_they_read),       TEST(what_is_no_number_is_no_arrow),
-        TEST(the_view_hides_what_is_behind),    TEST(a_curve_bends_their_colors),
+        TEST(a_colour_that_is_no_number),       TEST(the_view_hides_what_is_behind),
+        TEST(a_curve_bends_their_colors),       TEST(what_is_late_is_the_same),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

@@ -2,6 +2,9 @@
 #include "tests/render/fixture.h"
 
 #include "render/panels.h"
+#include "sim/base/color.h"
+
+#include <math.h>
 
 enum { WIDTH = 401, HEIGHT = 301 };
 
@@ -114,6 +117,118 @@ static void panels_are_pictures_of_their_own(void **state)
     }
     assert_null(panels_create(subjects, 4, 3, 300, &error));
     assert_non_null(strstr(error.message, "3 x 300 pixels has no room for 4 panels"));
+    stand_destroy(&stand);
+}
+
+/* By the first that shows it; the others draw what that one has, and memory goes with the wish. */
+static void a_state_is_derived_once(void **state)
+{
+    (void)state;
+    static uint8_t rgb[3 * WIDTH * HEIGHT];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default();
+    def.color_by = SCALAR_NEIGHBOURS;
+    def.range_auto = false;
+    def.range[1] = 40;
+    const Subject subjects[] = {{&def, &world}, {&def, &world}, {&def, &world}};
+    const ParticleBuffers *states[] = {&stand.states[0], &stand.states[0], &stand.states[1]};
+    Panels *panels = panels_create(subjects, 3, WIDTH, HEIGHT, &error);
+    assert_non_null(panels);
+    panels_draw(panels, states, NULL);
+    assert_true(panels_read(panels, rgb, &error));
+    for (int i = 0; i < 3; i++)
+        assert_panel(rgb, WIDTH, &panels_places(panels)[i], &def, &world, states[i], 0);
+    assert_true(panels_derived_bytes(panels, 0) > 0 && panels_derived_bytes(panels, 2) > 0);
+    assert_int_equal(panels_derived_bytes(panels, 1), 0);
+    panels_destroy(panels);
+
+    Renderer *renderer = renderer_create(&def, &world, 64, 64, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, states[0], NULL);
+    assert_true(renderer_derived_bytes(renderer) > 0);
+    def.color_by = SCALAR_SPEED;
+    assert_true(renderer_set_def(renderer, &def, &world, &error));
+    assert_int_equal(renderer_derived_bytes(renderer), 0);
+    renderer_draw(renderer, states[0], NULL);
+    renderer_destroy(renderer);
+    stand_destroy(&stand);
+}
+
+/* Twice as large, between pixels in proportion to light. */
+static double enlarged(const uint8_t *rgb, int width, int height, int x, int y, int k)
+{
+    double sum = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        const int dx = corner & 1 ? (x & 1 ? 1 : -1) : 0, dy = corner & 2 ? (y & 1 ? 1 : -1) : 0;
+        const int i = (int)fmin(fmax(x / 2 + dx, 0), width - 1),
+                  j = (int)fmin(fmax(y / 2 + dy, 0), height - 1);
+        sum += (dx ? 0.25 : 0.75) * (dy ? 0.25 : 0.75) * srgb_to_linear(rgb[3 * (j * width + i) + k] / 255.0);
+    }
+    return 255 * linear_to_srgb(sum);
+}
+
+/* A view of half the resolution is the picture of half the size, enlarged. */
+static void a_resolution_of_its_own(void **state)
+{
+    (void)state;
+    enum { W = 120, H = 80 };
+    static uint8_t rgb[3 * 4 * W * H], half[3 * W * H];
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default();
+    def.legend = def.box = false;
+    Renderer *small = renderer_create(&def, &world, W, H, &error);
+    Renderer *large = renderer_create(&def, &world, 7, 7, &error);
+    assert_true(small && large);
+    def.resolution = 0.5;
+    assert_true(renderer_set_def(large, &def, &world, &error));
+    assert_true(renderer_resize(large, 2 * W, 2 * H, &error));
+    renderer_draw(small, &stand.states[0], NULL);
+    renderer_draw(large, &stand.states[0], NULL);
+    renderer_read(small, half);
+    renderer_read(large, rgb);
+    double worst = 0;
+    for (int i = 0; i < 3 * 4 * W * H; i++)
+        worst = fmax(worst, fabs(rgb[i] - enlarged(half, W, H, i / 3 % (2 * W), i / 3 / (2 * W), i % 3)));
+    if (worst > 3)
+        fail_msg("%g of 255 off", worst);
+    def.resolution = 1;
+    assert_true(renderer_set_def(large, &def, &world, &error));
+    const PanelPlace whole = {0, 0, 2 * W, 2 * H};
+    renderer_draw(large, &stand.states[0], NULL);
+    renderer_read(large, rgb);
+    assert_panel(rgb, 2 * W, &whole, &def, &world, &stand.states[0], 0);
+    renderer_destroy(small);
+    renderer_destroy(large);
+    stand_destroy(&stand);
+}
+
+/* What the mouse finds is at the same place. */
+static void a_pick_at_another_resolution(void **state)
+{
+    (void)state;
+    Error error = {0};
+    Stand stand = stand_create();
+    const WorldDef world = bare_world();
+    ViewDef def = view_def_default();
+    double at[2][3];
+    text_set(def.kind, "slice");
+    for (int i = 0; i < 2; i++) {
+        def.resolution = i == 0 ? 1 : 0.25;
+        Renderer *renderer = renderer_create(&def, &world, 400, 300, &error);
+        assert_non_null(renderer);
+        renderer_draw(renderer, &stand.states[0], NULL);
+        const ViewAsks asks = {.mouse = true, .pixel = {180, 160}};
+        ViewProbes answers;
+        assert_true(renderer_probe(renderer, &asks, &answers) && answers.placed);
+        memcpy(at[i], answers.place, sizeof at[i]);
+        renderer_destroy(renderer);
+    }
+    for (int k = 0; k < 3; k++)
+        assert_true(fabs(at[0][k] - at[1][k]) < 0.02);
     stand_destroy(&stand);
 }
 
@@ -252,7 +367,10 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(places_share_the_picture),
+        cmocka_unit_test(a_resolution_of_its_own),
+        cmocka_unit_test(a_pick_at_another_resolution),
         cmocka_unit_test_teardown(panels_are_pictures_of_their_own, no_gl_errors),
+        cmocka_unit_test_teardown(a_state_is_derived_once, no_gl_errors),
         cmocka_unit_test_teardown(a_scalar_has_one_range, no_gl_errors),
         cmocka_unit_test_teardown(cameras_are_the_same, no_gl_errors),
         cmocka_unit_test_teardown(a_title_covers_its_rows_alone, no_gl_errors),

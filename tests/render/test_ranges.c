@@ -44,6 +44,52 @@ static void check(Ranges *ranges, const char *what, const float *values, size_t 
                  wanted.least, wanted.low, wanted.high, wanted.greatest);
 }
 
+/* What is not waited for is the same a picture later, of a state that is drawn again too; only the first is
+   waited for, and nothing is asked twice. */
+static void what_is_late_is_the_same(void **state)
+{
+    (void)state;
+    enum { STATES = 6, COUNT = 5000 };
+    static float values[COUNT];
+    Ranges ranges = {0};
+    Error error = {0};
+    ScalarRange before = {0};
+    GLuint buffer;
+    assert_true(ranges_create(&ranges, &error));
+    glCreateBuffers(1, &buffer);
+    glNamedBufferStorage(buffer, sizeof values, NULL, GL_DYNAMIC_STORAGE_BIT);
+    ParticleBuffers particles = {.count = COUNT};
+    particles.scalar[SCALAR_PRESSURE] = (ParticleAttribute){buffer, 0, 4};
+    for (int k = 0; k < STATES; k++) {
+        bool behind = false;
+        for (int i = 0; i < COUNT; i++)
+            values[i] = (float)((i * 7919 % COUNT) * (k + 1) - 100 * k);
+        glNamedBufferSubData(buffer, 0, sizeof values, values);
+        particles.step = (uint64_t)k;
+        const ScalarRange now = by_sorting(values, COUNT),
+                          late = ranges_follow(&ranges, SCALAR_PRESSURE, &particles, &behind);
+        const ScalarRange *shown = behind ? &before : &now;
+        assert_memory_equal(&late, shown, 4 * sizeof(double));
+        assert_int_equal(behind, k > 0);
+        glFinish();
+        for (int again = 0; again < 2; again++) { /* nothing moves */
+            behind = false;
+            const ScalarRange settled = ranges_follow(&ranges, SCALAR_PRESSURE, &particles, &behind);
+            assert_false(behind);
+            assert_null(ranges.late[SCALAR_PRESSURE].found.fence);
+            assert_memory_equal(&settled, &now, 4 * sizeof(double));
+        }
+        const ScalarRange waited = ranges_find(&ranges, &particles.scalar[SCALAR_PRESSURE], COUNT);
+        assert_memory_equal(&waited, &now, 4 * sizeof(double));
+        before = now;
+    }
+    bool behind = false;
+    particles.count = 0;
+    assert_true(ranges_follow(&ranges, SCALAR_PRESSURE, &particles, &behind).known && !behind);
+    glDeleteBuffers(1, &buffer);
+    ranges_destroy(&ranges);
+}
+
 static void ranges_are_percentiles(void **state)
 {
     (void)state;
@@ -176,6 +222,7 @@ static void the_legend_says_that_some_are_beyond(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(what_is_late_is_the_same, no_gl_errors),
         cmocka_unit_test_teardown(ranges_are_percentiles, no_gl_errors),
         cmocka_unit_test_teardown(a_picture_has_the_range_of_most, no_gl_errors),
         cmocka_unit_test_teardown(a_range_may_be_given, no_gl_errors),

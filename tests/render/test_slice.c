@@ -394,6 +394,42 @@ static void a_pixel_has_the_colour_of_its_value(void **state)
     free_scene(&scene);
 }
 
+/* By a scalar, that of the colours or another, what is low is not there and what is high is as without. */
+static void opacity_goes_by_a_scalar(void **state)
+{
+    (void)state;
+    uint8_t plain[3 * WIDE * HIGH], none[3 * WIDE * HIGH], veiled[3 * WIDE * HIGH];
+    SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, (double[3]){0, 0, 1});
+    scene.job.samples[0] = WIDE, scene.job.samples[1] = WIDE / 2;
+    float *sums = sums_of(&scene);
+    for (int own = 0; own < 2; own++) {
+        ViewDef def = flat_view();
+        int low = 0, high = 0;
+        def.color_by = own ? SCALAR_SPEED : SCALAR_FLUID;
+        picture_of(&scene, &def, plain);
+        slice_def(&def)->point[2] = 5;
+        picture_of(&scene, &def, none);
+        slice_def(&def)->point[2] = 0;
+        def.opacity.by = 1 + SCALAR_SPEED;
+        def.opacity.range_auto = false;
+        def.opacity.range[1] = 3;
+        def.opacity.curve = (ControlPoints){2, {0.499, 0.501}, {0, 1}};
+        picture_of(&scene, &def, veiled);
+        for (int at = 0; at < WIDE * WIDE / 2; at++) {
+            const int line = (HIGH + WIDE / 2) / 2 - 1 - at / WIDE, pixel = 3 * (line * WIDE + at % WIDE);
+            const double share = plane_value(&sums[4 * at], false) / 3;
+            if (!(sums[4 * at + 1] > 0.3F) || fabs(share - 0.5) < 0.01)
+                continue;
+            assert_memory_equal(veiled + pixel, (share < 0.5 ? none : plain) + pixel, 3);
+            low += share < 0.5;
+            high += share > 0.5;
+        }
+        assert_true(low > 100 && high > 100);
+    }
+    free(sums);
+    free_scene(&scene);
+}
+
 /* Where play has brought the plane the picture is that of a plane which is there. */
 static void it_plays_in_pictures(void **state)
 {
@@ -468,7 +504,7 @@ static void particles_are_those_of_their_own_view(void **state)
     for (int i = 0; i < 3 * WIDE * HIGH; i++)
         if (abs(alone[i] - both[i]) > 1)
             fail_msg("pixel %d: %d, wanted %d", i / 3, both[i], alone[i]);
-    def.opacity.by = def.size.by = 1 + SCALAR_SPEED; /* of no use, as the slice says */
+    def.opacity.by = def.size.by = 1 + SCALAR_SPEED; /* of the plane; of no use, as the slice says */
     picture_of(&scene, &def, behind);
     assert_memory_equal(behind, both, sizeof both);
     slice_def(&def)->particles = SLICE_BEHIND;
@@ -483,6 +519,20 @@ static void particles_are_those_of_their_own_view(void **state)
 
 /* ---- probes ---- */
 
+/* What is known in the end: on a GPU it comes later. */
+static ViewProbes ask(Renderer *renderer, const ViewAsks *asks)
+{
+    ViewProbes told;
+    for (int tries = 0; tries < 3; tries++) {
+        assert_true(renderer_probe(renderer, asks, &told) && told.asked);
+        if (told.now)
+            return told;
+        glFinish();
+    }
+    fail_msg("nothing came");
+    return told;
+}
+
 /* What probes of a picture say is what all particles sum up to there. */
 static void check_probes(const ViewDef *def, SliceScene *scene)
 {
@@ -496,13 +546,20 @@ static void check_probes(const ViewDef *def, SliceScene *scene)
     int values = 0;
     for (int i = 0; i < 300; i++) {
         const double pixel[2] = {3.2 + 1.5 * (i % 60), 25.4 + 6.3 * (i / 60)};
-        double at[2][3] = {{0}}, place[3], sums[3];
-        ViewProbe found[2];
-        if (!renderer_pick(renderer, pixel, at[0]))
+        double place[3], sums[3];
+        ViewAsks asks = {.mouse = true, .pixel = {pixel[0], pixel[1]}};
+        ViewProbes told = ask(renderer, &asks);
+        const ViewProbe *found = told.probe;
+        assert_int_equal(told.mouse, renderer_may_probe(renderer, pixel));
+        if (!told.mouse)
             continue;
-        for (int k = 0; k < 3; k++)
-            at[1][k] = at[0][k] + scene->job.plane.normal[k] * 0.1; /* off the plane */
-        assert_int_equal(renderer_probe(renderer, (const double(*)[3])at, 2, found), 2);
+        asks = (ViewAsks){.count = 2};
+        for (int k = 0; k < 3; k++) {
+            asks.at[0][k] = found[0].at[k];
+            asks.at[1][k] = found[0].at[k] + scene->job.plane.normal[k] * 0.1; /* off the plane */
+        }
+        told = ask(renderer, &asks);
+        assert_true(!told.mouse && told.count == 2);
         assert_true(found[0].seen &&
                     hypot(found[0].pixel[0] - pixel[0], found[0].pixel[1] - pixel[1]) < 0.01);
         assert_int_equal(found[1].what, VIEW_PROBE_OFF);
@@ -634,7 +691,17 @@ static void a_plane_without_fluid_is_said(void **state)
         plane_make(scene.state.box_size, (double[3]){0, cases[i].height, 0}, (double[3]){0, 1, 0},
                    &scene.job.plane);
         assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
-        assert_int_equal(plane_sum_none(&sum), cases[i].none);
+        assert_int_equal(plane_sum_none(&sum, NULL), cases[i].none);
+        for (int again = 0; again < 2; again++) { /* without waiting: what was known, in the end what is */
+            bool behind = false;
+            const bool none = plane_sum_none(&sum, &behind);
+            assert_true(none == cases[i].none);
+            assert_int_equal(behind, sum.asked);
+            assert_true(again == 0 || !behind);
+            assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
+            assert_int_equal(sum.asked, cases[i].by_quads);
+            glFinish();
+        }
         plane_sum_destroy(&sum);
     }
     upload_destroy(upload);
@@ -719,6 +786,7 @@ int main(void)
         cmocka_unit_test_teardown(a_lattice_keeps_constants_and_slopes, no_gl_errors),
         cmocka_unit_test_teardown(what_is_no_number_stays_where_it_is, no_gl_errors),
         cmocka_unit_test_teardown(a_pixel_has_the_colour_of_its_value, no_gl_errors),
+        cmocka_unit_test_teardown(opacity_goes_by_a_scalar, no_gl_errors),
         cmocka_unit_test_teardown(it_plays_in_pictures, no_gl_errors),
         cmocka_unit_test_teardown(half_of_the_particles_is_left, no_gl_errors),
         cmocka_unit_test_teardown(particles_are_those_of_their_own_view, no_gl_errors),

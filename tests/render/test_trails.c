@@ -271,7 +271,7 @@ static void some_are_chosen(void **state)
     memset(own->region_min, 0, sizeof own->region_min);
     memset(own->region_max, 0, sizeof own->region_max);
     take_turn(&store, movers, &def, 300, 0.81);
-    assert_int_equal(store.slots, 3);
+    assert_int_equal(store.listed_count, 3);
     assert_int_equal(seen_in_head(&store), 2);
     assert_int_equal(id_of(&store, store.ring.head, 0), 250);
     assert_int_equal(id_of(&store, store.ring.head, 1), 4);
@@ -302,6 +302,31 @@ static void ids_are_read(void **state)
         if (trails_listed(&def, ids) != cases[i].count)
             fail_msg("\"%s\"", cases[i].text);
     }
+}
+
+/* By clicks, whatever the number of digits; a seventeenth is refused, and one of them goes again. */
+static void a_click_adds_up_to_sixteen(void **state)
+{
+    (void)state;
+    ViewDef view = trails_view();
+    ViewSetting settings[VIEW_SETTINGS_MAX];
+    char words[160];
+    uint32_t ids[TRAILS_LISTED_MAX];
+    TrailsDef *own = trails_def(&view);
+    for (int i = 0; i <= TRAILS_LISTED_MAX; i++) {
+        const bool fits = i < TRAILS_LISTED_MAX;
+        assert_int_equal(overlay_trails.choose(&view, (uint32_t)(INT32_MAX - i), settings, words), 2 * fits);
+        if (!fits)
+            break;
+        const char *list = strchr(settings[0].text, '=') + 1;
+        assert_true(strlen(list) < sizeof own->ids);
+        snprintf(own->ids, sizeof own->ids, "%s", list);
+        own->show = true;
+        assert_int_equal(trails_listed(own, ids), i + 1);
+    }
+    assert_non_null(strstr(words, "16 particles have a trail, and no more can"));
+    assert_int_equal(overlay_trails.choose(&view, INT32_MAX, settings, words), 2);
+    assert_null(strstr(settings[0].text, "2147483647"));
 }
 
 /* Ten that rise through a plane one after another; going back before that they have not crossed it. */
@@ -490,6 +515,7 @@ int main(void)
         TEST(the_older_keeps_its_trail),
         TEST(some_are_chosen),
         TEST(ids_are_read),
+        TEST(a_click_adds_up_to_sixteen),
         TEST(those_that_cross_a_plane_are_chosen),
         TEST(there_are_so_many_at_most),
         TEST(a_scalar_that_is_not_there_is_no_number),

@@ -149,11 +149,12 @@ static void wild(Movers *movers, double time)
 }
 
 /* Each picture draws only what is new: all drawn anew, after a look from elsewhere, is the same. */
-static void what_is_kept_is_what_would_be_drawn(void **state)
+static void keep_and_draw_anew(double every)
 {
-    (void)state;
     static uint8_t kept[BYTES], anew[BYTES], elsewhere[BYTES];
     Show show = open_show();
+    trails_def(&show.def)->every = every;
+    follow(&show);
     for (int i = 0; i <= 60; i++) {
         wild(show.movers, 0.013 * i);
         draw(&show, 0.013 * i, kept);
@@ -173,6 +174,13 @@ static void what_is_kept_is_what_would_be_drawn(void **state)
         assert_memory_equal(kept, anew, sizeof kept);
     }
     close_show(&show);
+}
+
+static void what_is_kept_is_what_would_be_drawn(void **state)
+{
+    (void)state;
+    keep_and_draw_anew(0);
+    keep_and_draw_anew(0.09); /* most states are replaced by the next one */
 }
 
 /* A picture after a step back is that of the time, and so are those that follow. */
@@ -224,6 +232,51 @@ static void the_order_of_particles_is_of_no_account(void **state)
         close_show(&show);
     }
     assert_memory_equal(one, other, BYTES);
+}
+
+static int pixels_apart(const uint8_t *a, const uint8_t *b)
+{
+    int count = 0;
+    for (int y = 0; y < HIGH; y++)
+        for (int x = 0; x < WIDE; x++)
+            count += differ(a, b, x, y);
+    return count;
+}
+
+/* In a window that looks from elsewhere trails have fewer pieces, and all of them in the next picture. */
+static void pieces_are_few_while_the_camera_moves(void **state)
+{
+    (void)state;
+    static uint8_t rgb[BYTES], all[BYTES], bare[BYTES];
+    for (int moving = 0; moving < 3; moving++) {
+        Show show = open_show();
+        trails_def(&show.def)->every = 0.001;
+        trails_def(&show.def)->moving = moving == 0 ? 0 : moving == 1 ? 1000000 : 2000;
+        renderer_set_more(show.renderer, moving > 0);
+        follow(&show);
+        for (int i = 0; i <= 60; i++) {
+            wild(show.movers, 0.013 * i);
+            draw(&show, 0.013 * i, rgb);
+            assert_false(renderer_unfinished(show.renderer));
+        }
+        show.def.camera_auto = false;
+        show.def.camera = (CameraDef){{1, 1, 2}, {0, 0.4, 0}, 40};
+        follow(&show);
+        draw(&show, 0.013 * 60, moving == 0 ? all : rgb);
+        assert_int_equal(renderer_unfinished(show.renderer), moving == 2);
+        if (moving == 2) { /* curves by chords */
+            draw_bare(&show, bare);
+            const int drawn = pixels_apart(all, bare), apart = pixels_apart(all, rgb);
+            if (apart < 100 || pixels_apart(rgb, bare) < drawn * 9 / 10)
+                fail_msg("%d pixels differ of %d, %d have chords", apart, drawn, pixels_apart(rgb, bare));
+            renderer_draw(show.renderer, &show.movers->state, NULL);
+            renderer_read(show.renderer, rgb);
+            assert_false(renderer_unfinished(show.renderer));
+        }
+        if (moving > 0)
+            assert_memory_equal(all, rgb, BYTES);
+        close_show(&show);
+    }
 }
 
 static int drawn_pixels(Show *show, const uint8_t *rgb)
@@ -305,7 +358,55 @@ static void solids_hide_what_is_behind(void **state)
     assert_true(drawn[0] > 50 && drawn[1] == 0 && drawn[2] > drawn[0] - 20);
 }
 
-/* Lines have their colours by the scalar of the time; after another scalar the old ones are gray. */
+/* What the CPU draws for a software driver is what the GPU draws, but for pixels whose centres lie on an
+   edge; from another place for each tenth state. */
+static void cpu_and_gpu_draw_the_same(void **state)
+{
+    (void)state;
+    static uint8_t picture[2][BYTES];
+    Show show[2] = {open_show(), open_show()};
+    int worst = 0, drawn = 0;
+    trails_def(&show[1].def)->by = TRAILS_QUADS;
+    for (int k = 0; k < 2; k++) {
+        trails_def(&show[k].def)->every = 0.001; /* each state is a point */
+        trails_def(&show[k].def)->width = 3;
+        show[k].def.camera_auto = false;
+    }
+    for (int i = 0; i <= 60; i++) {
+        for (int k = 0; k < 2; k++) {
+            const double near = 0.2 + i / 10; /* at first among the trails */
+            show[k].def.camera = (CameraDef){{near, 0.8, 0.3 * near}, {0, 0.4, 0}, 50};
+            follow(&show[k]);
+            wild(show[k].movers, 0.013 * i);
+            draw(&show[k], 0.013 * i, picture[k]);
+        }
+        int differ_here = 0;
+        for (int y = 0; y < HIGH; y++)
+            for (int x = 0; x < WIDE; x++) {
+                const uint8_t *a = &picture[0][3 * (y * WIDE + x)], *b = &picture[1][3 * (y * WIDE + x)];
+                differ_here += abs(a[0] - b[0]) > 8 || abs(a[1] - b[1]) > 8 || abs(a[2] - b[2]) > 8;
+            }
+        worst = differ_here > worst ? differ_here : worst;
+    }
+    drawn = drawn_pixels(&show[0], picture[0]);
+    if (worst > 20 || drawn < 500)
+        fail_msg("%d pixels of %d differ, %d are drawn at last", worst, WIDE * HIGH, drawn);
+    close_show(&show[0]);
+    close_show(&show[1]);
+}
+
+static void assert_color(const Show *show, const uint8_t *rgb, const double place[3], const uint8_t color[3])
+{
+    double pixel[2];
+    project(show, place, pixel);
+    const uint8_t *found = &rgb[3 * ((int)pixel[1] * WIDE + (int)pixel[0])];
+    for (int c = 0; c < 3; c++)
+        if (abs(found[c] - color[c]) > 48) /* it has faded by 2 % */
+            fail_msg("%d %d %d at x = %g", found[0], found[1], found[2], place[0]);
+}
+
+/* Lines have their colours by the scalar of the time, magenta where that is no number; after another scalar
+   they are gray. */
 static void colours_are_those_of_the_time(void **state)
 {
     (void)state;
@@ -319,19 +420,18 @@ static void colours_are_those_of_the_time(void **state)
     follow(&show);
     for (int i = 0; i <= 40; i++) {
         movers_clear(show.movers);
-        movers_add(show.movers, 0, -0.4 + 0.02 * i, 0.5, 0, i <= 20 ? 0 : 1);
+        movers_add(show.movers, 0, -0.4 + 0.02 * i, 0.5, 0, i <= 16 ? 0 : i <= 28 ? NAN : 1);
         draw(&show, i, rgb);
     }
-    const double places[2][3] = {{-0.2, 0.5, 0}, {0.2, 0.5, 0}};
-    static const uint8_t ends[2][3] = {{68, 1, 84}, {253, 231, 37}}; /* viridis */
-    for (int k = 0; k < 2; k++) {
-        double pixel[2];
-        project(&show, places[k], pixel);
-        const uint8_t *found = &rgb[3 * ((int)pixel[1] * WIDE + (int)pixel[0])];
-        for (int c = 0; c < 3; c++)
-            if (abs(found[c] - ends[k][c]) > 48) /* it has faded by 2 % */
-                fail_msg("%d %d %d at place %d", found[0], found[1], found[2], k);
-    }
+    static const double places[3][3] = {{-0.2, 0.5, 0}, {0.05, 0.5, 0}, {0.3, 0.5, 0}};
+    static const uint8_t colors[3][3] = {{68, 1, 84}, {255, 0, 203}, {253, 231, 37}}, gray = 65; /* viridis */
+    for (int k = 0; k < 3; k++)
+        assert_color(&show, rgb, places[k], colors[k]);
+    show.def.color_by = show.def.color_by == SCALAR_PRESSURE ? SCALAR_DENSITY : SCALAR_PRESSURE;
+    follow(&show);
+    draw(&show, 41, rgb);
+    for (int k = 0; k < 3; k++)
+        assert_color(&show, rgb, places[k], (uint8_t[]){gray, gray, gray});
     close_show(&show);
 }
 
@@ -364,11 +464,17 @@ static void states_between_pictures_count(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_path_is_the_circle),        TEST(what_is_kept_is_what_would_be_drawn),
-        TEST(a_step_back_leaves_nothing),    TEST(the_order_of_particles_is_of_no_account),
-        TEST(no_line_across_periodic_sides), TEST(who_goes_leaves_a_trail_that_fades),
-        TEST(solids_hide_what_is_behind),    TEST(colours_are_those_of_the_time),
+        TEST(the_path_is_the_circle),
+        TEST(what_is_kept_is_what_would_be_drawn),
+        TEST(a_step_back_leaves_nothing),
+        TEST(the_order_of_particles_is_of_no_account),
+        TEST(no_line_across_periodic_sides),
+        TEST(who_goes_leaves_a_trail_that_fades),
+        TEST(solids_hide_what_is_behind),
+        TEST(colours_are_those_of_the_time),
         TEST(states_between_pictures_count),
+        TEST(cpu_and_gpu_draw_the_same),
+        TEST(pieces_are_few_while_the_camera_moves),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

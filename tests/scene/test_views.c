@@ -4,6 +4,7 @@
 #include "app/scene/keys.h"
 #include "app/scene/live.h"
 #include "render/slice/slice_def.h"
+#include "render/trails/trails_def.h"
 
 #include <stdlib.h>
 
@@ -108,6 +109,12 @@ static void what_is_wrong_has_its_place(void **state)
                    "scene.yaml:7:26: a normal of length 0");
     assert_refused(LEAST "view: {trails: {show: true, ids: abc}}\n",
                    "scene.yaml:7:34: \"abc\" is no list of at most 16 ids");
+    assert_refused(LEAST "view: {trails: {show: true, ids: [3, -4]}}\n",
+                   "scene.yaml:7:34: \"3 -4\" is no list of at most 16 ids; [3, 17, 250] is one");
+    assert_refused(LEAST "view: {trails: {ids: [3, [4]]}}\n",
+                   "scene.yaml:7:26: view.trails.ids must be a list of words, not a list");
+    assert_refused(LEAST "view: {trails: {ids: []}}\n", "scene.yaml:7:22: view.trails.ids has no entry");
+    assert_refused(LEAST "view: {kind: [splat, slice]}\n", "scene.yaml:7:14: view.kind");
     assert_refused(LEAST "view: {glyphs: {show: true, at: plane, plane_normal: [0, 0, 0]}}\n",
                    "scene.yaml:7:54: a normal of length 0");
     assert_refused(LEAST "views: [{camera: {from: [1, 1, 1]}}]\n",
@@ -137,6 +144,89 @@ static void what_has_no_effect_is_said(void **state)
         strstr(notes.line[1], ": views[1].size.by has no effect; it needs views[1].kind: spheres"));
 }
 
+static void entries_have_sources(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    const char *text =
+        LEAST "views: [{}, {set: {solver: {step: {dt: 0.001}}, gravity: [0, -3, 0], title: \"a: b\"}}, "
+              "{file: a run.h5part}]\n";
+    if (!parse_text(text, NULL, &scene, &error))
+        fail_msg("%s", error.message);
+    assert_string_equal(scene.views[1].set, "solver.step.dt=0.001\ngravity=[0, -3, 0]\ntitle=\"a: b\"");
+    assert_string_equal(scene.views[2].file, "a run.h5part");
+    char *shown = scene_print_text(&scene);
+    assert_non_null(strstr(shown, "\nviews[1].set = {\"solver.step.dt\": 0.001, \"gravity\": [0, -3, 0], "
+                                  "\"title\": \"a: b\"}\n"));
+    free(shown);
+    assert_true(parse_set(LEAST, "views=[{}, {set: {\"fluids[0].density\": 900}}]", &scene, &error));
+    assert_string_equal(scene.views[1].set, "fluids[0].density=900");
+    assert_true(parse_set(LEAST, "view.trails.ids=[3, 17,250]", &scene, &error));
+    assert_string_equal(trails_def(&scene.view)->ids, "3 17 250");
+#define EIGHT "2147483647, 2147483647, 2147483647, 2147483647, 2147483647, 2147483647, 2147483647, 2147483647"
+    uint32_t ids[TRAILS_LISTED_MAX];
+    assert_true(parse_set(LEAST, "view.trails.ids=[" EIGHT ", " EIGHT "]", &scene, &error));
+    assert_int_equal(trails_listed(trails_def(&scene.view), ids), TRAILS_LISTED_MAX);
+    assert_false(parse_set(LEAST, "view.trails.ids=[" EIGHT ", " EIGHT ", 1]", &scene, &error));
+    assert_non_null(strstr(error.message, "view.trails.ids is too long; use at most 175 bytes"));
+    assert_false(parse_set(LEAST, "view.set={gravity: 3}", &scene, &error));
+    assert_non_null(strstr(error.message, "view.set is for entries of views"));
+    assert_false(parse_text(LEAST "views: [{file: a.h5part}]\n", NULL, &scene, &error));
+    assert_non_null(strstr(error.message, "leave it out of one, which shows the scene"));
+}
+
+/* Which scalars there are, the method says: each entry's own, and nobody else's. */
+static void each_is_judged_by_its_own_settings(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    const char *text =
+        LEAST "solver: {method: dfsph}\nviews: [{color_by: kept_term}, "
+              "{set: {solver.method: mueller}, color_by: kept_term}, {file: a.h5part, color_by: rate}]\n";
+    SceneSettings mueller = {.count = 1, .set = {"solver.method=mueller"}, .beside = "solver.method=mueller"};
+    if (!parse_text(text, NULL, &scene, &error))
+        fail_msg("%s", error.message);
+    assert_true(scene_set_live(&scene, "views[0].color_by=speed", NULL, &error));
+    assert_false(parse_text(text, &mueller, &scene, &error));
+    assert_non_null(strstr(error.message, "particles of this scene have no kept_term"));
+    assert_refused(LEAST "views: [{color_by: kept_term}, {set: {solver.method: dfsph}}]\n",
+                   "scene.yaml:7:20: particles of this scene have no kept_term");
+    mueller.set[0] = mueller.beside = "solver.method=dfsph";
+    if (!parse_text(LEAST "views: [{}, {set: {solver.method: dfsph}, color_by: kept_term}]\n", &mueller,
+                    &scene, &error))
+        fail_msg("%s", error.message);
+}
+
+/* They are a column of the world whose view reads them. */
+static void accelerations_of_others_cost_the_scene_nothing(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    const char *text = LEAST "views: [{}, {file: a.h5part, color_by: acceleration_y}, "
+                             "{set: {gravity: [0, -3, 0]}, color_by: acceleration}]\n";
+    SceneSettings set = {.count = 1, .set = {"gravity=[0, -3, 0]"}, .beside = "gravity=[0, -3, 0]"};
+    if (!parse_text(text, NULL, &scene, &error))
+        fail_msg("%s", error.message);
+    assert_false(scene.world.acceleration);
+    assert_true(parse_text(text, &set, &scene, &error));
+    assert_true(scene.world.acceleration);
+    assert_true(parse_set(text, "views[0].color_by=acceleration", &scene, &error));
+    assert_true(scene.world.acceleration);
+}
+
+static void a_setting_of_view_that_entries_have_themselves(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    Notes notes;
+    SceneSettings settings = {.count = 2, .set = {"view.color_by=density", "view.colormap=gray"}};
+    assert_true(scene_parse("a.yaml", LEAST VIEWS, strlen(LEAST VIEWS), &settings, &scene, &notes, &error));
+    assert_true(notes_have(&notes, "view.color_by does not reach views[1], views[3], where it is said anew; "
+                                   "views[N].color_by=... does"));
+    for (int i = 0; i < notes.count; i++)
+        assert_null(strstr(notes.line[i], "view.colormap does not"));
+}
+
 static void print_says_what_differs(void **state)
 {
     (void)state;
@@ -144,6 +234,7 @@ static void print_says_what_differs(void **state)
     assert_true(parse_text(LEAST VIEWS, NULL, &scene, &error));
     char *text = scene_print_text(&scene);
     assert_non_null(strstr(text, "\nview.slice.isolines = 3\n"));
+    assert_non_null(strstr(text, "\nviews = [{}, {}, {}, {}]\n")); /* the first differs in nothing */
     assert_non_null(strstr(text, "\nviews[1].kind = spheres\n"));
     assert_non_null(strstr(text, "\nviews[2].slice.isolines = 5\n"));
     assert_non_null(strstr(text, "\nviews[3].camera.from = [3, 2, 1] m\n"));
@@ -161,6 +252,10 @@ int main(void)
         cmocka_unit_test(live_settings_reach_them),
         cmocka_unit_test(what_is_wrong_has_its_place),
         cmocka_unit_test(what_has_no_effect_is_said),
+        cmocka_unit_test(each_is_judged_by_its_own_settings),
+        cmocka_unit_test(entries_have_sources),
+        cmocka_unit_test(accelerations_of_others_cost_the_scene_nothing),
+        cmocka_unit_test(a_setting_of_view_that_entries_have_themselves),
         cmocka_unit_test(print_says_what_differs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -207,7 +207,7 @@ static void tilted_box_ends_level(void **state)
     def.motion_count = 1;
     def.motions[0] = (Motion){.kind = MOTION_TURN, .axis = {0, 0, 1}, .angle_deg = 30, .duration = 1};
     World *world = fixture_world(&def);
-    fixture_step(world, fixture_count(5000, on_cpu ? 800 : 600));
+    fixture_step(world, fixture_count(5000, on_cpu ? 800 : 450));
     State s = fixture_read(world);
     /* in the box's frame the level surface falls by tan 30 degrees along x */
     const double slope = fit_surface(&s, 1.6, def.spacing, along_x);

@@ -276,6 +276,119 @@ static void save_load_step_is_step(void **state)
     }
 }
 
+/* By id, of all that were born: s; -1 where it is not there any more. */
+static float *births_of(World *world, size_t *count)
+{
+    const WorldInfo info = info_of(world);
+    uint32_t *id = malloc((info.count + 1) * sizeof *id);
+    float *born = malloc((info.count + 1) * sizeof *born);
+    ParticleArrays out = {.id = id};
+    out.scalar[SCALAR_BORN] = born;
+    assert_true(world_read(world, &out));
+    *count = info.count + info.drained;
+    float *all = malloc((*count + 1) * sizeof *all);
+    for (size_t i = 0; i < *count; i++)
+        all[i] = -1;
+    for (size_t i = 0; i < info.count; i++)
+        all[id[i]] = born[i];
+    free(id);
+    free(born);
+    return all;
+}
+
+/* Whether a layer of the emitter comes out then. */
+static bool is_of(const Emit *emit, double spacing, double born)
+{
+    const double layers = (born - emit->start) * emit->speed / spacing;
+    return layers > -1e-4 && fabs(layers - round(layers)) < 1e-4;
+}
+
+/* Of two emitters that work at times of their own, each particle has the time of a layer, within the frame in
+   which it was first seen. */
+static void births_are_times_of_layers(void **state)
+{
+    (void)state;
+    enum { IDS_MOST = 4000 };
+    WorldDef def = busy_def("mueller");
+    def.fluids[0].emits[def.fluids[0].emit_count++] = (Emit){
+        .centre = {0.3, 0.8, 0.1}, .direction = {0, -1, 0}, .radius = 0.1, .speed = 1.37, .start = 0.0313};
+    const size_t initial = seed_count(&def, def.spacing);
+    double *seen = calloc(IDS_MOST, sizeof *seen);
+    size_t count, of[2] = {0};
+    World *world = fixture_world(&def);
+    for (int frame = 0; frame < fixture_count(60, 40); frame++) {
+        fixture_step(world, 1);
+        const double now = info_of(world).time;
+        float *born = births_of(world, &count);
+        assert_true(count < IDS_MOST);
+        for (size_t i = 0; i < count; i++) {
+            if (born[i] < 0)
+                continue;
+            if (i < initial) {
+                assert_true(born[i] == 0);
+                continue;
+            }
+            seen[i] = seen[i] > 0 ? seen[i] : now;
+            assert_true(born[i] > seen[i] - def.dt - 1e-6 && born[i] < seen[i] + 1e-6);
+            const bool first = is_of(&def.fluids[0].emits[0], def.spacing, born[i]),
+                       second = is_of(&def.fluids[1].emits[0], def.spacing, born[i]);
+            assert_true(first || second);
+            of[0] += first, of[1] += second;
+        }
+        free(born);
+    }
+    assert_true(of[0] > 100 && of[1] > 100 && info_of(world).trouble.count == 0);
+    free(seen);
+    world_destroy(world);
+}
+
+static void same_births(World *one, World *other)
+{
+    size_t count, others;
+    float *a = births_of(one, &count), *b = births_of(other, &others);
+    assert_int_equal(count, others);
+    assert_memory_equal(a, b, count * sizeof *a);
+    free(a);
+    free(b);
+}
+
+/* Also into a world that has gone on otherwise; a state that does not say them leaves them open. */
+static void births_are_saved(void **state)
+{
+    (void)state;
+    WorldDef def = busy_def("mueller"), other_def;
+    const size_t initial = seed_count(&def, def.spacing);
+    WorldState saved = {0};
+    Error error = {0};
+    size_t count;
+    World *world = fixture_world(&def);
+    fixture_step(world, 30);
+    assert_true(info_of(world).emitted > 20 && world_save(world, &saved, &error));
+    fixture_step(world, 20);
+    other_def = def;
+    other_def.dt = 0.003;
+    World *other = fixture_world(&other_def);
+    fixture_step(other, 70);
+    assert_true(world_load(other, &saved, &error));
+    fixture_step(other, 20);
+    same_births(world, other);
+
+    const size_t before = initial + (size_t)saved.numbers.emitted;
+    saved.births.count = 0;
+    assert_true(world_load(other, &saved, &error));
+    fixture_step(other, 20);
+    float *born = births_of(other, &count);
+    for (size_t i = 0; i < count; i++)
+        assert_true(i < initial  ? born[i] <= 0
+                    : i < before ? isnan(born[i]) || born[i] == -1
+                                 : born[i] == -1 || born[i] > 0.1F);
+    assert_true(count > before);
+    free(born);
+    world_state_free(&saved);
+    world_destroy(world);
+    world_destroy(other);
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -305,6 +418,85 @@ static void going_back_takes_back_what_came(void **state)
         check_ids(world, seed_count(&def, def.spacing));
     assert_true(info_of(world).trouble.count > 0);
     check_ids(world, seed_count(&def, def.spacing));
+    WorldState saved = {0};
+    assert_true(world_save(world, &saved, &error));
+    for (size_t k = 1; k < saved.births.count; k++)
+        assert_true(saved.births.of[k].first_id > saved.births.of[k - 1].first_id);
+    world_state_free(&saved);
+    size_t count, of_layer = 0;
+    float *born = births_of(world, &count);
+    for (size_t i = seed_count(&def, def.spacing) + 1; i < count; i++) {
+        if (born[i] < 0 || born[i - 1] < 0) {
+            of_layer = 0;
+            continue;
+        }
+        of_layer = born[i] == born[i - 1] ? of_layer + 1 : 0;
+        assert_true(born[i] >= born[i - 1] && born[i] <= info_of(world).time && of_layer < 13);
+        assert_true(is_of(&def.fluids[1].emits[0], def.spacing, born[i]));
+    }
+    free(born);
+    world_destroy(world);
+}
+
+/* Of any who are left the time is the same, and no birth stays of whom none is. */
+static void births_of_none_are_left_out(void **state)
+{
+    (void)state;
+    enum { IDS = 400 };
+    uint32_t dice = 1, id[IDS];
+    for (int trial = 0; trial < 50; trial++) {
+        Births births = {0};
+        float was[IDS];
+        size_t left = 0, times = 0;
+        for (uint32_t first = 7; first < IDS; first += 1 + (dice = dice * 1664525u + 1013904223u) % 9) {
+            assert_true(births_reserve(&births, 1));
+            births_add(&births, first, (float)first);
+        }
+        const float last = births.of[births.count - 1].time;
+        for (uint32_t i = 0; i < IDS; i++)
+            if (((dice = dice * 1664525u + 1013904223u) >> 8) % 20 == 0) {
+                was[left] = births_time(&births, i);
+                times += was[left] > 0 && (left == 0 || was[left] != was[left - 1]);
+                id[left++] = i;
+            }
+        times += left == 0 || was[left - 1] != last; /* the last birth stays */
+        births_keep(&births, id, left);
+        for (size_t i = 0; i < left; i++)
+            assert_true(births_time(&births, id[i]) == was[i]);
+        assert_int_equal(births.count, times);
+        births_free(&births);
+    }
+}
+
+/* A fast jet into a drain: births are as many as twice the layers that are under way, and these are known. */
+static void births_of_the_drained_are_forgotten(void **state)
+{
+    (void)state;
+    WorldDef def = jet_def(3);
+    def.fluids[0].emits[0].radius = 0.02;
+    def.fluids[0].emits[0].speed = 10;
+    def.dt = 0.01;
+    def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {-1, 0, -0.5}, .max = {1.9, 1, 0.5}};
+    World *world = fixture_world(&def);
+    WorldState saved = {0};
+    Error error;
+    fixture_step(world, 400);
+    assert_true(world_save(world, &saved, &error));
+    const WorldInfo info = info_of(world);
+    assert_true(info.emitted > 790 && info.count < 100);
+    assert_true(saved.births.count < 300);
+    size_t count, known = 0;
+    float *born = births_of(world, &count);
+    for (size_t i = 0; i < count; i++) {
+        if (born[i] < 0)
+            continue;
+        known++;
+        assert_true(is_of(&def.fluids[0].emits[0], def.spacing, born[i]));
+        assert_true(info.time - born[i] < 0.2);
+    }
+    assert_int_equal(known, info.count);
+    free(born);
+    world_state_free(&saved);
     world_destroy(world);
 }
 
@@ -318,6 +510,10 @@ int main(void)
         cmocka_unit_test(a_wall_may_hold_the_disk),
         cmocka_unit_test(nothing_comes_where_something_is),
         cmocka_unit_test(save_load_step_is_step),
+        cmocka_unit_test(births_are_times_of_layers),
+        cmocka_unit_test(births_are_saved),
+        cmocka_unit_test(births_of_none_are_left_out),
+        cmocka_unit_test(births_of_the_drained_are_forgotten),
         cmocka_unit_test(threads_change_no_bit),
         cmocka_unit_test(going_back_takes_back_what_came),
     };

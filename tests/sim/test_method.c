@@ -79,6 +79,41 @@ static void passes_name_columns_that_exist(void **state)
         }
 }
 
+/* How many of the rows' components that are saved are scalars by that name and unit. */
+static int scalars_of(const ColumnDef *row, Scalar only)
+{
+    char name[COLUMN_NAME_SIZE];
+    int found = 0;
+    for (; row && row->name; row++)
+        for (int k = 0; row->flags & COLUMN_SAVED && column_own(row) >= 0 && k < row->components; k++) {
+            int known = 0;
+            column_scalar_name(row, k, name);
+            for (int s = SCALAR_OWN; s < SCALAR_BORN; s++)
+                if (strcmp(name, scalar_list[s].name) == 0 && strcmp(row->unit, scalar_list[s].unit) == 0) {
+                    known++;
+                    found += (Scalar)s == only;
+                }
+            if (known != 1)
+                fail_msg("OWN_SCALAR_LIST has %d rows of %s in %s", known, name, row->unit);
+        }
+    return found;
+}
+
+static void what_is_saved_is_a_scalar(void **state)
+{
+    (void)state;
+    for (int s = SCALAR_OWN; s < SCALAR_BORN; s++) {
+        int found = 0;
+        for (const Method *const *method = method_list(); *method; method++)
+            if (strcmp((*method)->name, "toy") != 0) /* it stands in no list of the program */
+                found += scalars_of((*method)->columns, (Scalar)s);
+        for (const Term *const *term = shared_terms; *term; term++)
+            found += scalars_of((*term)->columns, (Scalar)s);
+        if (found != 1)
+            fail_msg("%d columns are %s", found, scalar_list[s].name);
+    }
+}
+
 /* The fluids' particles in a column's component: what stands for solids is the backend's. */
 static bool same(const Cpu *cpu, const ColumnDef *row, int component, ParticleColumns *a, ParticleColumns *b)
 {
@@ -215,6 +250,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_name_columns_that_exist),
+        cmocka_unit_test(what_is_saved_is_a_scalar),
         cmocka_unit_test(passes_read_and_write_what_they_name),
         cmocka_unit_test(energy_is_the_integral_of_pressure),
         cmocka_unit_test(particles_have_the_pressure_of_their_method),

@@ -150,7 +150,7 @@ static void a_tank_with_solids_comes_to_rest(void **state)
     (void)state;
     fixture_needs_cpu("thousands of steps of thousands of particles; gl.compute_solids has each step of it");
     /* wcsph: the start's gaps next to round solids stay in the densities until diffusion has levelled them */
-    static const int steps[] = {2000, 5000};
+    static const int steps[] = {1200, 5000};
     for (int m = 0; m < 2; m++) {
         WorldDef def = tank_with_solids(fixture_method_names[m]);
         wcsph_def(&def)->delta_sph = 0.1;

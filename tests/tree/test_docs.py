@@ -32,7 +32,7 @@ def missing(page, text):
     spans = re.findall(r'`((?!.*NAME)[^`\n]+)`', re.sub(r'^ *```.*?^ *```$', '', text, flags=re.S | re.M))
     paths = [span for span in spans if re.fullmatch(rf'[\w./-]+\.{SOURCE}', span)]
     folders = [span for span in spans if re.fullmatch(r'[\w./-]+/', span) and not span.startswith('build/')]
-    tools = re.findall(r'(?<![\w/])tools/[a-z]+', text)
+    tools = re.findall(r'(?<![\w/])tools/[a-z]\w*(?:\.py)?', text)
     links = [link.split('#')[0] for link in re.findall(r'\]\(([^)\s]+)\)', text) if '://' not in link]
     tests = [f'tests/{folder}/test_{name}.c' for folder, name in re.findall(r'\btest_([a-z]+)_(\w+)\b(?!\.)', text)
              if (ROOT / 'tests' / folder).is_dir()]

@@ -270,6 +270,10 @@ static bool compute_adapt(void *state, Error *error)
 {
     Compute *c = state;
     char defines[COMPUTE_DEFINES_MAX];
+    if (!supported(c->constants, c->capacity, error))
+        return false;
+    if (!compute_own_fit(c))
+        return error_set(error, "the GPU has no memory for another term; use a larger spacing");
     all_defines(c, defines);
     if (!compute_term_buffers(c) || !compute_scratch_fit(c) || !compute_iterate_fit(c))
         return error_set(error, "the GPU has no memory for another term; use a larger spacing");

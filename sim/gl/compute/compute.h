@@ -206,11 +206,13 @@ void compute_list_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX])
    of compute_defines; the columns to and from plain arrays, those that are NULL left out, or to another
    buffer; 0 for so many particles; from `now` to `spare` in another order, or past the drained. */
 ComputeOwn compute_own_of(const Constants *constants);
+bool compute_own_fit(Compute *compute); /* room for columns that came later; false when memory is short */
 void compute_own_rows(const Compute *compute, ColumnRows *rows); /* adds them */
 void compute_own_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
 void compute_own_upload(const Compute *compute, const ParticleColumns *from);
 void compute_own_download(const Compute *compute, const ParticleColumns *to);
 void compute_own_copy(const Compute *compute, unsigned from, unsigned to);
+void compute_own_copy_one(const Compute *compute, int k, unsigned to); /* the k-th, to a buffer's begin */
 void compute_own_clear(const Compute *compute, size_t first, size_t count);
 void compute_own_move(const Compute *compute, unsigned order);
 void compute_own_gather(const Compute *compute, unsigned marks);

@@ -58,6 +58,32 @@ ComputeOwn compute_own_of(const Constants *s)
     return own;
 }
 
+static bool widen(Compute *c, unsigned *buffer, int before, int count)
+{
+    const unsigned wider = compute_buffer(c, "columns of the method's own", 4 * (size_t)count * c->capacity);
+    if (!wider)
+        return c->full = false;
+    if (*buffer && before > 0)
+        glCopyNamedBufferSubData(*buffer, wider, 0, 0, (GLsizeiptr)(4 * (size_t)before * c->capacity));
+    glDeleteBuffers(1, buffer);
+    *buffer = wider;
+    return true;
+}
+
+/* Terms that may come later stand last in their list. */
+bool compute_own_fit(Compute *c)
+{
+    const ComputeOwn own = compute_own_of(c->constants);
+    const int before = c->own.count;
+    if (own.count <= before)
+        return true;
+    if (!widen(c, &c->now.own, before, own.count) || !widen(c, &c->spare.own, before, own.count) ||
+        (c->marked.position && !widen(c, &c->marked.own, before, own.count)))
+        return false;
+    c->own = own;
+    return true;
+}
+
 void compute_own_rows(const Compute *c, ColumnRows *rows)
 {
     for (int k = 0; k < c->own.rows.count; k++)
@@ -115,6 +141,12 @@ void compute_own_copy(const Compute *c, unsigned from, unsigned to)
 {
     for (int k = 0; k < c->own.count; k++)
         glCopyNamedBufferSubData(from, to, place_of(c, k, 0), place_of(c, k, 0), (GLsizeiptr)(4 * c->count));
+}
+
+void compute_own_copy_one(const Compute *c, int k, unsigned to)
+{
+    if (c->count > 0)
+        glCopyNamedBufferSubData(c->now.own, to, place_of(c, k, 0), 0, (GLsizeiptr)(4 * c->count));
 }
 
 void compute_own_clear(const Compute *c, size_t first, size_t count)

@@ -23,6 +23,25 @@ static ParticleAttribute show(Compute *c, int what)
     return (ParticleAttribute){c->shown[what], 0, 4};
 }
 
+/* A column of the method's own, or a term's; nothing where the scene has none of that name. */
+static ParticleAttribute show_own(Compute *c, Scalar scalar)
+{
+    const int place = columns_place(&c->own.rows, scalar);
+    int k = 0;
+    while (k < c->own.count && c->own.place[k] != place)
+        k++;
+    if (k == c->own.count)
+        return (ParticleAttribute){0};
+    if (!c->shown[scalar])
+        c->shown[scalar] = compute_buffer(c, "shown", 4 * c->capacity);
+    if (!c->shown[scalar]) {
+        c->full = false;
+        return (ParticleAttribute){0};
+    }
+    compute_own_copy_one(c, k, c->shown[scalar]);
+    return (ParticleAttribute){c->shown[scalar], 0, 4};
+}
+
 void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
 {
     Compute *c = state;
@@ -32,7 +51,7 @@ void compute_share(void *state, unsigned attributes, ParticleBuffers *out)
         out->velocity = (ParticleAttribute){c->now.velocity, 0, 16};
     for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         if (attributes & PARTICLE_SCALAR(s))
-            out->scalar[s] = show(c, s);
+            out->scalar[s] = s < SCALAR_OWN ? show(c, s) : show_own(c, (Scalar)s);
     if (attributes & PARTICLE_FLUID)
         out->fluid = show(c, COMPUTE_SHOW_FLUID);
     if (attributes & PARTICLE_ID)

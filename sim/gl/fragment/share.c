@@ -37,7 +37,7 @@ static void show(Fragment *f, int what)
 
 static void share_scalars(Fragment *f, unsigned attributes, ParticleBuffers *out)
 {
-    for (int s = 0; s < SCALAR_STATE_COUNT; s++) {
+    for (int s = 0; s < SCALAR_OWN; s++) {
         if (!(attributes & PARTICLE_SCALAR(s)))
             continue;
         show(f, s);

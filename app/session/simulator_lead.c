@@ -1,0 +1,126 @@
+/* Simulators that follow another one, on its thread: each goes on to its first frame at or after that one's
+   time. */
+#include "app/session/simulator_state.h"
+
+#include <stdio.h>
+
+/* Times are sums of decimal fractions: a frame this small part of it early is on time
+ * (app/session/session.c). */
+static const double ROUNDING = 1e-6;
+
+void simulator_hold(Simulator *simulator)
+{
+    pthread_mutex_lock(&simulator->showing);
+}
+
+void simulator_release(Simulator *simulator)
+{
+    pthread_mutex_unlock(&simulator->showing);
+}
+
+static double time_of(const Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    return info.time;
+}
+
+static bool quits(Simulator *simulator)
+{
+    pthread_mutex_lock(&simulator->lock);
+    const bool quit = simulator->quit;
+    pthread_mutex_unlock(&simulator->lock);
+    return quit;
+}
+
+/* Frames, as far as the leader has come. One that fails stays where it is. */
+static void catch_up(Simulator *leader, Simulator *follower)
+{
+    const double time = time_of(leader);
+    while (follower->world && !follower->status.failed && !quits(leader) &&
+           time_of(follower) < time - ROUNDING * follower->scene.world.dt) {
+        simulator_frame_begin(follower);
+        while (follower->frame.begun)
+            simulator_frame_step(follower);
+    }
+}
+
+void simulator_lead(Simulator *simulator)
+{
+    for (int i = 0; i < simulator->follower_count; i++)
+        catch_up(simulator, simulator->followers[i]);
+}
+
+static void publish(Simulator *simulator)
+{
+    Error error = {{0}};
+    if (simulator->world && !simulator_publish(simulator, &error))
+        simulator_tell(simulator, true, error.message);
+}
+
+bool simulator_show(Simulator *simulator, Error *error)
+{
+    if (simulator->follower_count == 0)
+        return simulator_publish(simulator, error);
+    simulator_hold(simulator);
+    for (int i = 0; i < simulator->follower_count; i++)
+        publish(simulator->followers[i]);
+    const bool ok = simulator_publish(simulator, error);
+    simulator_release(simulator);
+    return ok;
+}
+
+void simulator_lead_begin(Simulator *simulator)
+{
+    for (int i = 0; i < simulator->follower_count; i++)
+        if (!simulator->followers[i]->world && !simulator->followers[i]->status.failed)
+            simulator_make_world(simulator->followers[i]);
+}
+
+void simulator_lead_restart(Simulator *simulator)
+{
+    for (int i = 0; i < simulator->follower_count; i++) {
+        Simulator *follower = simulator->followers[i];
+        pthread_mutex_lock(&follower->lock);
+        command_queue_drop_poses(&follower->queue);
+        pthread_mutex_unlock(&follower->lock);
+        simulator_restart(follower, follower->work);
+    }
+}
+
+/* Once: it stands ahead of the others there. */
+static void tell_kept(Simulator *follower, double time)
+{
+    char words[128];
+    const double now = time_of(follower);
+    if (follower->told_kept || !follower->past || now <= time + follower->scene.world.dt)
+        return;
+    follower->told_kept = true;
+    snprintf(words, sizeof words,
+             "its past reaches back to %.4g s only: it stays there; --past MIB keeps more", now);
+    simulator_tell(follower, false, words);
+}
+
+void simulator_lead_travel(Simulator *simulator)
+{
+    Error error = {{0}};
+    if (simulator->follower_count == 0 || !simulator->world || !simulator->past || simulator->recording_lost)
+        return; /* it has not travelled either */
+    for (int i = 0; i < simulator->follower_count; i++) {
+        Simulator *follower = simulator->followers[i];
+        if (!follower->world)
+            continue;
+        const double time = time_of(simulator);
+        pthread_mutex_lock(&follower->lock);
+        follower->wish = (Wish){.pending = true, .after = true, .time = time};
+        simulator_take_wish(follower, follower->work);
+        pthread_mutex_unlock(&follower->lock);
+        simulator_travel(follower, follower->work);
+        catch_up(simulator, follower);
+        tell_kept(follower, time);
+    }
+    if (!simulator_show(simulator, &error))
+        simulator_tell(simulator, true, error.message);
+    if (simulator->wake)
+        simulator->wake();
+}

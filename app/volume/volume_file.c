@@ -1,0 +1,224 @@
+#include "app/volume/volume_file.h"
+
+#include "app/base/read_file.h"
+#include "app/base/suggest.h"
+#include "app/yaml/value.h"
+#include "app/yaml/yaml.h"
+#include "sim/base/key_rows.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { HEADER_BYTES_MAX = 1 << 20 };
+
+static const struct {
+    const char *name;
+    size_t bytes;
+} types[] = {
+    [VOLUME_UINT8] = {"uint8", 1}, [VOLUME_INT8] = {"int8", 1},       [VOLUME_UINT16] = {"uint16", 2},
+    [VOLUME_INT16] = {"int16", 2}, [VOLUME_FLOAT32] = {"float32", 4},
+};
+
+static const char *type_name(int type)
+{
+    return type <= VOLUME_FLOAT32 ? types[type].name : NULL;
+}
+
+static const char *order_name(int order)
+{
+    static const char *const names[] = {"little", "big", NULL};
+    return names[order];
+}
+
+#define AT(field) offsetof(VolumeHeader, field)
+
+static const Key keys[] = {
+    TEXT("file", R, VOLUME_NAME_SIZE, AT(file), NULL, "the raw file, beside the header"),
+    VEC3("size", R, "", 2, 65536, AT(size), "values along x, y, z"),
+    CHOICE("type", R | KEY_INDEX, type_name, AT(type), "of the raw values"),
+    CHOICE("byte_order", KEY_INDEX, order_name, AT(big), "of the raw values"),
+    VEC3("spacing", R, "m", 1e-9, 1e6, AT(spacing), "between values"),
+    VEC3("corner", 0, "m", -1e6, 1e6, AT(corner), "of the first value"),
+    NUMBER("scale", 0, "", -1e30, 1e30, AT(scale), "of raw values"),
+    NUMBER("offset", 0, "", -1e30, 1e30, AT(offset), "a value is offset + scale raw"),
+    KEYS_END,
+};
+
+/* ---- the header ---- */
+
+static bool known(const Tree *tree, const Node *child, Error *error)
+{
+    Suggestion near = suggest_for(child->key);
+    for (const Key *row = keys; row->path; row++) {
+        suggest_offer(&near, row->path);
+        if (strcmp(row->path, child->key) == 0)
+            return true;
+    }
+    return tree_error_key(tree, child, error, "unknown key '%.60s'; %s%s", child->key,
+                          near.best ? "did you mean "
+                                    : "known here: file, size, type, byte_order, spacing, corner, ",
+                          near.best ? near.best : "scale, offset");
+}
+
+static bool read_keys(const Tree *tree, VolumeHeader *header, Error *error)
+{
+    for (const Node *child = tree->root->first; child; child = child->next)
+        if (!known(tree, child, error))
+            return false;
+    for (const Key *row = keys; row->path; row++) {
+        const Node *child = node_child(tree->root, row->path);
+        if (!child && row->flags & R)
+            return error_set(error, "%s: '%s' is missing: %s", tree->path, row->path, row->help);
+        if (child && !value_read(tree, row, child, row->path, (char *)header, error))
+            return false;
+    }
+    const double *n = header->size;
+    for (int k = 0; k < 3; k++)
+        if (n[k] != rint(n[k]))
+            return tree_error(tree, node_child(tree->root, "size"), error,
+                              "size must be whole numbers, not %g", n[k]);
+    return n[0] * n[1] * n[2] <= 0x1p32 ||
+           tree_error(tree, node_child(tree->root, "size"), error, "size is %g values; at most 2^32 are read",
+                      n[0] * n[1] * n[2]);
+}
+
+bool volume_header_parse(const char *path, const char *bytes, size_t size, VolumeHeader *header, Error *error)
+{
+    Tree tree = {.path = path};
+    *header = (VolumeHeader){.scale = 1};
+    bool ok = yaml_read(&tree, NULL, bytes, size, &tree.root, error);
+    if (ok && tree.root && tree.root->kind == NODE_MAPPING)
+        ok = read_keys(&tree, header, error);
+    else if (ok)
+        ok = error_set(error, "%s:1:1: no volume's header; it has `file:`, `size:`, `type:` and `spacing:`",
+                       path);
+    tree_free(&tree);
+    return ok;
+}
+
+bool volume_header_load(const char *path, VolumeHeader *header, Error *error)
+{
+    size_t size;
+    char *text = read_file(path, HEADER_BYTES_MAX, "volume's header", &size, error);
+    const bool parsed = text && volume_header_parse(path, text, size, header, error);
+    free(text);
+    return parsed;
+}
+
+void volume_raw_path(const char *path, const VolumeHeader *header, char raw[VOLUME_PATH_SIZE])
+{
+    const char *slash = strrchr(path, '/');
+    const int folder = slash && header->file[0] != '/' ? (int)(slash - path) + 1 : 0;
+    snprintf(raw, VOLUME_PATH_SIZE, "%.*s%s", folder, path, header->file);
+}
+
+static size_t count_of(const VolumeHeader *header)
+{
+    return (size_t)header->size[0] * (size_t)header->size[1] * (size_t)header->size[2];
+}
+
+size_t volume_header_bytes(const VolumeHeader *header)
+{
+    return count_of(header) * types[header->type].bytes;
+}
+
+/* ---- the values ---- */
+
+static double raw_value(int type, uint32_t bits)
+{
+    float number;
+    switch (type) {
+    case VOLUME_INT8:
+        return (int8_t)bits;
+    case VOLUME_INT16:
+        return (int16_t)bits;
+    case VOLUME_FLOAT32:
+        memcpy(&number, &bits, sizeof number);
+        return (double)number;
+    default:
+        return bits;
+    }
+}
+
+void volume_values(const VolumeHeader *header, const unsigned char *raw, float *value)
+{
+    const size_t count = count_of(header), bytes = types[header->type].bytes;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits = 0;
+        for (size_t b = 0; b < bytes; b++)
+            bits |= (uint32_t)raw[i * bytes + b] << 8 * (header->big ? bytes - 1 - b : b);
+        value[i] = (float)(header->offset + header->scale * raw_value(header->type, bits));
+    }
+}
+
+static char *read_raw(const char *header_path, const char *path, const VolumeHeader *header, Error *error)
+{
+    struct stat status;
+    const size_t wanted = volume_header_bytes(header), least = 1 << 20;
+    size_t size = 0;
+    const bool there = stat(path, &status) == 0;
+    if (!there) {
+        error_set(error, "%s: %s; %s says that its values are there", path, strerror(errno), header_path);
+        return NULL;
+    }
+    if (S_ISREG(status.st_mode) && (size_t)status.st_size != wanted) {
+        error_set(error, "%s: %zu bytes, but %s says %g x %g x %g values of %s: %zu bytes", path,
+                  (size_t)status.st_size, header_path, header->size[0], header->size[1], header->size[2],
+                  type_name(header->type), wanted);
+        return NULL;
+    }
+    char *bytes = read_file(path, wanted > least ? wanted : least, "volume", &size, error);
+    if (bytes && size != wanted) {
+        error_set(error, "%s: %zu bytes could be read, but %s says %zu", path, size, header_path, wanted);
+        free(bytes);
+        return NULL;
+    }
+    return bytes;
+}
+
+/* Nothing can be found where values are none. */
+static bool all_finite(const char *path, const VolumeData *volume, Error *error)
+{
+    const size_t wide = (size_t)volume->size[0], high = (size_t)volume->size[1],
+                 count = wide * high * (size_t)volume->size[2];
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(volume->value[i]))
+            return error_set(error, "%s: value %zu %zu %zu is %g; only finite numbers can be shown", path,
+                             i % wide, i / wide % high, i / wide / high, (double)volume->value[i]);
+    return true;
+}
+
+bool volume_file_load(const char *path, VolumeData *volume, float **values, Error *error)
+{
+    VolumeHeader header;
+    char raw[VOLUME_PATH_SIZE];
+    *values = NULL;
+    if (!volume_header_load(path, &header, error))
+        return false;
+    volume_raw_path(path, &header, raw);
+    char *bytes = read_raw(path, raw, &header, error);
+    if (!bytes)
+        return false;
+    *values = malloc(count_of(&header) * sizeof **values);
+    if (*values)
+        volume_values(&header, (const unsigned char *)bytes, *values);
+    free(bytes);
+    *volume = (VolumeData){.value = *values};
+    for (int k = 0; k < 3; k++) {
+        volume->size[k] = (int)header.size[k];
+        volume->corner[k] = header.corner[k];
+        volume->spacing[k] = header.spacing[k];
+    }
+    if (!*values)
+        return error_set(error, "%s: no memory for %zu values", path, count_of(&header));
+    if (all_finite(raw, volume, error))
+        return true;
+    free(*values);
+    *values = NULL;
+    return false;
+}

@@ -1,0 +1,61 @@
+#include "render/particles/particle_under.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+enum { PART = 4096 }; /* particles at a time */
+
+/* The best so far. */
+typedef struct Found {
+    double radius, depth, beside; /* m: of a ball; along the ray to it, to the nearest beside the ray */
+    size_t first, near;           /* which; SIZE_MAX: none */
+} Found;
+
+static void look_at(Found *found, const SightRay *ray, const float at[3], size_t number)
+{
+    double from[3], along = 0, square = 0;
+    for (int k = 0; k < 3; k++) {
+        from[k] = (double)at[k] - ray->from[k];
+        along += from[k] * ray->along[k];
+        square += from[k] * from[k];
+    }
+    const double beside = sqrt(fmax(square - along * along, 0)), inside = found->radius - beside;
+    if (!(along > 0 && beside < 3 * found->radius)) /* NaN too */
+        return;
+    const double depth = along - sqrt(fmax(inside * (found->radius + beside), 0));
+    if (inside >= 0 && depth < found->depth) {
+        found->depth = depth;
+        found->first = number;
+    }
+    if (beside < found->beside) {
+        found->beside = beside;
+        found->near = number;
+    }
+}
+
+static void read_part(const ParticleAttribute *from, size_t first, size_t count, void *to)
+{
+    glGetNamedBufferSubData(from->buffer, (GLintptr)(from->offset + first * from->stride),
+                            (GLsizeiptr)(count * from->stride), to);
+}
+
+bool particle_under(const ParticleBuffers *particles, const SightRay *ray, double radius, uint32_t *id)
+{
+    float places[4 * PART];
+    Found found = {radius, INFINITY, INFINITY, SIZE_MAX, SIZE_MAX};
+    if (!particles->id.buffer)
+        return false;
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    for (size_t first = 0; first < particles->count; first += PART) {
+        const size_t count = particles->count - first < PART ? particles->count - first : PART;
+        read_part(&particles->position, first, count, places);
+        for (size_t i = 0; i < count; i++)
+            look_at(&found, ray, places + 4 * i, first + i);
+    }
+    const size_t best = found.first != SIZE_MAX ? found.first : found.near;
+    if (best != SIZE_MAX)
+        glGetNamedBufferSubData(particles->id.buffer,
+                                (GLintptr)(particles->id.offset + best * particles->id.stride), sizeof *id,
+                                id);
+    return best != SIZE_MAX;
+}

@@ -1,0 +1,320 @@
+#include "render/trails/trail_rows.h"
+
+#include "sim/base/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STRIPE = TRAIL_TILE, SEEN_FLOATS = 5 }; /* a tile is of one thread alone */
+
+/* A column as the eye sees it: x y z in its frame, and pixels from the middle of the picture. */
+typedef struct Seen {
+    float *x, *y, *z, *px, *py;
+} Seen;
+
+typedef struct Job {
+    TrailRows *rows;
+    const TrailSight *sight;
+    const TrailPieces *pieces;
+    const TrailPicture *picture;
+    size_t count, slots, parts;
+    float scale[2]; /* pixels: at.xy / -at.z times this */
+} Job;
+
+/* A thread's own: which rows are its, and the three columns of the piece in hand. */
+typedef struct Part {
+    const Job *job;
+    const TrailPieces *pieces; /* of the column in hand */
+    size_t number;
+    Seen seen[3]; /* earlier, from, to */
+} Part;
+
+/* A corner of a piece, in pixels from the picture's lower left corner. */
+typedef struct Corner {
+    float x, y;
+} Corner;
+
+/* What a piece leaves: at its beginning, and how it changes to its end. */
+typedef struct Ink {
+    float time[2], value[2], depth[2], half;
+    bool known;
+} Ink;
+
+/* ---- what the eye sees ---- */
+
+/* Points at the eye's plane or behind it have pixels of no use: nobody reads them. */
+static void see(const Job *job, const float *restrict place, Seen *seen)
+{
+    const float *m = job->sight->box_to_eye;
+    float *restrict x = seen->x, *restrict y = seen->y, *restrict z = seen->z;
+    float *restrict px = seen->px, *restrict py = seen->py;
+    const float across = job->scale[0], up = job->scale[1];
+    for (size_t i = 0; i < job->slots; i++) {
+        const float a = place[4 * i], b = place[4 * i + 1], c = place[4 * i + 2];
+        x[i] = m[0] * a + m[4] * b + m[8] * c + m[12];
+        y[i] = m[1] * a + m[5] * b + m[9] * c + m[13];
+        z[i] = m[2] * a + m[6] * b + m[10] * c + m[14];
+        const float near = -1 / z[i];
+        px[i] = x[i] * near * across;
+        py[i] = y[i] * near * up;
+    }
+}
+
+static bool joined(const TrailSight *sight, const TrailPoints *from, const TrailPoints *to, size_t i)
+{
+    const uint32_t a = from->owner[i], b = to->owner[i];
+    if (a == 0 || a >> 1 != b >> 1 || !(b & 1))
+        return false;
+    bool near = true;
+    for (size_t k = 0; k < 3; k++)
+        near &= fabsf(to->place[4 * i + k] - from->place[4 * i + k]) <= sight->wrap[k];
+    return near;
+}
+
+/* ---- a piece ---- */
+
+static void leave(const Part *part, const Ink *ink, int x, int y, float share, float across)
+{
+    const TrailPicture *picture = part->job->picture;
+    const float covered = ink->half + 0.5F - fabsf(across);
+    float *to = picture->pixels + 4 * ((size_t)y * (size_t)picture->width + (size_t)x);
+    const float left = covered < 0 ? 0 : covered > 1 ? 1 : covered;
+    to[0] = ink->time[0] + (ink->time[1] - ink->time[0]) * share;
+    to[1] = ink->value[0] + (ink->value[1] - ink->value[0]) * share;
+    to[2] = ink->depth[0] + (ink->depth[1] - ink->depth[0]) * share;
+    to[3] = ink->known ? left : -left;
+    picture->tiles[(size_t)(y / TRAIL_TILE) * (size_t)picture->columns + (size_t)(x / TRAIL_TILE)] = 1;
+}
+
+static int whole(float x, int most)
+{
+    return x > 0 ? x < (float)most ? (int)x : most : 0;
+}
+
+/* The pixels whose centres lie in a triangle, edges included, and in the part's stripes. `share` and `across`
+   at its corners. */
+static void fill(const Part *part, const Ink *ink, const Corner c[3], const float share[3],
+                 const float across[3])
+{
+    const TrailPicture *picture = part->job->picture;
+    const float area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[2].x - c[0].x) * (c[1].y - c[0].y);
+    if (!(fabsf(area) > 1e-12F))
+        return;
+    const float inverse = 1 / area;
+    const float low = fminf(c[0].y, fminf(c[1].y, c[2].y)), high = fmaxf(c[0].y, fmaxf(c[1].y, c[2].y));
+    const float left = fminf(c[0].x, fminf(c[1].x, c[2].x)), right = fmaxf(c[0].x, fmaxf(c[1].x, c[2].x));
+    const int first = whole(ceilf(left - 0.5F), picture->width),
+              end = whole(floorf(right + 0.5F), picture->width);
+    const int top = whole(floorf(high + 0.5F), picture->height);
+    /* weights of corners 1 and 2 change so from pixel to pixel along a row */
+    const float step1 = (c[2].y - c[0].y) * inverse, step2 = -(c[1].y - c[0].y) * inverse;
+    for (int y = whole(ceilf(low - 0.5F), picture->height); y < top; y++) {
+        if ((size_t)(y / STRIPE) % part->job->parts != part->number)
+            continue;
+        const float dy = (float)y + 0.5F - c[0].y;
+        for (int x = first; x < end; x++) {
+            const float dx = (float)x + 0.5F - c[0].x;
+            const float one = dx * step1 - dy * (c[2].x - c[0].x) * inverse,
+                        two = dx * step2 + dy * (c[1].x - c[0].x) * inverse, none = 1 - one - two;
+            if (one >= 0 && two >= 0 && none >= 0)
+                leave(part, ink, x, y, none * share[0] + one * share[1] + two * share[2],
+                      none * across[0] + one * across[1] + two * across[2]);
+        }
+    }
+}
+
+/* The share of the way to the other end at which this end is before the eye. */
+static float cut(const TrailSight *sight, float own, float other)
+{
+    const float clear = -2 * sight->near_plane;
+    return own <= clear ? 0 : (own - clear) / (own - other);
+}
+
+/* Across a way, of length 1. */
+static Corner across_of(Corner along)
+{
+    const float length = sqrtf(along.x * along.x + along.y * along.y), most = fmaxf(length, 1e-9F);
+    return (Corner){-along.y / most, along.x / most};
+}
+
+/* An end of the piece i at that share of its way, in pixels from the middle, and its depth. */
+static Corner end_of(const Part *part, size_t i, float share, float *depth)
+{
+    const Seen *from = &part->seen[1], *to = &part->seen[2];
+    if (share == 0 || share == 1) {
+        const Seen *at = share == 0 ? from : to;
+        *depth = part->job->sight->near_plane / -at->z[i];
+        return (Corner){at->px[i], at->py[i]};
+    }
+    const float x = from->x[i] + (to->x[i] - from->x[i]) * share,
+                y = from->y[i] + (to->y[i] - from->y[i]) * share,
+                z = from->z[i] + (to->z[i] - from->z[i]) * share;
+    *depth = part->job->sight->near_plane / -z;
+    return (Corner){x / -z * part->job->scale[0], y / -z * part->job->scale[1]};
+}
+
+/* Across the way in which the trail comes, where it comes from before the eye and does not turn back. */
+static Corner side_at_start(const Part *part, size_t i, Corner first, Corner along)
+{
+    const Seen *earlier = &part->seen[0];
+    const TrailPieces *pieces = part->pieces;
+    const TrailSight *sight = part->job->sight;
+    if (!pieces->earlier.owner || !joined(sight, &pieces->earlier, &pieces->from, i) ||
+        !(earlier->z[i] < -2 * sight->near_plane))
+        return across_of(along);
+    const Corner came = {first.x - earlier->px[i], first.y - earlier->py[i]};
+    return came.x * along.x + came.y * along.y > 0 ? across_of(came) : across_of(along);
+}
+
+static float mix(float a, float b, float share)
+{
+    return a + (b - a) * share;
+}
+
+/* Whether none of the rows is the part's, or none of the picture's. */
+static bool is_elsewhere(const Part *part, Corner a, Corner b, float reach)
+{
+    const TrailPicture *picture = part->job->picture;
+    const float low = fminf(a.y, b.y) - reach, high = fmaxf(a.y, b.y) + reach;
+    if (!(high > 0 && low < (float)picture->height && fmaxf(a.x, b.x) + reach > 0 &&
+          fminf(a.x, b.x) - reach < (float)picture->width))
+        return true;
+    const size_t first = (size_t)whole(low, picture->height) / STRIPE,
+                 last = (size_t)whole(high, picture->height) / STRIPE, parts = part->job->parts;
+    return last - first + 1 < parts && (part->number + parts - first % parts) % parts > last - first;
+}
+
+static void draw_piece(const Part *part, size_t i)
+{
+    const Job *job = part->job;
+    const TrailSight *sight = job->sight;
+    const TrailPieces *pieces = part->pieces;
+    const TrailPicture *picture = job->picture;
+    const float clear = -2 * sight->near_plane, za = part->seen[1].z[i], zb = part->seen[2].z[i];
+    if (!joined(sight, &pieces->from, &pieces->to, i) || (za > clear && zb > clear))
+        return;
+    const float start = cut(sight, za, zb), stop = 1 - cut(sight, zb, za), reach = sight->half_width + 0.5F;
+    Ink ink = {.half = sight->half_width, .known = pieces->known};
+    const Corner first = end_of(part, i, start, &ink.depth[0]), last = end_of(part, i, stop, &ink.depth[1]);
+    const float middle[2] = {0.5F * (float)picture->width, 0.5F * (float)picture->height};
+    const Corner a = {first.x + middle[0], first.y + middle[1]}, b = {last.x + middle[0], last.y + middle[1]};
+    if (is_elsewhere(part, a, b, reach))
+        return;
+    const Corner along = {last.x - first.x, last.y - first.y}, side = across_of(along),
+                 came = start == 0 ? side_at_start(part, i, first, along) : side;
+    const float shares[2] = {start, stop};
+    for (int k = 0; k < 2; k++) {
+        ink.time[k] = mix(pieces->times[0], pieces->times[1], shares[k]);
+        ink.value[k] = mix(pieces->from.place[4 * i + 3], pieces->to.place[4 * i + 3], shares[k]);
+    }
+    const Corner corners[4] = {{a.x - came.x * reach, a.y - came.y * reach},
+                               {b.x - side.x * reach, b.y - side.y * reach},
+                               {a.x + came.x * reach, a.y + came.y * reach},
+                               {b.x + side.x * reach, b.y + side.y * reach}};
+    fill(part, &ink, (Corner[]){corners[0], corners[1], corners[2]}, (float[]){0, 1, 0},
+         (float[]){-reach, -reach, reach});
+    fill(part, &ink, (Corner[]){corners[2], corners[1], corners[3]}, (float[]){0, 1, 1},
+         (float[]){reach, -reach, reach});
+}
+
+/* ---- the whole ---- */
+
+static Seen seen_at(float *at, size_t slots)
+{
+    return (Seen){at, at + slots, at + 2 * slots, at + 3 * slots, at + 4 * slots};
+}
+
+/* Columns follow one another: what was seen of the last one serves the next. */
+static void draw_part(const Job *job, size_t number)
+{
+    const size_t column = SEEN_FLOATS * job->slots;
+    float *own = job->rows->seen + 3 * column * number;
+    Part part = {.job = job, .number = number};
+    for (size_t k = 0; k < 3; k++)
+        part.seen[k] = seen_at(own + k * column, job->slots);
+    for (size_t k = 0; k < job->count; k++) {
+        const TrailPieces *pieces = part.pieces = &job->pieces[k];
+        if (k > 0 && job->pieces[k - 1].to.place == pieces->from.place) {
+            const Seen gone = part.seen[0];
+            part.seen[0] = part.seen[1];
+            part.seen[1] = part.seen[2];
+            part.seen[2] = gone;
+        } else {
+            if (pieces->earlier.owner)
+                see(job, pieces->earlier.place, &part.seen[0]);
+            see(job, pieces->from.place, &part.seen[1]);
+        }
+        see(job, pieces->to.place, &part.seen[2]);
+        for (size_t i = 0; i < job->slots; i++)
+            draw_piece(&part, i);
+    }
+}
+
+static void draw_parts(void *context, size_t begin, size_t end)
+{
+    for (; begin < end; begin++)
+        draw_part(context, begin);
+}
+
+bool trail_rows_draw(TrailRows *rows, const TrailSight *sight, const TrailPieces *pieces, size_t count,
+                     size_t slots, const TrailPicture *picture)
+{
+    const int threads = parallel_processors();
+    if (count == 0)
+        return true;
+    const size_t room = 3 * SEEN_FLOATS * slots * (size_t)threads;
+    if (room > rows->seen_room) {
+        free(rows->seen);
+        rows->seen = malloc(room * sizeof *rows->seen);
+        rows->seen_room = rows->seen ? room : 0;
+        if (!rows->seen)
+            return false;
+    }
+    Job job = {.rows = rows,
+               .sight = sight,
+               .pieces = pieces,
+               .picture = picture,
+               .count = count,
+               .slots = slots,
+               .parts = (size_t)threads,
+               .scale = {0.5F * (float)picture->width / sight->tangent[0],
+                         0.5F * (float)picture->height / sight->tangent[1]}};
+    parallel_ranges(threads, job.parts, 1, draw_parts, &job);
+    return true;
+}
+
+void trail_rows_free(TrailRows *rows)
+{
+    free(rows->seen);
+    *rows = (TrailRows){0};
+}
+
+/* Where a tile begins, and how many pixels wide and high it is. */
+static float *tile_of(const TrailPicture *picture, size_t tile, int size[2])
+{
+    const int x = (int)(tile % (size_t)picture->columns) * TRAIL_TILE,
+              y = (int)(tile / (size_t)picture->columns) * TRAIL_TILE;
+    size[0] = picture->width - x < TRAIL_TILE ? picture->width - x : TRAIL_TILE;
+    size[1] = picture->height - y < TRAIL_TILE ? picture->height - y : TRAIL_TILE;
+    return picture->pixels + 4 * ((size_t)y * (size_t)picture->width + (size_t)x);
+}
+
+void trail_picture_copy(const TrailPicture *to, const TrailPicture *from, size_t tile)
+{
+    int size[2];
+    float *out = tile_of(to, tile, size), *in = tile_of(from, tile, size);
+    for (int y = 0; y < size[1]; y++)
+        memcpy(out + 4 * y * to->width, in + 4 * y * from->width, 4 * sizeof *out * (size_t)size[0]);
+}
+
+void trail_picture_clear(const TrailPicture *picture)
+{
+    for (size_t i = 0; i < (size_t)picture->columns * (size_t)picture->rows; i++) {
+        int size[2];
+        float *at = tile_of(picture, i, size);
+        for (int y = 0; picture->tiles[i] && y < size[1]; y++)
+            memset(at + 4 * y * picture->width, 0, 4 * sizeof *at * (size_t)size[0]);
+        picture->tiles[i] = 0;
+    }
+}

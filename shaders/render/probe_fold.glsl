@@ -1,0 +1,17 @@
+// The parts of 64 lanes become one, in the same order each time.
+#include "render/probe.glsl"
+layout(local_size_x = 64) in;
+shared Part lanes[64];
+
+// For lane 0.
+Part folded(Part own)
+{
+    uint lane = gl_LocalInvocationID.x;
+    lanes[lane] = own;
+    for (uint half_way = 32u; half_way > 0u; half_way /= 2u) {
+        barrier();
+        if (lane < half_way)
+            lanes[lane] = together(lanes[lane], lanes[lane + half_way]);
+    }
+    return lanes[0];
+}

@@ -1,0 +1,14 @@
+// What a step begins with: begin_body in sim/change/change.c.
+#include "sim/constants.glsl"
+#define OWN_ACCESS writeonly
+#include "sim/own.glsl"
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
+
+void main()
+{
+    uint i = invocation();
+    if (i >= particle_count())
+        return;
+    for (uint k = 0u; k < 3u; k++)
+        own[OWN_change_acceleration + k * OWN_STRIDE + i] = velocity[i][k];
+}
