@@ -1,8 +1,9 @@
 /* The views there are: the only file outside their folders that names them. */
 #include "render/frame/view.h"
+#include "render/pbsr/pbsr_def.h"
 #include "render/slice/slice_def.h"
 #include "render/spheres/spheres.h"
 #include "render/splat/splat_def.h"
 #include "render/volume/volume_def.h"
 
-const ViewKind *const view_list[] = {&view_spheres, &view_splat, &view_volume, &view_slice, NULL};
+const ViewKind *const view_list[] = {&view_spheres, &view_splat, &view_volume, &view_slice, &view_pbsr, NULL};

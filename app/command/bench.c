@@ -4,6 +4,7 @@
 #include "app/command/bench_ablate.h"
 #include "app/command/bench_micro.h"
 #include "app/command/bench_plan.h"
+#include "app/command/bench_points.h"
 #include "app/command/cmd.h"
 #include "app/device/devices.h"
 #include "app/device/mapping.h"
@@ -237,6 +238,8 @@ int cmd_bench(const Args *args)
         return bench_ablate(&plan);
     if (args->micro)
         return bench_micro(&plan);
+    if (plan.table && plan.table->points)
+        return bench_points(&plan);
     if (args->play)
         return bench_play(args, &error);
     return bench(&plan, wants_context, &error);

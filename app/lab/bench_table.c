@@ -14,6 +14,15 @@ enum { SIM = 0U STAGE_LIST(X) };
 #undef X
 
 static const Table tables[] = {
+    {.name = "paper001",
+     .help =
+         "points a second: sampling of surfaces, and rendering by the view pbsr (Tanaka et al. 2012, section "
+         "5); give it --size 1024x1024; --particles N: so many points of each field",
+     .scene = "scenes/surfaces.yaml",
+     .settings = {"view.pbsr.moving=8", "view.pbsr.repeat=64"},
+     .reference = "scenes/reference/paper001-points.csv",
+     .view = "pbsr",
+     .points = true},
     {.name = "paper003-spheres",
      .help = "simulation and rendering by spheres, CPU and GPU (SIBGRAPI 2010, Table II and Figure 5)",
      .scene = "scenes/dam_break.yaml",
@@ -94,12 +103,15 @@ static void add(Sweep *sweep, const char *value)
 int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1])
 {
     int count = 0;
-    Sweep *views = &sweeps[count++], *particles = &sweeps[count++];
+    Sweep *views = &sweeps[count++];
     *views = (Sweep){.key = "view.kind"};
-    *particles = (Sweep){.key = "particles"};
     for (int i = 0; view_at(i); i++)
         if (!table->view || strcmp(table->view, view_at(i)->name) == 0)
             add(views, view_at(i)->name);
+    if (table->points)
+        return count;
+    Sweep *particles = &sweeps[count++];
+    *particles = (Sweep){.key = "particles"};
     for (int i = 0; table->particles[i]; i++)
         add(particles, table->particles[i]);
     if (table->substeps[0]) {

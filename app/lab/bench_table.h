@@ -27,6 +27,7 @@ typedef struct Table {
         *values[8]; /* with a view: a setting and its values, ended by NULL, a row each; or NULL */
     bool percent;   /* shares were published, and frames a second as `rate` */
     bool shares;    /* the chart shows the first column's share; else times */
+    bool points;    /* of the view pbsr: points a second, app/lab/points_bench.h; none of the columns */
     TableColumn columns[TABLE_COLUMNS]; /* ended by a NULL title */
 } Table;
 

@@ -100,6 +100,7 @@ static const struct {
     {"view.splat.ior=2", "view.kind=splat", "view.kind: splat", false},
     {"view.volume.look=water", "view.kind=volume", "view.kind: volume", false},
     {"view.slice.cut=0.5", "view.kind=slice", "view.kind: slice", false},
+    {"view.pbsr.repeat=5", "view.kind=pbsr", "view.kind: pbsr", false},
     {"view.glyphs.stride=2", "view.glyphs.show=true", "view.glyphs.show: true", false},
     {"view.trails.length=2", "view.trails.show=true", "view.trails.show: true", false},
 };

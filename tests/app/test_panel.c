@@ -8,8 +8,9 @@
 #include "app/panel/panel.h"
 #include "app/scene/keys.h"
 #include "app/scene/live.h"
+#include "render/pbsr/pbsr_def.h"
 
-enum { HISTORY = 120, TALL = 4000 }; /* all sections open, and room for more keys */
+enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
 
 static const char *const sections[] = {"History", "Colours", "World", "Fluids", "Solver", "Hand", "View"};
 enum { SECTIONS = sizeof sections / sizeof *sections };
@@ -72,6 +73,7 @@ static void load(Session *session, const char *name)
     Error error = {{0}};
     SceneSettings settings = {.count = 0};
     assert_true(scene_load(name, &settings, &session->scene, NULL, &error));
+    pbsr_def(&session->scene.view)->layer_count = 2; /* elements of a list have widgets */
 }
 
 static void fill(Session *session)

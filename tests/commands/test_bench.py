@@ -1,5 +1,6 @@
 """`bench` and `info`: what they print is what ran, and adds up."""
 import json
+import math
 import os
 import subprocess
 
@@ -80,8 +81,8 @@ class Bench(Case):
     def test_sweep_is_the_product(self):
         results = self.bench("--view", "none", "--sweep", "particles=500,1000", "--sweep", "threads=1,2")
         self.assertEqual([r["threads"] for r in results], [1, 2, 1, 2])
-        self.assertEqual(results[1]["swept"], "particles=500, solver.threads=2")
-        self.assertEqual(results[2]["swept"], "particles=1000, solver.threads=1")
+        self.assertEqual(results[1]["swept"], "particles=500, threads=2")
+        self.assertEqual(results[2]["swept"], "particles=1000, threads=1")
         self.assertLess(results[0]["particles"], results[2]["particles"])
         for result, wanted in zip(results, [500, 500, 1000, 1000]):
             self.assertLess(abs(result["particles"] / wanted - 1), 0.2)  # few particles: few spacings fit
@@ -150,6 +151,26 @@ class Tables(Case):
         self.assertEqual(svg_labels.faults(chart), [])
         for words in ['CPU, published', 'compute, spheres', 'particles']:
             self.assertIn(words, chart)
+
+    def test_points_of_transparent_surfaces_beside_the_papers(self):
+        sphere = '[{of: sphere, level: 0.3, opacity: 0.5}]'
+        done = self.slosh_out('bench', '--table', 'paper001', '--particles', '2000', '--size', '128x128', '--frames', '1', '--json', 't.json',
+                              '--set', 'view.pbsr.layers=' + sphere, '--set', 'view.camera={from: [0, 0.5, 10], to: [0, 0.5, 0], fov: 5}')
+        found = json.loads(self.read('t.json'))
+        rows = {tuple(line.split()[:2]): line.split() for line in done.stdout.splitlines() if len(line.split()) > 4}
+        self.assertEqual(len(found['sampling']), 14)
+        for rate in found['sampling']:
+            row = rows[rate['field'], rate['sampler']]
+            self.assertAlmostEqual(float(row[4]) / (1e3 * rate['points'] / rate['ms']), 1, 2)
+            asked = 200 if rate['field'] == 'particles' else 2000
+            self.assertLess(abs(rate['points'] / asked - 1), 0.25, rate)
+        self.assertIn('3 right, published         walk            6.3e+07    3.294e+06     1.91e+04', done.stdout)
+        self.assertIn('GeForce GTX 580', done.stdout)
+        # ln(1 / (1 - alpha)) points on as much as a pixel shows, all over the sphere, in each of 8 sets
+        pixel = (20 * math.tan(math.radians(2.5)) / 128) ** 2
+        wanted = 8 * math.log(2) * 4 * math.pi * 0.3 ** 2 / pixel
+        self.assertLess(abs(found['rendering']['points'] / wanted - 1), 0.03)
+        self.slosh_out('bench', '--table', 'paper001', '-o', 'c.svg', code=1)
 
     def test_a_table_of_one_backend(self):
         done = self.slosh_out('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--frames', '1', '--size', '64x64')

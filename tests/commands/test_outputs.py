@@ -93,6 +93,18 @@ class Whole(CommandTest):
         self.assertEqual(self.read('early.png'), self.read('frames/frame_00000.png'))
         self.assertEqual(self.read('late.png'), self.read('frames/frame_00001.png'))
 
+    def test_what_pictures_lack_is_said_once(self):
+        layers = ['--view', 'pbsr', '--set', 'view.pbsr.layers=[{of: surface}, {of: speed, level: 1000}]']
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0', *SMALL, *layers)
+        self.assertEqual(code, 0, said)
+        self.assertIn('a.png: warning: nothing of layer 2, speed 1000 m/s\n', said)
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'lacks', '--fps', '20', '--frames', '2', *SMALL, *layers)
+        self.assertEqual(said.count('warning'), 1, said)
+        self.assertIn('lacks: warning: 2 of 2 pictures are not as asked, the first at 0 s: nothing of layer 2', said)
+        self.slosh('run', 'scene.yaml', '-o', 'lacks.h5part', '--time', '0.01', '--quiet')
+        code, said = self.slosh('render', 'lacks.h5part', '-o', 'b.png', '--time', '0', *SMALL, *layers)
+        self.assertIn('b.png: warning: nothing of layer 2, speed 1000 m/s\n', said)
+
     def test_quiet(self):
         code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0', *SMALL)
         self.assertEqual(code, 0)
@@ -429,6 +441,15 @@ class Clashes(CommandTest):
         self.refused('run', 'scene.yaml', '-o', 'a.h5part', '--set', f'fluids[0].velocity_table={flow}', '--json', 'flow.csv',
                      reason=would('--json flow.csv', f"the scene's table {flow}"))
         self.assertEqual(self.slosh(*run, '--time', '0', '--quiet', '--json', 'heights.csv')[0], 0)  # another one
+
+    def test_volumes_that_a_view_names(self):
+        os.mkdir(self.path('in'))
+        self.write('in/v.yaml', 'file: v.raw\nsize: [2, 2, 2]\ntype: uint8\nspacing: [0.1, 0.1, 0.1]\n')
+        self.write('in/v.raw', 'abcdefgh')
+        layer = ('--set', 'view.pbsr.layers=[{file: in/v.yaml, level: 100}]')
+        for name in ('in/v.yaml', 'in/v.raw'):
+            self.refused('run', 'scene.yaml', '-o', 'a.h5part', *layer, '--json', name,
+                         reason=f"slosh run: --json {name} would replace the scene's volume {name}")
 
     def test_scenes_that_are_read_unasked(self):
         os.mkdir(self.path('scenes'))

@@ -9,11 +9,13 @@
 #include "render/derived/derived.h"
 #include "render/frame/overlay.h"
 #include "render/glyphs/glyphs_def.h"
+#include "render/pbsr/pbsr_def.h"
 #include "render/plane/plane_kernel.h"
 #include "render/renderer.h"
 #include "render/slice/slice_def.h"
 #include "render/trails/trails_def.h"
 #include "sim/gl/limits.h"
+#include "sim/gl/program.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
 #include "sim/mueller/mueller.h"
@@ -493,7 +495,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         views[count++] = v;                                                                                  \
     } while (0)
     VIEW("spheres", v.floor = true);
-    for (int scalar = 0; scalar < SCALAR_COUNT; scalar++)
+    for (int scalar = 0; scalar < SCALAR_COUNT; scalar += scalar == SCALAR_OWN ? SCALAR_BORN - scalar : 1)
         VIEW("spheres", v.color_by = (Scalar)scalar);
     VIEW("spheres", v.size.by = 1 + SCALAR_PRESSURE);
     VIEW("spheres", v.opacity.by = 1 + SCALAR_PRESSURE);
@@ -553,6 +555,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
         VIEW("volume", volume_def(&v)->show = (VolumeShow)show);
     for (int kernel = 1; plane_kernels[kernel].name; kernel++)
         VIEW("slice", slice_def(&v)->kernel = kernel);
+    VIEW("slice", v.opacity.by = 1 + SCALAR_PRESSURE);
     VIEW("none", trails_def(&v)->show = true, trails_def(&v)->stride = 1);
     VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->at = GLYPHS_GRID);
     return count;
@@ -579,6 +582,8 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
          volume_def(&v)->raycast.curve = volume_presets[2].points, v.opacity.by = 1 + (int)v.color_by);
     VIEW("slice", slice_def(&v)->show = SLICE_FLAT);
     VIEW("slice", slice_def(&v)->particles = SLICE_BEHIND);
+    VIEW("pbsr");
+    VIEW("pbsr", pbsr_def(&v)->method = PBSR_GPU);
     VIEW("spheres", trails_def(&v)->show = true, trails_def(&v)->through = 0.5);
     VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->stride = 1);
     VIEW("spheres", glyphs_def(&v)->show = true, glyphs_def(&v)->at = GLYPHS_GRID);
@@ -607,6 +612,8 @@ static void draw_views(const WorldDef *def, bool solids)
 {
     static ViewDef views[VIEWS_MAX];
     ViewDef base = view_def_default();
+    const ViewAsks asks = {.count = 1, .mouse = true};
+    ViewProbes told;
     Error error = {0};
     WorldDef shown = *def;
     volume_def(&base)->cells = 16;
@@ -625,6 +632,7 @@ static void draw_views(const WorldDef *def, bool solids)
         world_share(world, renderer_attributes(&views[k]), &particles);
         for (int frame = 0; frame < 2; frame++) /* nobody else's barriers in between */
             renderer_draw(renderer, &particles, NULL);
+        renderer_probe(renderer, &asks, &told);
     }
     if (texts_only)
         make_vectors();
@@ -645,6 +653,24 @@ static void toy_lives(void)
     toy_shaders_remove();
 }
 
+/* Walks on surfaces, of each field that has a shader. */
+static void surfaces_are_walked_on(void)
+{
+    static const char *const fields[] = {"sphere",    "torus",       "gyroid", "wave",      "plane",
+                                         "trilinear", "catmull_rom", "sph",    "sph_scalar"};
+    static const char *const stages[][2] = {
+        {"surface/walk.comp"}, {"surface/colour.comp"}, {"surface/count.comp"}};
+    for (size_t k = 0; k < sizeof fields / sizeof *fields; k++)
+        for (size_t s = 0; s < sizeof stages / sizeof *stages; s++) {
+            char define[64];
+            Error error;
+            snprintf(define, sizeof define, "#define FIELD surface/%s.glsl\n", fields[k]);
+            const unsigned program = program_create("surface", stages[s], define, &error);
+            assert_true(program != 0);
+            glDeleteProgram(program);
+        }
+}
+
 static void every_form_is_made(void **state)
 {
     (void)state;
@@ -661,6 +687,7 @@ static void every_form_is_made(void **state)
     draw_views(&def, false);
     with_a_ball(def.solids, &def.solid_count);
     draw_views(&def, true);
+    surfaces_are_walked_on();
     texts_only = false;
     gl_debug_install(); /* errors begin anew: there were no programs */
 }

@@ -1,0 +1,137 @@
+#include "app/lab/points_bench.h"
+
+#include "app/base/interrupt.h"
+#include "sim/base/parallel.h"
+#include "sim/base/stage.h"
+#include "sim/surface/analytic.h"
+#include "sim/surface/sampling.h"
+#include "sim/surface/sph_field.h"
+#include "sim/surface/volume_field.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SIDE = 64, ALONG = 20 };
+
+static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, origin[3] = {0, 0, 0};
+
+/* Its points are made once unmeasured and few, so that memory and threads are there. */
+static bool time_sampler(const char *name, const LevelField *field, double level, SurfaceSampler sampler,
+                         double density, PointsFigures *figures, Error *error)
+{
+    SurfacePoints points = {0};
+    SurfaceResult result;
+    SurfaceRequest request = {
+        .field = field, .level = level, .density = density / 50, .sets = 1, .seed = 1, .sampler = sampler};
+    bool ok = !interrupted() && surface_sample(&request, &points, &result, error);
+    points.count = 0;
+    request.density = density;
+    const double began = wall_ms();
+    ok = ok && surface_sample(&request, &points, &result, error);
+    if (ok)
+        figures->rates[figures->count++] =
+            (PointsRate){name, surface_sampler_name(sampler), (double)points.count, wall_ms() - began};
+    surface_points_free(&points);
+    return ok;
+}
+
+/* Both samplers; `area` of the surface, about, m2. */
+static bool time_field(const char *name, const LevelField *field, double level, double area, double points,
+                       PointsFigures *figures, Error *error)
+{
+    return time_sampler(name, field, level, SURFACE_WALK, points / area, figures, error) &&
+           time_sampler(name, field, level, SURFACE_TRIANGLES, points / area, figures, error);
+}
+
+static bool time_formulas(double points, PointsFigures *figures, Error *error)
+{
+    const LevelField sphere = level_sphere(origin, 0.5), torus = level_torus(origin, 0.35, 0.12),
+                     gyroid = level_gyroid(low, high, 0.5), wave = level_wave(low, high, 0, 0.1, 0.5);
+    return time_field("sphere", &sphere, 0, M_PI, points, figures, error) &&
+           time_field("torus", &torus, 0, 4 * M_PI * M_PI * 0.35 * 0.12, points, figures, error) &&
+           time_field("gyroid", &gyroid, 0, 6.2, points, figures, error) &&
+           time_field("wave", &wave, 0, 1.5, points, figures, error);
+}
+
+/* A gyroid as values on a grid. */
+static void fill_volume(float *value, double cell)
+{
+    const LevelField gyroid = level_gyroid(low, high, 0.5);
+    for (int i = 0; i < SIDE * SIDE * SIDE; i++) {
+        const int at[3] = {i % SIDE, i / SIDE % SIDE, i / SIDE / SIDE};
+        double place[3];
+        LevelSample s;
+        for (int k = 0; k < 3; k++)
+            place[k] = low[k] + cell * at[k];
+        level_at(&gyroid, place, &s);
+        value[i] = s.value;
+    }
+}
+
+static bool time_volumes(double points, PointsFigures *figures, Error *error)
+{
+    float *value = malloc(sizeof(float) * SIDE * SIDE * SIDE);
+    const double cell = 1.0 / (SIDE - 1);
+    const VolumeData volume = {{SIDE, SIDE, SIDE}, {low[0], low[1], low[2]}, {cell, cell, cell}, value};
+    bool ok = true;
+    if (!value)
+        return error_set(error, "no memory for a volume of %d^3 values", SIDE);
+    fill_volume(value, cell);
+    for (VolumeInterpolation way = 0; ok && way < VOLUME_INTERPOLATIONS; way++) {
+        LevelField field;
+        ok = level_volume(&volume, way, &field, error) &&
+             time_field(volume_interpolation_name(way), &field, 0, 6.2, points, figures, error);
+    }
+    free(value);
+    return ok;
+}
+
+/* A ball of them, in their lattice. */
+static size_t fill_ball(float *position)
+{
+    size_t count = 0;
+    for (int i = 0; i < ALONG * ALONG * ALONG; i++) {
+        const int at[3] = {i % ALONG, i / ALONG % ALONG, i / ALONG / ALONG};
+        float *p = position + 4 * count, square = 0;
+        for (int k = 0; k < 3; k++) {
+            p[k] = 0.05F * (float)at[k] - 0.5F;
+            square += p[k] * p[k];
+        }
+        p[3] = 1.25e-4F; /* m3 */
+        count += square < 0.2F;
+    }
+    return count;
+}
+
+static bool time_particles(double points, PointsFigures *figures, Error *error)
+{
+    float *position = malloc(sizeof(float) * 4 * (ALONG * ALONG * ALONG + 1));
+    FieldParticles all = {.position = position, .support = 0.105};
+    if (!position)
+        return error_set(error, "no memory for particles");
+    all.count = fill_ball(position);
+    SphField *own = sph_field_create(&all, error);
+    bool ok = own != NULL;
+    if (ok) {
+        const LevelField field = level_sph(own);
+        ok = time_field("particles", &field, 0.5, 2.5, points, figures, error);
+    }
+    sph_field_destroy(own);
+    free(position);
+    return ok;
+}
+
+bool points_sampling(double points, PointsFigures *figures, Error *error)
+{
+    figures->threads = parallel_processors();
+    figures->count = 0;
+    return (time_formulas(points, figures, error) && time_volumes(points, figures, error) &&
+            time_particles(0.1 * points, figures, error)) ||
+           (interrupted() && error_set(error, "stopped before all surfaces were sampled"));
+}
+
+double points_shown(const BenchResult *result)
+{
+    return result->counts.fragments[STAGE_BLEND] * result->counts.coverage * result->width * result->height;
+}

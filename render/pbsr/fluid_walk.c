@@ -1,0 +1,160 @@
+#include "render/pbsr/fluid_walk.h"
+
+#include "render/pbsr/opacity.h"
+#include "render/pbsr/random.h"
+#include "sim/base/parallel.h"
+#include "sim/surface/near_walk.h"
+
+#include <math.h>
+#include <string.h>
+
+/* 24 bytes each. */
+static const size_t POINTS_MOST = 12000000;
+
+enum { PART = 4096 };
+
+bool fluid_walk_said(const PbsrLayer *said)
+{
+    return said->sampler == PBSR_SAMPLER_WALK && !pbsr_still(said) &&
+           (said->of == PBSR_SURFACE || said->of >= PBSR_SCALARS);
+}
+
+static bool take_particles(FluidWalk *walk, const PbsrLayer *said, FluidLayers *layers,
+                           const ParticleBuffers *particles)
+{
+    Error error;
+    FieldParticles some;
+    fluid_field_particles(&layers->fluid, particles,
+                          said->of >= PBSR_SCALARS ? (Scalar)(said->of - PBSR_SCALARS) : SCALAR_FLUID, &some);
+    walk->sph = sph_field_create(&some, &error);
+    return walk->sph != NULL;
+}
+
+void fluid_walk_begin(FluidWalk *walk, const PbsrLayer *said, FluidLayers *layers,
+                      const ParticleBuffers *particles, double flat, bool by_gpu)
+{
+    fluid_walk_free(walk);
+    if (!fluid_walk_said(said))
+        return;
+    walk->why = by_gpu     ? "the walk on the fluid is the CPU's, with view.pbsr.method: cpu"
+                : flat > 0 ? "a walk on the fluid needs three dimensions"
+                           : NULL;
+    if (walk->why || layers->fluid.count == 0)
+        return;
+    if (take_particles(walk, said, layers, particles))
+        walk->still.field = said->of == PBSR_SURFACE ? level_sph(walk->sph) : level_sph_inside(walk->sph);
+    else
+        walk->why = "no memory for a walk";
+    walk->made = walk->sph != NULL;
+}
+
+/* ---- what is seen ---- */
+
+static bool is_seen(const Layer *layer, size_t triangle)
+{
+    return layer->share[triangle].expected > 0;
+}
+
+/* The triangles that are seen, with all vertices: those of no triangle are read by nobody. */
+static bool take_near(FluidWalk *walk, const Layer *layer)
+{
+    Error error;
+    size_t seen = 0;
+    for (size_t i = 0; i < layer->triangle_count; i++)
+        seen += is_seen(layer, i);
+    if (!polygons_reserve(&walk->near, layer->point_count, seen, &error))
+        return false;
+    for (size_t i = 0; i < layer->point_count; i++) {
+        memcpy(walk->near.place[i], layer->point[i].at, sizeof walk->near.place[i]);
+        memset(walk->near.normal[i], 0, sizeof walk->near.normal[i]);
+    }
+    seen = 0;
+    for (size_t i = 0; i < layer->triangle_count; i++)
+        if (is_seen(layer, i))
+            memcpy(walk->near.corner[seen++], layer->triangle[i], sizeof *walk->near.corner);
+    return true;
+}
+
+void fluid_walk_see(FluidWalk *walk, const PbsrLayer *said, const Layer *layer, const SetSight *sight)
+{
+    StillLayer *still = &walk->still;
+    double nearest = HUGE_VAL;
+    walk->walks = walk->made && layer->triangle_count > 0;
+    still->sets = 0;
+    still->points.count = 0;
+    if (!walk->walks)
+        return;
+    if (!take_near(walk, layer)) {
+        walk->why = "no memory for a walk";
+        walk->walks = false;
+        return;
+    }
+    for (size_t i = 0; i < layer->triangle_count; i++)
+        if (is_seen(layer, i))
+            nearest = fmin(nearest, (double)layer->share[i].nearest);
+    nearest = isfinite(nearest) ? fmax(nearest, (double)sight->near_plane) : 1;
+    still->sight = *sight;
+    still->wanted = point_density_of_opacity(said->opacity, 1);
+    still->needed = point_density_of_opacity(said->opacity, (double)sight->pixel * nearest * nearest);
+    still->density = still->needed;
+}
+
+/* ---- points of sets ---- */
+
+typedef struct Coloring {
+    const FluidLayers *layers;
+    SurfacePoint *point;
+} Coloring;
+
+static void color_range(void *context, size_t begin, size_t end)
+{
+    const Coloring *coloring = context;
+    for (size_t i = begin; i < end; i++) {
+        const float *at = coloring->point[i].position;
+        coloring->point[i].value =
+            fluid_layers_value(coloring->layers, coloring->layers->color,
+                               (double[]){(double)at[0], (double)at[1], (double)at[2]});
+    }
+}
+
+static void color_points(SurfacePoints *points, const FluidLayers *layers)
+{
+    Coloring coloring = {layers, points->point};
+    if (layers->color)
+        parallel_ranges(parallel_processors(), points->count, PART, color_range, &coloring);
+}
+
+void fluid_walk_sets(FluidWalk *walk, const PbsrLayer *said, const FluidLayers *layers, unsigned number,
+                     int seed, int first, int count)
+{
+    StillLayer *still = &walk->still;
+    SurfaceResult result;
+    if (!walk->walks || !(still->wanted > 0) || walk->near.triangle_count == 0)
+        return;
+    const SurfaceRequest request = {.field = &still->field,
+                                    .level = said->level,
+                                    .density = still->needed,
+                                    .sets = count,
+                                    .seed = random_mix(random_mix((uint64_t)seed) + (uint64_t)first),
+                                    .surface = number,
+                                    .pixel = sqrt(still->wanted / still->needed),
+                                    .points_most = POINTS_MOST};
+    still->points.count = 0;
+    walk->walks = near_walk(&request, &walk->near, &still->points, &result, &still->trouble);
+    still->sets = walk->walks ? count : 0;
+    if (!walk->walks) {
+        walk->why = still->trouble.message;
+        return;
+    }
+    still->density = result.density;
+    still->count = still->points.count;
+    color_points(&still->points, layers);
+}
+
+void fluid_walk_free(FluidWalk *walk)
+{
+    sph_field_destroy(walk->sph);
+    polygons_free(&walk->near);
+    still_layer_free(&walk->still);
+    *walk = (FluidWalk){.walks = false};
+}

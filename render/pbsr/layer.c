@@ -1,0 +1,289 @@
+#include "render/pbsr/layer.h"
+
+#include "render/pbsr/random.h"
+#include "sim/base/parallel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SHARES_PART = 4096 };
+
+/* Beyond this a triangle fills the picture many times over, from a tenth of a pixel's side away. */
+static const float EXPECTED_MOST = 4e6F;
+
+/* The points of what reaches from the eye outwards are as dense as at this part of its depth at most. */
+static const float NEAREST_PART = 0.25F;
+
+static bool room(void **array, size_t *capacity, size_t count, size_t width)
+{
+    if (count <= *capacity && *array)
+        return true;
+    free(*array);
+    *capacity = 0;
+    *array = malloc((count + count / 4 + 1) * width);
+    if (!*array)
+        return false;
+    *capacity = count + count / 4;
+    return true;
+}
+
+bool layer_reserve(Layer *layer, size_t points, size_t triangles)
+{
+    layer->point_count = layer->triangle_count = 0;
+    return room((void **)&layer->point, &layer->point_capacity, points, sizeof *layer->point) &&
+           room((void **)&layer->triangle, &layer->triangle_capacity, triangles, sizeof *layer->triangle);
+}
+
+void layer_free(Layer *layer)
+{
+    free(layer->point);
+    free(layer->triangle);
+    free(layer->share);
+    *layer = (Layer){0};
+}
+
+/* ---- how many are expected ---- */
+
+typedef struct Sharing {
+    Layer *layer;
+    const SetSight *sight;
+} Sharing;
+
+/* As the rows of the sight have it. */
+static void see(const SetSight *sight, const float at[3], float seen[3])
+{
+    for (int k = 0; k < 3; k++)
+        seen[k] =
+            sight->row[k][0] * at[0] + sight->row[k][1] * at[1] + sight->row[k][2] * at[2] + sight->row[k][3];
+}
+
+/* Bits of the sides of the picture's part, and of the near plane, that a place is beyond. */
+static unsigned beyond(const SetSight *sight, const float seen[3])
+{
+    const float w = seen[2];
+    return (unsigned)(seen[0] < 0) | (unsigned)(seen[0] > (float)sight->width * w) << 1 |
+           (unsigned)(seen[1] < 0) << 2 | (unsigned)(seen[1] > (float)sight->height * w) << 3 |
+           (unsigned)(w <= sight->near_plane) << 4;
+}
+
+static float area_of(const float a[3], const float b[3], const float c[3])
+{
+    float u[3], v[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = b[k] - a[k];
+        v[k] = c[k] - a[k];
+    }
+    const float x = u[1] * v[2] - u[2] * v[1], y = u[2] * v[0] - u[0] * v[2], z = u[0] * v[1] - u[1] * v[0];
+    return 0.5F * sqrtf(x * x + y * y + z * z);
+}
+
+/* `size`: m2 of surface, m3 of a cell. */
+static LayerShare share_of(const Layer *layer, const SetSight *sight, float size, float low, float high)
+{
+    const float nearest = fmaxf(fmaxf(low, sight->near_plane), NEAREST_PART * high);
+    const float expected = (float)layer->density * size / (sight->pixel * nearest * nearest);
+    return (LayerShare){expected < EXPECTED_MOST ? expected : EXPECTED_MOST, nearest}; /* NaN: many, unseen */
+}
+
+/* False where a point has none. */
+static bool unit_normal(const LayerPoint *point, float unit[3])
+{
+    const float *n = point->normal, length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3; k++)
+        unit[k] = n[k] / length;
+    return length > 0;
+}
+
+static float apart(const float a[3], const float b[3])
+{
+    const float x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return sqrtf(x * x + y * y + z * z);
+}
+
+/* How many times as many points as `opacity` says a triangle gets: its curvature is by how much the normal
+   turns along it. */
+static float bend_of(const Layer *layer, const LayerPoint *const p[3])
+{
+    float normal[3][3], turn = 0, side = 0;
+    for (int k = 0; k < 3; k++)
+        if (!(layer->curved > 0) || !unit_normal(p[k], normal[k]))
+            return 1;
+    for (int k = 0; k < 3; k++) {
+        turn = fmaxf(turn, apart(normal[k], normal[(k + 1) % 3]));
+        side = fmaxf(side, apart(p[k]->at, p[(k + 1) % 3]->at));
+    }
+    const float bend = side > 0 ? turn * (float)layer->support / side : 0;
+    return 1 + (float)layer->curved * fminf(bend, 1);
+}
+
+static LayerShare share_of_triangle(const Layer *layer, const SetSight *sight, const uint32_t corner[3])
+{
+    const LayerPoint *p[3] = {NULL};
+    float seen[3], low = INFINITY, high = 0;
+    unsigned all = ~0U;
+    bool there = false;
+    for (int k = 0; k < 3; k++) {
+        p[k] = &layer->point[corner[k]];
+        see(sight, p[k]->at, seen);
+        all &= beyond(sight, seen);
+        low = fminf(low, seen[2]);
+        high = fmaxf(high, seen[2]);
+        there = there || p[k]->inside >= 0;
+    }
+    if (all || !there)
+        return (LayerShare){0, 1};
+    const float more = (1 + sight->edges) * bend_of(layer, p);
+    return share_of(layer, sight, more * area_of(p[0]->at, p[1]->at, p[2]->at), low, high);
+}
+
+static void share_triangles(void *context, size_t begin, size_t end)
+{
+    const Sharing *sharing = context;
+    for (size_t i = begin; i < end; i++)
+        sharing->layer->share[i] =
+            share_of_triangle(sharing->layer, sharing->sight, sharing->layer->triangle[i]);
+}
+
+/* The near plane and the sides of the picture's part: a place beyond one gives less than 0. */
+typedef struct SightBounds {
+    float plane[5][4];
+    float reach[5]; /* the most by which a cell's points give more than its centre */
+} SightBounds;
+
+static SightBounds bounds_of(const SetSight *sight, const double cell[3])
+{
+    SightBounds bounds = {.reach = {0}};
+    for (int k = 0; k < 4; k++) {
+        const float w = sight->row[2][k];
+        bounds.plane[0][k] = w - (k == 3 ? sight->near_plane : 0);
+        for (int a = 0; a < 2; a++) {
+            bounds.plane[1 + 2 * a][k] = sight->row[a][k];
+            bounds.plane[2 + 2 * a][k] = (float)(a ? sight->height : sight->width) * w - sight->row[a][k];
+        }
+    }
+    for (int i = 0; i < 5; i++)
+        for (int k = 0; k < 3; k++)
+            bounds.reach[i] += fabsf(bounds.plane[i][k]) * (float)cell[k];
+    return bounds;
+}
+
+static bool cell_unseen(const SightBounds *bounds, const float at[3])
+{
+    for (int i = 0; i < 5; i++) {
+        const float *plane = bounds->plane[i];
+        if (plane[0] * at[0] + plane[1] * at[1] + plane[2] * at[2] + plane[3] + 1.001F * bounds->reach[i] < 0)
+            return true;
+    }
+    return false;
+}
+
+/* A cell reaches as far as its neighbours' centres, and is as dense as what is inside says. */
+static void share_cells(void *context, size_t begin, size_t end)
+{
+    const Sharing *sharing = context;
+    Layer *layer = sharing->layer;
+    const float reach = (float)fmax(layer->cell[0], fmax(layer->cell[1], layer->cell[2]));
+    const float size = (float)(layer->cell[0] * layer->cell[1] * layer->cell[2]);
+    const SightBounds bounds = bounds_of(sharing->sight, layer->cell);
+    for (size_t i = begin; i < end; i++) {
+        float seen[3];
+        if (cell_unseen(&bounds, layer->point[i].at)) {
+            layer->share[i] = (LayerShare){0, 1};
+            continue;
+        }
+        see(sharing->sight, layer->point[i].at, seen);
+        layer->share[i] = share_of(layer, sharing->sight, size * layer->point[i].inside,
+                                   seen[2] - 1.8F * reach, seen[2] + 1.8F * reach);
+    }
+}
+
+bool layer_share(Layer *layer, const SetSight *sight)
+{
+    const bool cells = layer->triangle_count == 0;
+    const size_t count = cells ? layer->point_count : layer->triangle_count;
+    Sharing sharing = {layer, sight};
+    if (!room((void **)&layer->share, &layer->share_capacity, count, sizeof *layer->share))
+        return false;
+    parallel_ranges(parallel_processors(), count, SHARES_PART, cells ? share_cells : share_triangles,
+                    &sharing);
+    return true;
+}
+
+/* ---- points ---- */
+
+/* All eight numbers of three corners, mixed. */
+static void mix_corners(const LayerPoint *a, const LayerPoint *b, const LayerPoint *c, float u, float v,
+                        LayerPoint *out)
+{
+    float p[8], q[8], r[8];
+    memcpy(p, a, sizeof p);
+    memcpy(q, b, sizeof q);
+    memcpy(r, c, sizeof r);
+    for (int k = 0; k < 8; k++)
+        p[k] = (1 - u - v) * p[k] + u * q[k] + v * r[k];
+    memcpy(out, p, sizeof p);
+}
+
+static void on_triangle(const Layer *layer, const uint32_t corner[3], uint64_t bits, LayerPoint *out)
+{
+    float u = random_part(bits, 0), v = random_part(bits, 21);
+    if (u + v > 1) {
+        u = 1 - u;
+        v = 1 - v;
+    }
+    mix_corners(&layer->point[corner[0]], &layer->point[corner[1]], &layer->point[corner[2]], u, v, out);
+}
+
+/* As far from the centre as two even numbers add up to: densities of cells are then linear between centres. A
+   slab is even along z. */
+static void in_cell(const Layer *layer, const LayerPoint *centre, RandomStream *stream, LayerPoint *out)
+{
+    const uint64_t one = random_bits(stream), other = random_bits(stream);
+    *out = *centre;
+    for (int k = 0; k < 3; k++)
+        out->at[k] +=
+            (float)layer->cell[k] *
+            (random_part(one, 21 * k) + (k == 2 && layer->slab ? 0.5F : random_part(other, 21 * k)) - 1);
+}
+
+/* Of the points that are enough for what is seen edge on. */
+static float part_of(const SetSight *sight, const LayerPoint *point)
+{
+    return sight->edges > 0 ? set_sight_boost(sight, point->at, point->normal) / (1 + sight->edges) : 1;
+}
+
+/* Thins out what is farther than the nearest of its share. */
+static bool stays(const SetSight *sight, const LayerPoint *point, float nearest, float chance, float part)
+{
+    const float *row = sight->row[2];
+    const float w = row[0] * point->at[0] + row[1] * point->at[1] + row[2] * point->at[2] + row[3];
+    return chance * w * w <= nearest * nearest * part;
+}
+
+size_t layer_project(const Layer *layer, uint64_t seed, uint64_t set, const SetSight *sight,
+                     const SetImage *image)
+{
+    const bool cells = layer->triangle_count == 0;
+    const size_t count = cells ? layer->point_count : layer->triangle_count;
+    RandomStream stream = random_stream(seed, set, layer->number);
+    float left = random_gap(&stream);
+    size_t projected = 0;
+    for (size_t i = 0; i < count; i++) {
+        left -= layer->share[i].expected;
+        while (left < 0) {
+            const uint64_t bits = random_bits(&stream);
+            LayerPoint point;
+            if (cells)
+                in_cell(layer, &layer->point[i], &stream, &point);
+            else
+                on_triangle(layer, layer->triangle[i], bits, &point);
+            const float part = cells ? 1 : part_of(sight, &point);
+            if (stays(sight, &point, layer->share[i].nearest, random_part(bits, 42), part)) {
+                set_image_add(image, sight, &point, layer->number);
+                projected++;
+            }
+            left += random_gap(&stream);
+        }
+    }
+    return projected;
+}

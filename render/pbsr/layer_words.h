@@ -1,0 +1,27 @@
+/* What people read of the layers of the view pbsr. */
+#ifndef SLOSH_LAYER_WORDS_H
+#define SLOSH_LAYER_WORDS_H
+
+#include "render/pbsr/fluid_walk.h"
+#include "render/pbsr/solid_layers.h"
+
+enum { LAYER_WORDS_SIZE = 64 };
+
+/* "pressure 1500 Pa", "slice_x at 0.1 m", "surface". */
+void layer_words(const PbsrLayer *said, char words[LAYER_WORDS_SIZE]);
+
+/* The layers and sets of a picture. */
+typedef struct LayersDrawn {
+    const PbsrDef *def;
+    const FluidLayers *layers;
+    const FluidWalk *walks;  /* PBSR_LAYERS_MAX of them */
+    const StillLayer *still; /* the same */
+    const SolidLayers *solids;
+    bool by_gpu; /* the GPU projects */
+    int sets;    /* of the picture once it is whole */
+} LayersDrawn;
+
+/* What of it is not as the def says, parts ended by "; " but for the last; returns the length, 0: all is. */
+size_t layers_lack(const LayersDrawn *drawn, char *text, size_t size);
+
+#endif

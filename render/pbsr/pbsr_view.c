@@ -1,0 +1,533 @@
+#include "render/pbsr/pbsr_def.h"
+
+#include "render/particles/casting.h"
+#include "render/pbsr/average.h"
+#include "render/pbsr/layer_words.h"
+#include "render/pbsr/opacity.h"
+#include "render/pbsr/points_count.h"
+#include "render/pbsr/project.h"
+#include "render/pbsr/solid_layers.h"
+#include "render/pbsr/still_field.h"
+#include "sim/base/parallel.h"
+#include "sim/base/stage.h"
+#include "sim/gl/debug.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A GPU says too late what a picture costs it. */
+enum { GPU_SETS = 8 };
+
+/* What layers are made of: while it stays they do. */
+typedef struct LayersFrom {
+    PbsrDef def;
+    uint64_t step;
+    double time;
+    size_t count;
+    unsigned buffer;
+    size_t offset;
+    Scalar color;
+} LayersFrom;
+
+/* And what a picture's sets are seen by: while it stays more of them are added to the mean. */
+typedef struct PictureFrom {
+    LayersFrom layers;
+    ViewDef def;
+    Camera camera;
+    float box_to_world[16];
+    double range[2];
+    unsigned target;
+    SolidDef solids[SOLIDS_MAX]; /* where they are a layer */
+    bool plain, split;
+} PictureFrom;
+
+typedef struct PbsrView {
+    FluidLayers layers;
+    FluidWalk steps[PBSR_LAYERS_MAX]; /* where the walk is on the fluid */
+    StillLayer still[PBSR_LAYERS_MAX];
+    SolidLayers solids;
+    Average average;
+    Project project;  /* nothing where the CPU projects */
+    SurfaceGpu walks; /* the same; makes the points of still layers */
+    Casting casting;
+    LayersFrom made;
+    PictureFrom drawn;
+    bool valid; /* `made` and `drawn` are of the last picture */
+    int wanted; /* sets of a picture at rest */
+    int added;  /* sets of the last picture that was not counted */
+    char lack[1400], note[1500];
+    size_t lacked; /* length of the former */
+    Error trouble;
+} PbsrView;
+
+static void destroy(void *state)
+{
+    PbsrView *view = state;
+    fluid_layers_free(&view->layers);
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++) {
+        fluid_walk_free(&view->steps[i]);
+        still_layer_free(&view->still[i]);
+    }
+    solid_layers_free(&view->solids);
+    average_destroy(&view->average);
+    if (view->project.program)
+        surface_gpu_destroy(&view->walks);
+    project_destroy(&view->project);
+    casting_destroy(&view->casting);
+    free(view);
+}
+
+/* Of surfaces that are formulas the level is a length. */
+static bool check(const Subject *subject, const char **key, Error *error)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(pbsr_def(subject->def), said);
+    *key = "view.pbsr.layers";
+    for (int i = 0; i < count; i++)
+        if (!pbsr_of_file(&said[i]) && said[i].of >= PBSR_SPHERE && said[i].of <= PBSR_GYROID &&
+            !(said[i].level > 0))
+            return error_set(
+                error, "a layer that is a sphere, a torus or a gyroid has a level above 0: a length in m");
+    const int solids = solid_layers_number(pbsr_def(subject->def));
+    if (solids >= 0 && !pbsr_colored(&said[solids]) && solid_layers_colors(subject->world) > SOLID_COLORS_MAX)
+        return error_set(error,
+                         "the solids have %d colours, and a layer of solids shows %d: give the layer a color",
+                         solid_layers_colors(subject->world), SOLID_COLORS_MAX);
+    return true;
+}
+
+static bool projects_on_cpu(const PbsrDef *def)
+{
+    return def->method == PBSR_CPU || (def->method == PBSR_AUTO && gl_renderer_is_software());
+}
+
+/* Who projects makes the points that stay. */
+static bool create_gpu(PbsrView *view, Error *error)
+{
+    if (!project_create(&view->project, error))
+        return false;
+    surface_gpu_create(&view->walks);
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++)
+        view->still[i].gpu = &view->walks;
+    return true;
+}
+
+static void *create(const Subject *subject, Error *error)
+{
+    PbsrView *view = calloc(1, sizeof *view);
+    if (!view) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    const bool by_cpu = projects_on_cpu(pbsr_def(subject->def));
+    if (average_create(&view->average, subject, by_cpu, error) && (by_cpu || create_gpu(view, error)) &&
+        casting_create(&view->casting, NULL, error))
+        return view;
+    destroy(view);
+    return NULL;
+}
+
+static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    const PbsrView *view = state;
+    (void)frame;
+    casting_draw(&view->casting, particles);
+}
+
+/* ---- what a picture is of ---- */
+
+/* Of structs that were zeroed first: what lies between members is 0 then. */
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+static void layers_from(LayersFrom *from, const ParticleBuffers *particles, const Frame *frame)
+{
+    memset(from, 0, sizeof *from);
+    memcpy(&from->def, pbsr_def(frame->def), sizeof from->def);
+    from->def.repeat = from->def.moving = 0;
+    from->def.budget = from->def.points = from->def.edges = from->def.seed = 0;
+    for (int i = 0; i < from->def.layer_count; i++) { /* poses make no layer anew */
+        PbsrLayer *layer = &from->def.layers[i];
+        layer->angle_deg = 0;
+        memset(layer->position, 0, sizeof layer->position);
+        memset(layer->axis, 0, sizeof layer->axis);
+    }
+    from->step = particles->step;
+    from->time = particles->time;
+    from->count = particles->count;
+    from->buffer = particles->position.buffer;
+    from->offset = particles->position.offset;
+    from->color = frame->by_fluid ? SCALAR_FLUID : frame->def->color_by;
+}
+
+static void picture_from(PictureFrom *from, const LayersFrom *layers, const Frame *frame)
+{
+    memset(from, 0, sizeof *from);
+    memcpy(&from->layers, layers, sizeof *layers);
+    memcpy(&from->def, frame->def, sizeof from->def);
+    from->camera = frame->camera;
+    memcpy(from->box_to_world, frame->box_to_world, sizeof from->box_to_world);
+    memcpy(from->range, frame->range, sizeof from->range);
+    from->target = frame->target->number;
+    if (solid_layers_number(pbsr_def(frame->def)) >= 0)
+        memcpy(from->solids, frame->world->solids, (size_t)frame->world->solid_count * sizeof *from->solids);
+    from->plain = frame->plain;
+    from->split = frame->over_depth != 0;
+}
+
+static void turn_of(const PbsrLayer *said, float turn[3][3])
+{
+    double of[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (pbsr_still(said))
+        still_turn(said, of);
+    for (int i = 0; i < 9; i++)
+        turn[i / 3][i % 3] = (float)of[i / 3][i % 3];
+}
+
+static bool leaves_box(const PbsrDef *def, const double box[3])
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    for (int i = 0; i < count; i++)
+        if (said[i].of == PBSR_SOLIDS || still_leaves(&said[i], box))
+            return true;
+    return false;
+}
+
+static void find_looks(const PbsrDef *def, const WorldDef *world, bool by_gpu,
+                       AverageLook looks[AVERAGE_NUMBERS_MAX])
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    memset(looks, 0, AVERAGE_NUMBERS_MAX * sizeof *looks);
+    for (int i = 0; i < count; i++) {
+        looks[i].own = pbsr_colored(&said[i]);
+        looks[i].lit = said[i].of != PBSR_VOLUME && (said[i].of < PBSR_SLICE_X || said[i].of > PBSR_SLICE_Z);
+        looks[i].by_map = pbsr_of_file(&said[i]);
+        turn_of(&said[i], looks[i].turn);
+        for (int k = 0; k < 3; k++)
+            looks[i].color[k] = (float)said[i].color[k];
+    }
+    solid_layers_look(def, world, looks);
+    looks[OUTSIDE_NUMBER] = (AverageLook){
+        .own = true, .color = {0.5F, 0.5F, 0.5F}, .lit = true, .turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (int i = 0; by_gpu && i < count; i++)
+        if (pbsr_painted(&said[i])) {
+            looks[i].own = true;
+            memcpy(looks[i].color, looks[OUTSIDE_NUMBER].color, sizeof looks[i].color);
+        }
+}
+
+/* What of a layer follows from how it is seen. */
+static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const PbsrDef *def,
+                       const Frame *frame)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    for (int i = 0; i < count; i++) {
+        if (!layer_share(&view->layers.layers[i], &view->average.sight))
+            return error_set(&view->trouble, "no memory for the points of a layer");
+        fluid_walk_see(&view->steps[i], &said[i], &view->layers.layers[i], &view->average.sight);
+        (void)still_layer_follow(&view->still[i], &said[i], def, particles->box_size, (unsigned)i,
+                                 &view->average.sight); /* one that cannot be is left out: the note says so */
+        still_layer_paint(&view->still[i], &said[i], &view->layers);
+        if (view->project.program &&
+            !project_take(&view->project, i, layer_pieces(&view->still[i], &view->layers.layers[i]),
+                          &view->still[i], &view->trouble))
+            return false;
+    }
+    solid_layers_follow(&view->solids, def, particles->time, frame, &view->average.sight);
+    for (int i = 0; view->project.program && i < view->solids.count; i++)
+        if (!project_take_solid(&view->project, i, &view->solids.still[i], &view->trouble))
+            return false;
+    return true;
+}
+
+static bool make_layers(PbsrView *view, const ParticleBuffers *particles, const Frame *frame, Scalar color)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const PbsrDef *def = pbsr_def(frame->def);
+    if (!fluid_layers_make(&view->layers, def, particles, color, frame->slab, &view->trouble))
+        return false;
+    for (int i = 0; i < pbsr_layers(def, said); i++)
+        fluid_walk_begin(&view->steps[i], &said[i], &view->layers, particles, frame->slab,
+                         view->project.program != 0);
+    return true;
+}
+
+/* Layers and sum for this picture; what is still right of the last stays. */
+static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    AverageLook looks[AVERAGE_NUMBERS_MAX];
+    LayersFrom layers;
+    PictureFrom picture;
+    layers_from(&layers, particles, frame);
+    picture_from(&picture, &layers, frame);
+    const bool same_layers = view->valid && same_bytes(&layers, &view->made, sizeof layers);
+    if (view->valid && same_bytes(&picture, &view->drawn, sizeof picture))
+        return true;
+    view->valid = false;
+    find_looks(pbsr_def(frame->def), frame->world, view->project.program != 0, looks);
+    if ((!same_layers && !make_layers(view, particles, frame, layers.color)) ||
+        !average_begin(&view->average, frame, looks, leaves_box(pbsr_def(frame->def), particles->box_size),
+                       &view->trouble) ||
+        !see_layers(view, particles, pbsr_def(frame->def), frame))
+        return false;
+    memcpy(&view->made, &layers, sizeof layers);
+    memcpy(&view->drawn, &picture, sizeof picture);
+    return view->valid = true;
+}
+
+/* ---- its sets ---- */
+
+typedef struct Projecting {
+    const PbsrView *view;
+    uint64_t seed;
+    int first; /* number of the set that goes to the buffer's first place */
+} Projecting;
+
+static void project_some(void *context, size_t begin, size_t end)
+{
+    const Projecting *projecting = context;
+    const PbsrView *view = projecting->view;
+    for (size_t i = begin; i < end; i++) {
+        const SetImage image = average_image(&view->average, (int)i);
+        set_image_clear(&image, &view->average.sight);
+        const uint64_t set = (uint64_t)projecting->first + i;
+        for (int k = 0; k < view->layers.count; k++) {
+            if (view->steps[k].walks)
+                still_layer_project(&view->steps[k].still, projecting->seed, set, &image);
+            else
+                layer_project(&view->layers.layers[k], projecting->seed, set, &view->average.sight, &image);
+            still_layer_project(&view->still[k], projecting->seed, set, &image);
+        }
+        for (int k = 0; k < view->solids.count; k++)
+            still_layer_project(&view->solids.still[k], projecting->seed, set, &image);
+    }
+}
+
+static void walk_on_fluid(PbsrView *view, int count, const PbsrDef *def)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    pbsr_layers(def, said);
+    for (int i = 0; i < view->layers.count; i++)
+        fluid_walk_sets(&view->steps[i], &said[i], &view->layers, (unsigned)i, def->seed, view->average.count,
+                        count);
+}
+
+static void project_sets(PbsrView *view, int count, int seed)
+{
+    const int first = view->average.count;
+    Projecting projecting = {view, (uint64_t)seed, first};
+    const ProjectSets sets = {
+        view->layers.layers, view->still, &view->solids, view->layers.count, seed, first, count};
+    if (view->project.program)
+        project_run(&view->project, &view->average, &sets);
+    else
+        parallel_ranges(parallel_processors(), (size_t)count, 1, project_some, &projecting);
+}
+
+static void add_sets(PbsrView *view, int count, const Frame *frame)
+{
+    GL_STAGE(frame->timer, STAGE_VOXELIZE)
+    walk_on_fluid(view, count, pbsr_def(frame->def));
+    for (int band = 0; average_band(&view->average, band); band++) {
+        GL_STAGE(frame->timer, STAGE_BLEND)
+        project_sets(view, count, pbsr_def(frame->def)->seed);
+        GL_STAGE(frame->timer, STAGE_SHADE)
+        average_add(&view->average, count, frame);
+    }
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool walks_on_fluid(const PbsrView *view)
+{
+    for (int i = 0; i < view->layers.count; i++)
+        if (view->steps[i].walks)
+            return true;
+    return false;
+}
+
+/* As many as there are threads at a time, or one where a walk on the fluid has all threads by itself, of
+ * which the first are drawn whatever they cost. */
+static void add_in_budget(PbsrView *view, double begun, const Frame *frame)
+{
+    const PbsrDef *def = pbsr_def(frame->def);
+    const int some = walks_on_fluid(view)
+                         ? 1
+                         : least(view->average.room, parallel_processors() > 1 ? parallel_processors() : 2);
+    double cost = 0;
+    for (bool first = true;
+         view->average.count < view->wanted && (first || wall_ms() - begun + cost <= def->budget);
+         first = false) {
+        const double before = wall_ms();
+        add_sets(view, least(some, view->wanted - view->average.count), frame);
+        cost = wall_ms() - before;
+    }
+}
+
+/* Points that stay are dealt to as many sets as their memory allows: one that is drawn twice says nothing
+   new. */
+static int sets_wanted(const PbsrView *view, const PbsrDef *def)
+{
+    int sets = def->repeat;
+    for (int k = 0; k < view->layers.count; k++)
+        sets = view->still[k].sets > 0 ? least(sets, view->still[k].sets) : sets;
+    for (int k = 0; k < view->solids.count; k++)
+        sets = view->solids.still[k].sets > 0 ? least(sets, view->solids.still[k].sets) : sets;
+    return sets;
+}
+
+/* What a picture adds to the mean, up to all that is wanted. */
+static void add_wanted(PbsrView *view, double begun, const Frame *frame)
+{
+    const PbsrDef *def = pbsr_def(frame->def);
+    const int some = def->moving > 0 ? def->moving : view->project.program ? GPU_SETS : 0;
+    view->wanted = sets_wanted(view, def);
+    if (frame->more && some == 0) {
+        add_in_budget(view, begun, frame);
+        return;
+    }
+    const int room = walks_on_fluid(view) ? least(view->average.room, FLUID_WALK_SETS) : view->average.room;
+    const int most = frame->more ? least(view->average.count + some, view->wanted) : view->wanted;
+    while (view->average.count < most)
+        add_sets(view, least(room, most - view->average.count), frame);
+}
+
+/* Found once a picture. */
+static void find_lacks(PbsrView *view, const PbsrDef *def)
+{
+    const LayersDrawn drawn = {.def = def,
+                               .layers = &view->layers,
+                               .walks = view->steps,
+                               .still = view->still,
+                               .solids = &view->solids,
+                               .by_gpu = view->project.program != 0,
+                               .sets = view->wanted};
+    view->lacked = layers_lack(&drawn, view->lack, sizeof view->lack);
+}
+
+static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    PbsrView *view = state;
+    const double begun = wall_ms();
+    bool made = false;
+    GL_STAGE(frame->timer, STAGE_VOXELIZE)
+    made = follow(view, particles, frame);
+    if (!made) { /* memory that was there is not there now: the note says so */
+        view->average.count = 0;
+        return;
+    }
+    const int before = view->average.count;
+    add_wanted(view, begun, frame);
+    find_lacks(view, pbsr_def(frame->def));
+    average_show_back(&view->average, frame);
+    if (!frame->counts)
+        view->added = view->average.count - before;
+    else if (!points_count(&view->layers, view->steps, view->still, &view->solids, &view->average.sight,
+                           view->added, frame))
+        error_set(&view->trouble, "no memory to count points");
+}
+
+static void draw_front(void *state, const Frame *frame)
+{
+    const PbsrView *view = state;
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    average_show_front(&view->average, frame);
+}
+
+/* The nearest of all sets' points is what is under the mouse. */
+static ViewProbing probing(const void *state, const ViewDef *def)
+{
+    (void)state;
+    (void)def;
+    return (ViewProbing){.by = VIEW_PROBE_MEAN};
+}
+
+static bool unfinished(const void *state)
+{
+    const PbsrView *view = state;
+    return view->valid && view->average.count < view->wanted;
+}
+
+static const char *lacks(const void *state)
+{
+    const PbsrView *view = state;
+    if (view->average.count == 0)
+        return view->trouble.message;
+    return view->lacked > 0 ? view->lack : NULL;
+}
+
+static const char *note(void *state, bool *behind)
+{
+    PbsrView *view = state;
+    (void)behind;
+    const int count = view->average.count;
+    if (count == 0)
+        return view->trouble.message;
+    snprintf(view->note, sizeof view->note, "%s%s%d of %d sets, noise up to %.2g %%", view->lack,
+             view->lacked > 0 ? "; " : "", count, view->wanted, 100 * opacity_noise(0.5, count));
+    return view->note;
+}
+
+/* Solids of several colours stand in the legend with that of the first. */
+static float part_color(const WorldDef *world, const PbsrLayer *layer, int k)
+{
+    if (layer->of == PBSR_SOLIDS && !pbsr_colored(layer) && world->solid_count > 0)
+        return world->solids[0].color[k];
+    return (float)layer->color[k];
+}
+
+/* Layers that are said have their names, and the bar stands where one goes by it. */
+static void show(const ViewDef *def, Frame *frame)
+{
+    const PbsrDef *own = pbsr_def(def);
+    frame->part_count = own->layer_count;
+    frame->no_colors = own->layer_count > 0;
+    frame->no_solids = solid_layers_number(own) >= 0;
+    for (int i = 0; i < own->layer_count; i++) {
+        const PbsrLayer *layer = &own->layers[i];
+        FramePart *part = &frame->parts[i];
+        part->own = pbsr_colored(layer) || layer->of == PBSR_SOLIDS;
+        frame->no_colors &= part->own || pbsr_of_file(layer); /* the bar is of the fluid's scalar */
+        for (int k = 0; k < 3; k++)
+            part->color[k] = part_color(frame->world, layer, k);
+        layer_words(layer, part->words);
+    }
+}
+
+static void want(const ViewDef *def, ParticleWants *wants)
+{
+    wants->scalars |= pbsr_scalars(pbsr_def(def));
+}
+
+const ViewKind view_pbsr = {
+    .name = "pbsr",
+    .help = "transparent surfaces, slices and volume of points, without sorting",
+    .radius = 0.5,
+    .keys = pbsr_keys,
+    .grades = pbsr_grades,
+    .def = &pbsr_usual,
+    .def_size = sizeof pbsr_usual,
+    .check = check,
+    .files = pbsr_files,
+    .want = want,
+    .create = create,
+    .destroy = destroy,
+    .show = show,
+    .cast = cast,
+    .draw = draw,
+    .draw_front = draw_front,
+    .unfinished = unfinished,
+    .note = note,
+    .lacks = lacks,
+    .probing = probing,
+};

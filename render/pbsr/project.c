@@ -1,0 +1,210 @@
+#include "render/pbsr/project.h"
+
+#include "shaders/pbsr/pbsr_bindings.h"
+#include "sim/gl/debug.h"
+#include "sim/gl/program.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+
+enum { POINTS, CORNERS, SHARES, STILL, BUFFERS };
+
+/* A block has a buffer, also where nothing is read of it. */
+static const float nothing[4] = {0};
+
+bool project_create(Project *project, Error *error)
+{
+    static const char *const stages[] = {"pbsr/project.comp", NULL};
+    static const char *const labels[BUFFERS] = {"layer points", "layer corners", "layer shares",
+                                                "points that stay"};
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++) {
+        glCreateBuffers(BUFFERS, project->layers[i].buffers);
+        for (int k = 0; k < BUFFERS; k++) {
+            glObjectLabel(GL_BUFFER, project->layers[i].buffers[k], -1, labels[k]);
+            glNamedBufferData(project->layers[i].buffers[k], sizeof nothing, nothing, GL_STREAM_DRAW);
+        }
+    }
+    glCreateBuffers(SOLIDS_MAX, project->solids);
+    for (int i = 0; i < SOLIDS_MAX; i++)
+        glObjectLabel(GL_BUFFER, project->solids[i], -1, "points of a solid");
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &project->block_bytes);
+    project->program = program_create("pbsr project", stages, NULL, error);
+    return project->program != 0;
+}
+
+void project_destroy(Project *project)
+{
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++)
+        glDeleteBuffers(BUFFERS, project->layers[i].buffers);
+    glDeleteBuffers(SOLIDS_MAX, project->solids);
+    glDeleteProgram(project->program);
+}
+
+static void send(unsigned buffer, const void *data, size_t bytes)
+{
+    if (bytes > 0)
+        glNamedBufferData(buffer, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
+}
+
+/* How many invocations share the points of the piece that has most. */
+static unsigned parts_of(const Layer *layer, size_t shares)
+{
+    float most = 0;
+    for (size_t i = 0; i < shares; i++)
+        most = fmaxf(most, layer->share[i].expected);
+    return most > (float)PIECE_POINTS_MOST ? (unsigned)ceilf(most / (float)PIECE_POINTS_MOST) : 1;
+}
+
+static bool is_there(Error *error)
+{
+    return gl_errors_take(GL_OUT_OF_MEMORY) == 0 ||
+           error_set(error,
+                     "the GPU has no memory for the points of a layer; view.pbsr.method: cpu needs none");
+}
+
+bool project_take(Project *project, int index, const Layer *layer, const StillLayer *still, Error *error)
+{
+    const size_t corners = layer->triangle_count > 0 ? layer->point_count * sizeof *layer->point : 0;
+    const size_t shares = layer->triangle_count > 0 ? layer->triangle_count : layer->point_count;
+    const unsigned *to = project->layers[index].buffers;
+    if (corners > (size_t)project->block_bytes)
+        return error_set(
+            error,
+            "a layer's corners are %.3g MB, and a shader sees %.3g MB here; view.pbsr.method: cpu, or "
+            "a larger view.pbsr.cell",
+            (double)corners / 1e6, (double)project->block_bytes / 1e6);
+    send(to[POINTS], layer->point, layer->point_count * sizeof *layer->point);
+    send(to[CORNERS], layer->triangle, layer->triangle_count * sizeof *layer->triangle);
+    send(to[SHARES], layer->share, shares * sizeof *layer->share);
+    project->layers[index].parts = parts_of(layer, shares);
+    if (project->still[index] != still->made && !still->buffer)
+        send(to[STILL], still->points.point, still->points.count * sizeof *still->points.point);
+    project->still[index] = still->made;
+    return is_there(error);
+}
+
+bool project_take_solid(Project *project, int index, const StillLayer *still, Error *error)
+{
+    if (project->solid_made[index] != still->made)
+        send(project->solids[index], still->points.point, still->points.count * sizeof *still->points.point);
+    project->solid_made[index] = still->made;
+    return is_there(error);
+}
+
+/* In rows, since an axis may have 65,535 groups only. */
+static void dispatch(size_t pieces, int sets)
+{
+    enum { GROUP = 64, ROW = 32768 };
+    const size_t groups = (pieces + GROUP - 1) / GROUP, rows = (groups + ROW - 1) / ROW;
+    glUniform1ui(PIECE_COUNT_AT, (GLuint)pieces);
+    if (pieces > 0)
+        glDispatchCompute((GLuint)(rows > 1 ? ROW : groups), (GLuint)rows, (GLuint)sets);
+}
+
+static void look(const SetSight *sight)
+{
+    glUniform4fv(PIECE_SIGHT_AT, 3, sight->row[0]);
+    glUniform4f(PIECE_EYE_AT, sight->eye[0], sight->eye[1], sight->eye[2], sight->edges);
+    glUniform2f(PIECE_RANGE_AT, sight->low, sight->scale);
+}
+
+/* As many cells at a time as a block may have points; so many are a whole number of 256 bytes of either
+   buffer, where a binding may begin. */
+static void dispatch_cells(const Project *project, const ProjectLayer *from, size_t count, int sets)
+{
+    enum { STEP = 32 };
+    const size_t point = sizeof(LayerPoint), share = sizeof(LayerShare),
+                 most = (size_t)project->block_bytes / (STEP * point) * STEP;
+    for (size_t first = 0; first < count; first += most) {
+        const size_t some = count - first < most ? count - first : most;
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, from->buffers[POINTS],
+                          (GLintptr)(first * point), (GLsizeiptr)(some * point));
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_SHARES_STORAGE, from->buffers[SHARES],
+                          (GLintptr)(first * share), (GLsizeiptr)(some * share));
+        glUniform1ui(PIECE_FIRST_AT, (GLuint)first);
+        dispatch(some, sets);
+    }
+}
+
+static void project_layer(const Project *project, int index, const Layer *layer, const SetSight *sight,
+                          const ProjectSets *sets)
+{
+    const ProjectLayer *from = &project->layers[index];
+    look(sight);
+    const bool cells = layer->triangle_count == 0;
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, 3, from->buffers);
+    glUniform1ui(PIECE_KIND_AT, cells ? PIECE_CELLS : PIECE_TRIANGLES);
+    glUniform3ui(PIECE_SET_AT, (GLuint)sets->first, (GLuint)sets->count, 1);
+    glUniform4f(PIECE_CELL_AT, (GLfloat)layer->cell[0], (GLfloat)layer->cell[1], (GLfloat)layer->cell[2],
+                layer->slab ? 1 : 0);
+    glUniform1ui(PIECE_PARTS_AT, from->parts);
+    glUniform1ui(PIECE_FIRST_AT, 0);
+    if (cells)
+        dispatch_cells(project, from, layer->point_count, sets->count * (int)from->parts);
+    else
+        dispatch(layer->triangle_count, sets->count * (int)from->parts);
+}
+
+/* As many points at a time as a block may have; so many are a whole number of 256 bytes, where a binding may
+ * begin. */
+static void dispatch_still(const Project *project, unsigned buffer, size_t count)
+{
+    enum { STEP = 32 };
+    const size_t point = sizeof(SurfacePoint), most = (size_t)project->block_bytes / (STEP * point) * STEP;
+    for (size_t first = 0; first < count; first += most) {
+        const size_t some = count - first < most ? count - first : most;
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PIECE_POINTS_STORAGE, buffer, (GLintptr)(first * point),
+                          (GLsizeiptr)(some * point));
+        glUniform1ui(PIECE_FIRST_AT, (GLuint)first);
+        dispatch(some, 1);
+    }
+}
+
+static void project_still(const Project *project, const StillLayer *still, unsigned buffer, float pixel,
+                          const ProjectSets *sets)
+{
+    static const GLfloat as_it_is[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const bool turns = still->polygons.vertex_count > 0;
+    if (still->sets == 0 || still->count == 0)
+        return;
+    look(&still->sight);
+    glUniformMatrix3fv(PIECE_TURN_AT, 1, GL_TRUE, turns ? still->turn[0] : as_it_is);
+    glUniform1ui(PIECE_KIND_AT, PIECE_STILL);
+    glUniform3ui(PIECE_SET_AT, (GLuint)sets->first, (GLuint)sets->count, (GLuint)still->sets);
+    glUniform4f(PIECE_CELL_AT, (GLfloat)still->wanted, (GLfloat)still->density * pixel, 0, 0);
+    dispatch_still(project, still->buffer ? still->buffer : buffer, still->count);
+}
+
+static void clear_sets(const Average *average, int count)
+{
+    static const GLuint zero = 0;
+    const size_t pixels = (size_t)average->part[2] * (size_t)average->band[1];
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glClearNamedBufferSubData(average->sets, GL_R32UI, 0,
+                              (GLsizeiptr)(2 * sizeof zero * pixels * (size_t)count), GL_RED_INTEGER,
+                              GL_UNSIGNED_INT, &zero);
+}
+
+void project_run(Project *project, const Average *average, const ProjectSets *sets)
+{
+    clear_sets(average, sets->count);
+    glUseProgram(project->program);
+    glBindBufferBase(GL_UNIFORM_BUFFER, PBSR_BLOCK, average->block);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, SETS_STORAGE, average->sets);
+    glUniform1ui(PIECE_SEED_AT, (GLuint)sets->seed);
+    for (GLuint words = 0; words < 2; words++) {
+        glUniform1ui(PIECE_WORDS_AT, words);
+        for (int i = 0; i < sets->layer_count; i++) {
+            glUniform1ui(PIECE_LAYER_AT, (GLuint)i);
+            project_layer(project, i, layer_pieces(&sets->still[i], &sets->layers[i]),
+                          layer_pieces_sight(&sets->still[i], &average->sight), sets);
+            project_still(project, &sets->still[i], project->layers[i].buffers[STILL], average->sight.pixel,
+                          sets);
+        }
+        for (int i = 0; i < sets->solids->count; i++) {
+            glUniform1ui(PIECE_LAYER_AT, sets->solids->numbers[i]);
+            project_still(project, &sets->solids->still[i], project->solids[i], average->sight.pixel, sets);
+        }
+        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    }
+}

@@ -1,0 +1,351 @@
+#include "render/pbsr/still_layers.h"
+
+#include "render/pbsr/data_pieces.h"
+#include "render/pbsr/opacity.h"
+#include "render/pbsr/random.h"
+#include "render/pbsr/still_field.h"
+#include "sim/surface/sampling.h"
+
+#include <epoxy/gl.h>
+#include <string.h>
+
+/* Points of a set that is the only one. */
+static const double ONE_MOST = 4.8e7;
+
+/* Points whose pixels are on their way from memory; and how many of a set before a point is read. */
+enum { SPOTS = 64, AHEAD = 12 };
+
+/* So many times the points that a look needs are made: a camera that comes nearer by less makes none anew. */
+static const double NEARER = 1.25;
+
+static float depth_of(const SetSight *sight, const double at[3])
+{
+    const float *row = sight->row[2];
+    return row[0] * (float)at[0] + row[1] * (float)at[1] + row[2] * (float)at[2] + row[3];
+}
+
+/* The least depth of the field's bounds, m; of what is turned, of the ball about them: it may turn on. */
+static double nearest_of(const StillLayer *still, bool turned)
+{
+    const LevelField *field = &still->field;
+    double middle[3], square = 0, nearest = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        middle[k] = (field->low[k] + field->high[k]) / 2;
+        square += pow(field->high[k] - middle[k], 2);
+    }
+    for (int corner = 0; corner < 8 && !turned; corner++) {
+        const double at[3] = {corner & 1 ? field->high[0] : field->low[0],
+                              corner & 2 ? field->high[1] : field->low[1],
+                              corner & 4 ? field->high[2] : field->low[2]};
+        nearest = fmin(nearest, (double)depth_of(&still->sight, at));
+    }
+    if (turned)
+        nearest = (double)depth_of(&still->sight, middle) - sqrt(square);
+    return fmax(nearest, (double)still->sight.near_plane);
+}
+
+/* A field's bounds have faces of so many m2. */
+static double faces_of(const LevelField *field)
+{
+    double faces = 0;
+    for (int k = 0; k < 3; k++)
+        faces += 2 * (field->high[k] - field->low[k]) * (field->high[(k + 1) % 3] - field->low[(k + 1) % 3]);
+    return faces;
+}
+
+static void drop_buffer(StillLayer *still)
+{
+    if (still->buffer)
+        glDeleteBuffers(1, &still->buffer);
+    still->buffer = 0;
+}
+
+/* By the GPU, if it is one that makes points, and has the field. */
+static bool make(StillLayer *still, const SurfaceRequest *said, SurfaceResult *result)
+{
+    SurfaceRequest request = *said;
+    const bool by_gpu = still->gpu && still->polygons.vertex_count == 0 && said->sampler == SURFACE_WALK &&
+                        surface_gpu_knows(said->field) && (!said->colour || surface_gpu_knows(said->colour));
+    request.device = by_gpu ? &still->gpu->device : NULL;
+    request.stay = request.device != NULL;
+    drop_buffer(still);
+    bool made = still->polygons.vertex_count > 0
+                    ? polygons_sample(&still->polygons, &request, &still->points, result, &still->trouble)
+                    : surface_sample(&request, &still->points, result, &still->trouble);
+    if (!made && by_gpu) { /* it may be too much for the GPU alone */
+        request.device = NULL;
+        request.stay = false;
+        made = surface_sample(&request, &still->points, result, &still->trouble);
+    }
+    if (!made)
+        return false;
+    still->buffer = request.stay ? surface_gpu_take_points(still->gpu) : 0;
+    still->count = result->points;
+    return true;
+}
+
+/* So many sets, or one, of that density. */
+static bool make_sets(StillLayer *still, unsigned number, double density, double sets, SurfaceResult *result)
+{
+    const LevelField *field = &still->field;
+    const bool triangles = still->said.sampler == PBSR_SAMPLER_TRIANGLES;
+    const int most = (int)fmin(sets, still->repeat);
+    const SurfaceRequest request = {
+        .field = field,
+        .level = pbsr_of_file(&still->said) ? still->said.level : 0,
+        .sampler = triangles ? SURFACE_TRIANGLES : SURFACE_WALK,
+        .density = density,
+        .sets = most > 1 ? most : 1,
+        .seed = (uint64_t)still->seed,
+        .surface = number,
+        .pixel =
+            sqrt(still->wanted * (1 + (double)still->sight.edges) / still->needed), /* where it is nearest */
+        .points_most = (size_t)(most > 1 ? still->most : fmax(still->most, ONE_MOST))};
+    still->points.count = 0;
+    still->sets = 0;
+    still->made++;
+    if (!make(still, &request, result))
+        return false;
+    still->density = result->reached ? density : fmin(result->density, density);
+    still->sets = request.sets;
+    return true;
+}
+
+/* How many sets fit, by the area of few points: what is inside the bounds may have much less than they, or
+   more. */
+static bool find_sets(StillLayer *still, unsigned number, double *sets)
+{
+    static const double FEW = 2e4, SPARE = 0.95; /* the area is known to some hundredths */
+    SurfaceResult result;
+    if (!make_sets(still, number, fmin(FEW / faces_of(&still->field), still->asked), 1, &result))
+        return false;
+    *sets = SPARE * still->most / (still->asked * result.area);
+    return true;
+}
+
+/* A gyroid may have some times the area of its bounds' faces. */
+static bool sample(StillLayer *still, unsigned number)
+{
+    static const double FOLDS = 8;
+    SurfaceResult result;
+    double sets = still->most / (still->asked * faces_of(&still->field) * FOLDS);
+    if (sets < still->repeat && !find_sets(still, number, &sets))
+        return false;
+    return make_sets(still, number, still->asked, sets, &result);
+}
+
+/* Of all but the pose and the looks. */
+static bool same_surface(const PbsrLayer *a, const PbsrLayer *b)
+{
+    return a->of == b->of && a->level == b->level && a->sampler == b->sampler && a->data == b->data &&
+           a->interpolation == b->interpolation && pbsr_of_file(a) == pbsr_of_file(b);
+}
+
+static bool same(const StillLayer *still, const PbsrLayer *said, const PbsrDef *def, const double box[3])
+{
+    return same_surface(&still->said, said) && still->seed == def->seed && still->repeat == def->repeat &&
+           still->most == def->points && still->box[0] == box[0] && still->box[1] == box[1] &&
+           still->box[2] == box[2];
+}
+
+/* The field and, of slices and clouds, the pieces. */
+static bool begin(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, const double box[3],
+                  unsigned number)
+{
+    still_layer_free(still);
+    still->said = *said;
+    still->seed = def->seed;
+    still->repeat = def->repeat;
+    still->most = def->points;
+    memcpy(still->box, box, sizeof still->box);
+    still->begun = still_field(said, box, &still->field, &still->trouble) &&
+                   (!data_pieces_are(said) ||
+                    data_pieces_make(said, &still->field, number, &still->pieces, &still->trouble));
+    return still->begun;
+}
+
+static bool see_pieces(StillLayer *still, const PbsrLayer *said)
+{
+    set_sight_find_eye(&still->sight);
+    still->pieces.density = data_pieces_density(said);
+    return layer_share(&still->pieces, &still->sight) ||
+           error_set(&still->trouble, "no memory for the points of a layer");
+}
+
+bool still_layer_see(StillLayer *still, const PbsrLayer *said, bool turned, unsigned number)
+{
+    const double nearest = nearest_of(still, turned);
+    set_sight_find_eye(&still->sight);
+    still->needed = (1 + (double)still->sight.edges) *
+                    point_density_of_opacity(said->opacity, (double)still->sight.pixel * nearest * nearest);
+    still->wanted = point_density_of_opacity(said->opacity, 1);
+    if (!(still->wanted > 0))
+        return true;
+    if (still->asked > 0 && still->needed <= still->asked)
+        return still->sets > 0;
+    still->asked = still->needed * NEARER;
+    return sample(still, number);
+}
+
+bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, const double box[3],
+                        unsigned number, const SetSight *sight)
+{
+    if (!pbsr_still(said)) {
+        still_layer_free(still);
+        return true;
+    }
+    if (!(still->followed && same(still, said, def, box)))
+        begin(still, said, def, box, number);
+    still->followed = true;
+    if (!still->begun)
+        return false;
+    still->sight = still_sight(said, &still->field, sight);
+    return data_pieces_are(said) ? see_pieces(still, said)
+                                 : still_layer_see(still, said, said->angle_deg != 0, number);
+}
+
+void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def)
+{
+    still_layer_free(still);
+    still->polygons = *polygons;
+    *polygons = (Polygons){0};
+    polygons_bounds(&still->polygons, still->field.low, still->field.high);
+    still->seed = def->seed;
+    still->repeat = def->repeat;
+    still->most = def->points;
+    still->begun = true;
+}
+
+double still_layer_part(const StillLayer *still)
+{
+    return still->sets > 0 && still->needed > still->density ? still->density / still->needed : 1;
+}
+
+/* So that a point stays or goes for itself, and does not flicker. */
+static float chance_of(size_t point)
+{
+    return (float)(random_mix(point + 1) >> 40) * 0x1p-24F;
+}
+
+static void turn_normal(const float turn[3][3], float normal[3])
+{
+    const float n[3] = {normal[0], normal[1], normal[2]};
+    for (int i = 0; i < 3; i++)
+        normal[i] = turn[i][0] * n[0] + turn[i][1] * n[1] + turn[i][2] * n[2];
+}
+
+void still_layer_paint(StillLayer *still, const PbsrLayer *said, const FluidLayers *layers)
+{
+    double turn[3][3];
+    still->paint = pbsr_painted(said) && layers->color ? layers : NULL;
+    still_turn(said, turn);
+    for (int i = 0; i < 3; i++) {
+        still->to_box[i][3] = said->position[i] + (still->field.low[i] + still->field.high[i]) / 2;
+        for (int k = 0; k < 3; k++) {
+            still->to_box[i][k] = turn[i][k];
+            still->to_box[i][3] -= turn[i][k] * (still->field.low[k] + still->field.high[k]) / 2;
+        }
+    }
+}
+
+/* Gives a point its colour; the number of its look. */
+static unsigned paint(const StillLayer *still, LayerPoint *point, unsigned number)
+{
+    const float *at = point->at;
+    double place[3];
+    for (int i = 0; i < 3; i++) {
+        const double *row = still->to_box[i];
+        place[i] = row[0] * (double)at[0] + row[1] * (double)at[1] + row[2] * (double)at[2] + row[3];
+    }
+    point->value = fluid_layers_color(still->paint, place);
+    if (isfinite(point->value))
+        return number;
+    const float n[3] = {point->normal[0], point->normal[1], point->normal[2]};
+    for (int i = 0; i < 3; i++)
+        point->normal[i] = (float)still->to_box[i][0] * n[0] + (float)still->to_box[i][1] * n[1] +
+                           (float)still->to_box[i][2] * n[2];
+    return OUTSIDE_NUMBER;
+}
+
+static uint32_t word_of(const StillLayer *still, const SurfacePoint *from)
+{
+    const float *at = from->position;
+    LayerPoint point = {.at = {at[0], at[1], at[2]}, .value = from->value};
+    if (still->polygons.vertex_count == 0 && !still->paint)
+        return set_word_of_point(from, &still->sight);
+    surface_normal_unpack(from->normal, point.normal);
+    if (still->polygons.vertex_count > 0)
+        turn_normal(still->turn, point.normal);
+    return set_word(&point, &still->sight,
+                    still->paint ? paint(still, &point, from->surface) : from->surface);
+}
+
+float still_layer_boost(const StillLayer *still, const SurfacePoint *from)
+{
+    float normal[3];
+    if (!(still->sight.edges > 0))
+        return 1;
+    surface_normal_unpack(from->normal, normal);
+    return set_sight_boost(&still->sight, from->position, normal);
+}
+
+/* Whether a point is one of those that its depth needs. */
+static bool stays(const StillLayer *still, const SurfacePoint *from, size_t i)
+{
+    const float *at = from->position;
+    const float *row = still->sight.row[2];
+    const float have = (float)still->density * still->sight.pixel;
+    const float w = row[0] * at[0] + row[1] * at[1] + row[2] * at[2] + row[3];
+    return !(chance_of(i) * have * w * w > (float)still->wanted * still_layer_boost(still, from));
+}
+
+typedef struct PointSpots {
+    const SurfacePoint *point[SPOTS];
+    SetSpot spot[SPOTS];
+    int count;
+} PointSpots;
+
+static void put_spots(const StillLayer *still, const PointSpots *spots, const SetImage *image)
+{
+    for (int i = 0; i < spots->count; i++)
+        if (set_image_open(image, &spots->spot[i]))
+            set_image_put(image, &spots->spot[i], word_of(still, spots->point[i]));
+}
+
+static void project_points(const StillLayer *still, uint64_t set, const SetImage *image)
+{
+    const size_t sets = (size_t)still->sets, count = still->points.count;
+    PointSpots spots = {.count = 0};
+    for (size_t i = sets > 0 ? set % sets : 0; sets > 0 && i < count; i += sets) {
+        const SurfacePoint *from = &still->points.point[i];
+        SetSpot *spot = &spots.spot[spots.count];
+        __builtin_prefetch(&still->points.point[i + AHEAD * sets < count ? i + AHEAD * sets : i]);
+        if (!stays(still, from, i) || !set_image_spot(image, &still->sight, from->position, spot))
+            continue;
+        __builtin_prefetch(&image->depth[spot->pixel], 1);
+        __builtin_prefetch(&image->word[spot->pixel], 1);
+        spots.point[spots.count++] = from;
+        if (spots.count < SPOTS)
+            continue;
+        put_spots(still, &spots, image);
+        spots.count = 0;
+    }
+    put_spots(still, &spots, image);
+}
+
+void still_layer_project(const StillLayer *still, uint64_t seed, uint64_t set, const SetImage *image)
+{
+    if (still->pieces.point_count > 0)
+        layer_project(&still->pieces, seed, set, &still->sight, image);
+    project_points(still, set, image);
+}
+
+void still_layer_free(StillLayer *still)
+{
+    const uint64_t made = still->made + (still->points.count > 0 || still->buffer);
+    surface_points_free(&still->points);
+    drop_buffer(still);
+    layer_free(&still->pieces);
+    polygons_free(&still->polygons);
+    *still = (StillLayer){.gpu = still->gpu, .made = made};
+}

@@ -1,0 +1,23 @@
+/* How points come into a picture, and the colours of their layers; render/pbsr/average.c fills it. */
+#ifndef SLOSH_PBSR_BLOCK_H
+#define SLOSH_PBSR_BLOCK_H
+
+#include "shaders/pbsr/pbsr_bindings.h"
+#include "shaders/shared/block.h"
+
+#define PBSR_NUMBERS_MAX 16
+
+UNIFORM_BLOCK(PbsrBlock, PBSR_BLOCK)
+{
+    ivec4 sets_part;                       /* the band, of the picture: left, below, width, height; pixels */
+    vec4 layer_color[PBSR_NUMBERS_MAX];    /* linear; alpha 0: by the value */
+    vec4 layer_light[PBSR_NUMBERS_MAX];    /* red: 1 lit, 0 plain; green: 1 values go by the colormap */
+    vec4 layer_turn[3 * PBSR_NUMBERS_MAX]; /* columns: a layer's normals to the eye's frame */
+    float value_low;                       /* of the range that colours are from */
+    float value_scale;                     /* 1 / its width */
+    float sets_near;                       /* near plane, m */
+    int sets_first;                        /* the band's first row, of those that sight counts */
+}
+BLOCK_END(PbsrBlock);
+
+#endif

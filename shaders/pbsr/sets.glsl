@@ -1,0 +1,17 @@
+// What sets of points left in a part of the picture: of each set depths, then words, of each pixel. Depth 0: nothing; else near / w.
+#include "shaders/pbsr/pbsr_block.h"
+
+uint set_pixels()
+{
+    return uint(sets_part.z) * uint(sets_part.w);
+}
+
+uint set_depth_at(uint set, uint pixel)
+{
+    return 2u * set * set_pixels() + pixel;
+}
+
+uint set_word_at(uint set, uint pixel)
+{
+    return (2u * set + 1u) * set_pixels() + pixel;
+}
