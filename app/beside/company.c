@@ -217,6 +217,17 @@ void company_send(Company *company, const SimCommand *command)
     }
 }
 
+/* Once: what it cannot keep it says itself. */
+void company_want(Company *company, const ViewDef *view)
+{
+    const SimCommand command = {.kind = SIM_SET, .setting = "solver.acceleration=true"};
+    Member *member = find(company, view);
+    if (!member || !member->simulator || member->scene.world.acceleration)
+        return;
+    member->scene.world.acceleration = true;
+    simulator_send(member->simulator, &command);
+}
+
 static bool is_fresh(const Member *member)
 {
     if (member->reel)

@@ -39,6 +39,9 @@ void company_destroy(Company *company);
 /* To all that are simulated. A setting that a view has for itself does not reach it. */
 void company_send(Company *company, const SimCommand *command);
 
+/* From its next step on what the view shows keeps accelerations. */
+void company_want(Company *company, const ViewDef *view);
+
 /* Whether there is a state that was not taken; takes what is there for the scene's state of that time. False
    as long as one of them has no state at all, and has not failed: one that has is without particles. */
 bool company_fresh(Company *company);

@@ -149,6 +149,22 @@ static bool add_world(RenderPlan *plan, int panel, Notes *notes, Error *error)
     return load(plan, setting, view, panel / plan->setting_count, &plan->own[panel], notes, error);
 }
 
+/* The states of a panel before it, which may lack what only this one reads. */
+static bool share(RenderPlan *plan, int panel, int first, Error *error)
+{
+    const ViewDef *view = plan->views[panel];
+    const int world = plan->world_of[first], file = plan->file_of[first];
+    plan->world_of[panel] = world;
+    plan->file_of[panel] = file;
+    if (file >= 0)
+        return recorded_has(&plan->files[file], view, error);
+    if (!scene_view_accelerates(view))
+        return true;
+    WorldDef *def = &plan->scene_of[world]->world;
+    def->acceleration = true;
+    return world_can(def, error) || blame(plan, plan->setting_of[panel], error);
+}
+
 /* What each panel shows; what is new to be said goes into `notes`. */
 static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
 {
@@ -156,14 +172,8 @@ static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
         const int first = first_alike(plan, i);
         plan->world_of[i] = plan->file_of[i] = -1;
         notes[i].count = 0;
-        if (first < i) {
-            plan->world_of[i] = plan->world_of[first];
-            plan->file_of[i] = plan->file_of[first];
-        } else if (!(*plan->views[i]->file ? add_file : add_world)(plan, i, &notes[i], error)) {
-            return false;
-        }
-        if (plan->file_of[i] >= 0 && first < i &&
-            !recorded_has(&plan->files[plan->file_of[i]], plan->views[i], error))
+        if (first < i ? !share(plan, i, first, error)
+                      : !(*plan->views[i]->file ? add_file : add_world)(plan, i, &notes[i], error))
             return false;
     }
     return true;

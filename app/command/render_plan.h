@@ -16,10 +16,10 @@ typedef struct RenderPlan {
     char names[PANELS_MAX][TITLE_SIZE]; /* of each setting: "particles 2000"; "" of a single one */
     int setting_of[PANELS_MAX];         /* of each panel */
     const ViewDef *views[PANELS_MAX];   /* of each panel, in its setting's scene */
-    int world_of[PANELS_MAX]; /* of each panel; what differs in keys of the view alone shares one; -1: a
-                                 file's */
-    Scene own[PANELS_MAX];    /* of panels whose view has settings of its own */
-    const Scene *scene_of[PANELS_MAX];   /* of each world */
+    int world_of[PANELS_MAX];    /* of each panel; what differs in keys of the view alone shares one; -1: a
+                                    file's */
+    Scene own[PANELS_MAX];       /* of panels whose view has settings of its own */
+    Scene *scene_of[PANELS_MAX]; /* of each world, among those */
     char worlds[PANELS_MAX][TITLE_SIZE]; /* of each world: its settings' name without keys of the view */
     int file_of[PANELS_MAX];             /* of each panel; -1: simulated */
     int file_count;

@@ -4,34 +4,16 @@
 #include "render/frame/colormap.h"
 #include "render/frame/overlay.h"
 #include "render/particles/particle_under.h"
-#include "render/renderer.h"
 #include "sim/base/scalar.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static bool wants_acceleration(const Scene *scene, const ViewDef *view)
-{
-    return scene_shows(scene, view) &&
-           renderer_attributes(view) & PARTICLE_SCALAR(SCALAR_ACCELERATION_X) * 7U;
-}
-
-/* A view may show what the world does not keep yet. */
-static void follow_wants(Model *model)
-{
-    const Scene *scene = &model->open.scene;
-    bool wants = wants_acceleration(scene, &scene->view);
-    for (int i = 0; i < scene->view_count; i++)
-        wants |= wants_acceleration(scene, &scene->views[i]);
-    if (wants && model->open.source->simulates && !scene->world.acceleration)
-        model_set(model, "solver.acceleration=true");
-}
-
 static void view_changed(Play *play)
 {
     Scene *scene = &play->model.open.scene;
-    follow_wants(&play->model);
+    model_follow_views(&play->model);
     views_follow(&play->views, scene);
     picture_set_view(&play->picture, &play->model.open, views_panel(&play->views, scene), &play->notice);
 }
@@ -160,6 +142,9 @@ static void choose_trail(Play *play)
         return;
     const double *mouse = play->grip.mouse;
     const Look look = play_look(play, picture_panel_at(&play->picture, mouse[0], mouse[1]));
+    model_take(&play->model); /* a solver on the GPU has gone on in the buffers of the one that was drawn */
+    if (!play->model.has_particles)
+        return;
     sight_ray(&look.sight, (double[]){mouse[0] - look.at.x, mouse[1] - look.at.y}, &ray);
     if (!look.particles->id.buffer) {
         notice_tell(&play->notice,

@@ -169,7 +169,7 @@ static void adopt(Model *model, const PlayScene *opened)
     model->has_particles = false;
     post_open(model);
     model->saves = model->messages = model->travels = 0;
-    model->told_fixed = false;
+    model->told_fixed = model->asked_acceleration = false;
     model->scenes_opened++;
     model->open.source->set_speed(&model->open, model->speed);
 }
@@ -440,4 +440,27 @@ bool model_set(Model *model, const char *setting)
     else if (concerns_world && !simulator_send(model->open.simulator, &command))
         notice_error(model->notice, "too many changes wait for the next step; let the time run");
     return true;
+}
+
+/* Whether the scene's own states need accelerations; those beside it are asked for theirs. */
+static bool follow_view(Model *model, const ViewDef *view)
+{
+    if (!scene_view_accelerates(view))
+        return false;
+    company_want(model->open.company, view);
+    return scene_shows(&model->open.scene, view);
+}
+
+void model_follow_views(Model *model)
+{
+    const Scene *scene = &model->open.scene;
+    if (!model->open.source->simulates)
+        return;
+    bool wants = follow_view(model, &scene->view);
+    for (int i = 0; i < scene->view_count; i++)
+        wants |= follow_view(model, &scene->views[i]);
+    const bool asked = model->asked_acceleration;
+    model->asked_acceleration = wants;
+    if (wants && !asked && !scene->world.acceleration)
+        model_set(model, "solver.acceleration=true");
 }

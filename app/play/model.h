@@ -34,6 +34,7 @@ typedef struct Model {
     unsigned travels;         /* SimulatorPast.travels that were followed */
     atomic_bool pulled;       /* somebody would move the box of a recorded run; */
     bool told_fixed;          /* it was told that none can */
+    bool asked_acceleration;  /* a view reads it, and the solver was asked for it: once, it may take long */
 } Model;
 
 /* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
@@ -81,6 +82,10 @@ void model_set_speed(Model *model, double factor); /* so many times the present 
 
 /* "path=value" of a live key: in the scene now, for the solver from its next step on. False: all stays. */
 bool model_set(Model *model, const char *setting);
+
+/* The views have changed: solvers begin to keep what one of them reads. One that cannot is asked again when
+   it was not read meanwhile. */
+void model_follow_views(Model *model);
 
 /* The box stops where it is. */
 void model_let_go(Model *model);

@@ -186,6 +186,11 @@ bool scene_shows(const Scene *scene, const ViewDef *view)
     return !*view->file && strcmp(view->set, scene->beside) == 0;
 }
 
+bool scene_view_accelerates(const ViewDef *view)
+{
+    return renderer_attributes(view) & PARTICLE_SCALAR(SCALAR_ACCELERATION_X) * 7U;
+}
+
 const ViewDef *scene_view(const Scene *scene, int index)
 {
     return scene->view_count > 0 ? &scene->views[index] : &scene->view;

@@ -152,6 +152,7 @@ static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_
         !scene_check(tree, &after, change->error))
         return false;
     ranges_follow(scene, &after);
+    after.world.acceleration |= scene->world.acceleration; /* once kept they stay */
     if (concerns_world)
         *concerns_world = in_world(&after, change, base);
     *scene = after;

@@ -173,8 +173,7 @@ static bool shows_acceleration(const Scene *scene)
 {
     for (int i = 0; i < scene_view_count(scene); i++) {
         const ViewDef *view = scene_view(scene, i);
-        if (scene_shows(scene, view) &&
-            renderer_attributes(view) & PARTICLE_SCALAR(SCALAR_ACCELERATION_X) * 7U)
+        if (scene_shows(scene, view) && scene_view_accelerates(view))
             return true;
     }
     return false;

@@ -69,6 +69,9 @@ int scene_view_count(const Scene *scene);
 /* Whether the view shows states of this scene: not a recorded run's, nor those of other settings. */
 bool scene_shows(const Scene *scene, const ViewDef *view);
 
+/* Whether it reads accelerations, which a world keeps where WorldDef.acceleration says so. */
+bool scene_view_accelerates(const ViewDef *view);
+
 /* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
    would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a
    path, or the name of a file beside the sources that the program was built from (scenes/box_slosh.yaml,

@@ -24,7 +24,7 @@ const Key method_keys[] = {
 
 const Key backend_keys[] = {
     CHOICE("solver.backend", L, backend_name, AT(backend), "what computes them"),
-    BOOLEAN("solver.acceleration", L | I, AT(acceleration), "the acceleration of particles is kept, for pictures and files: what their velocity changed by in the last step, over its time; true where a view shows it"),
+    BOOLEAN("solver.acceleration", L | I, AT(acceleration), "the acceleration of particles is kept, for pictures and files: what their velocity changed by in the last step, over its time; true where a view shows it, and once true it stays"),
     KEYS_END,
 };
 /* clang-format on */

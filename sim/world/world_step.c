@@ -383,7 +383,7 @@ bool world_keep_acceleration(World *world, Error *error)
     if (!world_adopt(world, &def, error))
         return false;
     world_forget(world, NULL);
-    return sentinel_mark(world, error);
+    return !world_sound(world) || sentinel_mark(world, error); /* from a state in trouble it is to go back */
 }
 
 void world_info(const World *world, WorldInfo *info)

@@ -70,6 +70,15 @@ class Panels(CompareTest):
             self.assertEqual(panel['place'][2:], [249, 199])
             self.assert_panel(whole, panel, '--view', panel['view'])
 
+    def test_what_only_a_later_panel_reads(self):
+        """Panels that differ in keys of the view share a world, which keeps accelerations for any of them."""
+        bare = ('--set', 'view.legend=false', '--set', 'view.range=[0, 20]')
+        glyphs = ('--set', 'view.glyphs.show=true')
+        for key, first, *more in (('view.color_by', 'velocity_x'), ('view.glyphs.vector', 'velocity', *glyphs)):
+            _, result = self.compare('--compare', f'{key}={first},acceleration', *bare, *more)
+            self.assertEqual([p['world'] for p in result['panels']], [0, 0])
+            self.assert_panel(self.picture('out.png'), result['panels'][1], '--set', f'{key}=acceleration', *bare, *more)
+
     def test_two_keys_are_a_table(self):
         _, result = self.compare('--compare', 'method=mueller,dfsph', '--compare', 'view.colormap=viridis,gray')
         self.assertEqual([p['setting'] for p in result['panels']],

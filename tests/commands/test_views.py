@@ -128,11 +128,14 @@ class Views(Window):
         """S goes through those of the panel's own method; accelerations are kept with solvers side by side too."""
         self.open('still.yaml', '--set', 'views=[{}, {set: {solver.method: dfsph}, color_by: kept_term}]')
         self.click(*RIGHT)
+        self.shown(0.5)
         self.keys('s')
-        self.shown(0.3)
+        self.shown(0.5)
+        blue, green, red = numpy.moveaxis(self.picture()[:, 240:].astype(int), 2, 0)
         out = self.quit()
         self.assertEqual((out['chosen_view'], out['color_by']), (1, 'acceleration_x'))
         self.assertNotIn('stays while', self.messages)
+        self.assertLess(int(((red > green + 80) & (blue > green + 80)).sum()), 20, 'the colour of no number')
 
     def test_sizes_and_other_scenes(self):
         self.open('still.yaml')

@@ -211,6 +211,29 @@ static void states_have_it(void **state)
     }
 }
 
+/* Asked for within a frame whose steps are too long: on a GPU nobody has looked yet, and the sentinel goes
+   back to where the frame began. */
+static void a_state_in_trouble_is_not_gone_back_to(void **state)
+{
+    (void)state;
+    WorldDef def = tank("compute", "mueller");
+    Error error = {{0}};
+    def.acceleration = false;
+    def.retries = 3;
+    def.dt = 0.4;
+    def.substeps = 4;
+    World *world = fixture_world(&def);
+    for (int i = 0; i < 2; i++)
+        assert_true(world_substep(world, NULL, &error));
+    assert_true(world_keep_acceleration(world, &error));
+    for (int i = 0; i < 20 && info_of(world).trouble.count == 0; i++)
+        if (!world_substep(world, NULL, &error))
+            fail_msg("%s", error.message);
+    assert_int_equal(info_of(world).trouble.count, 1);
+    assert_true(info_of(world).trouble.back_to == 0);
+    world_destroy(world);
+}
+
 static void read_back(const ParticleAttribute *from, size_t count, float *to)
 {
     assert_true(from->buffer);
@@ -270,6 +293,7 @@ int main(void)
         cmocka_unit_test_teardown(it_is_what_velocities_change_by, no_gl_errors),
         cmocka_unit_test_teardown(what_rests_has_none, no_gl_errors),
         cmocka_unit_test_teardown(states_have_it, no_gl_errors),
+        cmocka_unit_test_teardown(a_state_in_trouble_is_not_gone_back_to, no_gl_errors),
         cmocka_unit_test_teardown(pictures_get_it, no_gl_errors),
         cmocka_unit_test(fragment_has_none),
     };

@@ -65,6 +65,8 @@ static void each_type_reaches_its_field(void **state)
     assert_true(set("solver.negative_pressure=true") && scene.world.negative_pressure);
     assert_true(set("hand.turn_speed=90") && scene.world.limits.turn_speed_deg == 90);
     assert_false(set("solver.step.realtime=false") || scene.realtime);
+    assert_false(set("solver.acceleration=true") || set("solver.acceleration=false"));
+    assert_true(scene.world.acceleration); /* once kept they stay */
     assert_false(set("title='two: words'"));
     assert_string_equal(scene.title, "two: words");
     assert_false(set("view.range=auto"));
