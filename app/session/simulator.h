@@ -3,17 +3,18 @@
    whole frame, which answers the hand sooner by some half a frame.
 
    It paces itself by the wall clock where the scene says `realtime` (as many frames as the clock asks for,
-   times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It is the
-   only thread that opens parallel regions, and it never waits for the view. All functions here belong to one
-   other thread, that of the window.
+   times the speed; what it cannot keep up with is left out, dt stays), else runs as fast as it can. It never
+   waits for the view. On a software driver views open parallel regions on the window's thread too (planes,
+   trails, layers of points): then two are open side by side, each with threads of its own. All functions here
+   belong to one other thread, that of the window.
 
    A backend on a GPU steps on that other thread instead, where the context is: simulator_work does what is
    due, and the views read the world's own buffers.
 
-   Simulators that follow another one step on its thread, in turns with it, and so no two open parallel
-   regions: after each of its frames each of them goes on to its own first frame at or after that time, and
-   then all states are shown together; the leader waits for them. Where it goes in time they go, as far as
-   they kept theirs. Where one of them is on a GPU all step on the window's thread. */
+   Simulators that follow another one step on its thread, in turns with it, so that no two of them have
+   parallel regions open: after each of its frames each of them goes on to its own first frame at or after
+   that time, and then all states are shown together; the leader waits for them. Where it goes in time they
+   go, as far as they kept theirs. Where one of them is on a GPU all step on the window's thread. */
 #ifndef SLOSH_SIMULATOR_H
 #define SLOSH_SIMULATOR_H
 

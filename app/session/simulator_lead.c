@@ -70,11 +70,26 @@ bool simulator_show(Simulator *simulator, Error *error)
     return ok;
 }
 
+/* Where they begin, all of one time; what has no world is left out. */
+static void show_begin(Simulator *simulator)
+{
+    if (simulator->follower_count == 0)
+        return;
+    simulator_hold(simulator);
+    for (int i = 0; i < simulator->follower_count; i++)
+        publish(simulator->followers[i]);
+    publish(simulator);
+    simulator_release(simulator);
+    if (simulator->wake)
+        simulator->wake();
+}
+
 void simulator_lead_begin(Simulator *simulator)
 {
     for (int i = 0; i < simulator->follower_count; i++)
         if (!simulator->followers[i]->world && !simulator->followers[i]->status.failed)
             simulator_make_world(simulator->followers[i]);
+    show_begin(simulator);
 }
 
 void simulator_lead_restart(Simulator *simulator)
@@ -86,6 +101,7 @@ void simulator_lead_restart(Simulator *simulator)
         pthread_mutex_unlock(&follower->lock);
         simulator_restart(follower, follower->work);
     }
+    show_begin(simulator);
 }
 
 /* Once: it stands ahead of the others there. */

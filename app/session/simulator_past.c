@@ -166,6 +166,9 @@ void simulator_cut(Simulator *simulator)
     past_cut(simulator->past, simulator->at);
     if (!simulator->follows)
         simulator_tell(simulator, false, words);
+    for (int i = 0; i < simulator->follower_count; i++) /* also where the setting is not theirs */
+        if (simulator->followers[i]->world)
+            simulator_cut(simulator->followers[i]);
 }
 
 void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int count)

@@ -73,7 +73,9 @@ void simulator_make_world(Simulator *simulator)
     simulator_past_begin(simulator);
     simulator_gauge_begin(simulator);
     simulator_probes_begin(simulator);
-    if (!simulator->world || !simulator_publish(simulator, &error))
+    const bool alone =
+        !simulator->follows && simulator->follower_count == 0; /* else simulator_lead.c shows all */
+    if (!simulator->world || (alone && !simulator_publish(simulator, &error)))
         simulator_tell(simulator, true, error.message);
     awaken(simulator);
 }

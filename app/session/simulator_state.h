@@ -129,7 +129,8 @@ void command_queue_drop_poses(CommandQueue *queue);
 
 /* simulator_session.c: of the thread that steps. */
 bool simulator_publish(Simulator *simulator, Error *error); /* describes the state, then shows it */
-void simulator_make_world(Simulator *simulator);            /* at the scene's start, or a message */
+void simulator_make_world(Simulator *simulator); /* at the scene's start, or a message; shows it, where none
+                                                    follows it and it follows none */
 void simulator_tell(Simulator *simulator, bool failed, const char *message);
 void simulator_obey(Simulator *simulator, const SimCommand *command);
 void simulator_restart(Simulator *simulator, Work *work);

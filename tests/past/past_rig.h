@@ -33,7 +33,8 @@ static inline void must(bool ok)
         fail_msg("%s", error.message);
 }
 
-static inline void rig_open(Rig *rig, const char *text, size_t past_bytes)
+/* `how`: what is not the rig's own. */
+static inline void rig_start(Rig *rig, const char *text, SimulatorSetup how)
 {
     SceneSettings settings = {.count = 0};
     *rig = (Rig){.upload = NULL};
@@ -42,13 +43,17 @@ static inline void rig_open(Rig *rig, const char *text, size_t past_bytes)
     const WorldDef *def = &rig->scene.world;
     rig->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
                                 PARTICLE_SCALAR(SCALAR_SPEED), &error);
-    const SimulatorSetup setup = {.scene = &rig->scene,
-                                  .recording = &rig->recording,
-                                  .upload = rig->upload,
-                                  .paused = true,
-                                  .past_bytes = past_bytes};
-    rig->simulator = simulator_create(&setup, &error);
+    how.scene = &rig->scene;
+    how.recording = &rig->recording;
+    how.upload = rig->upload;
+    how.paused = true;
+    rig->simulator = simulator_create(&how, &error);
     assert_non_null(rig->simulator);
+}
+
+static inline void rig_open(Rig *rig, const char *text, size_t past_bytes)
+{
+    rig_start(rig, text, (SimulatorSetup){.past_bytes = past_bytes});
 }
 
 static inline void rig_close(Rig *rig)

@@ -206,6 +206,77 @@ static void a_command_in_the_past_cuts_the_rest_off(void **state)
     assert_int_equal(replay("cut.rec"), 12 * 5);
 }
 
+static BoxTarget hand_of(const Rig *rig)
+{
+    WorldInfo info;
+    world_info(rig->simulator->world, &info);
+    return info.hand;
+}
+
+/* The follower with a setting of its own. */
+static void open_pair(Rig *leader, Rig *follower, void (*wake)(void))
+{
+    rig_start(follower,
+              BOX "gravity: [0, -3, 0]\n"
+                  "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n",
+              (SimulatorSetup){.past_bytes = 64 * MIB, .follows = true});
+    rig_start(
+        leader, plain,
+        (SimulatorSetup){
+            .past_bytes = 64 * MIB, .wake = wake, .follower_count = 1, .followers = &follower->simulator});
+    rig_ready(leader);
+}
+
+/* By a setting that reaches the leader alone: what both were told later is gone for both. */
+static void what_follows_is_cut_too(void **state)
+{
+    (void)state;
+    Rig leader, follower;
+    open_pair(&leader, &follower, NULL);
+    for (int i = 0; i < 8; i++) {
+        rig_target(&follower, 0.02 * i);
+        rig_target(&leader, 0.02 * i);
+        rig_step(&leader);
+    }
+    rig_go(&leader, 0.02);
+    rig_set(&leader, "gravity=[0, -5, 0]");
+    for (int i = 0; i < 4; i++) {
+        rig_step(&leader);
+        const BoxTarget one = hand_of(&leader), other = hand_of(&follower);
+        assert_memory_equal(one.position, other.position, sizeof one.position);
+    }
+    assert_int_equal(follower.simulator->recording.count, 2);
+    rig_close(&leader);
+    rig_close(&follower);
+}
+
+static Rig leads, follows;
+static int apart; /* wakes at which states of two times were shown; of the solver's thread */
+
+static void look_at_both(void)
+{
+    const Simulator *one = leads.simulator, *other = follows.simulator;
+    apart += one && fabs(one->status.time - other->status.time) > 1e-6;
+}
+
+/* The leader is at its start some time before the follower is. */
+static void a_reset_is_shown_of_all_at_once(void **state)
+{
+    (void)state;
+    open_pair(&leads, &follows, look_at_both);
+    for (int i = 0; i < 3; i++)
+        rig_step(&leads);
+    simulator_reset(leads.simulator);
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(&leads);
+    while (leads.status.time > 0 && wall_ms() < until);
+    rig_step(&leads);
+    rig_close(&leads);
+    rig_close(&follows);
+    assert_true(leads.status.step == 5 && apart == 0);
+}
+
 /* What is only shown changes nothing of what came after: sent, and by simulator_move as the window does. */
 static void accelerations_wished_in_the_past_cut_nothing(void **state)
 {
@@ -591,6 +662,8 @@ int main(int argc, char **argv)
         cmocka_unit_test(trouble_is_gone_through_again),
         cmocka_unit_test(emitters_take_back_what_they_sent),
         cmocka_unit_test(a_command_in_the_past_cuts_the_rest_off),
+        cmocka_unit_test(what_follows_is_cut_too),
+        cmocka_unit_test(a_reset_is_shown_of_all_at_once),
         cmocka_unit_test(accelerations_wished_in_the_past_cut_nothing),
         cmocka_unit_test(time_runs_on_in_the_past_as_it_did),
         cmocka_unit_test(steps_back_add_up),
