@@ -4,6 +4,7 @@
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
+#include "app/output/step_buffers.h"
 #include "app/output/vtp.h"
 #include "app/session/headless.h"
 #include "app/trace/trace.h"
@@ -71,15 +72,22 @@ static bool choose_first(TrailExport *export, Error *error)
 }
 
 /* Lines are of one and the same particle. */
+static bool has_ids(const TrailExport *export, const SnapshotStep *step, size_t index, Error *error)
+{
+    return !snapshot_step_lacks(step, "id") ||
+           error_set(error, "%s: Step#%zu has no ids, and nobody knows which particle went where",
+                     export->args->scenes[0], index);
+}
+
+/* Of the last step, before anything is written. */
 static bool check_ids(const TrailExport *export, Error *error)
 {
     SnapshotStep step;
     if (!snapshot_read_shown(export->reader, export->last, &step, error))
         return false;
-    const bool lacks = snapshot_step_lacks(&step, "id");
+    const bool has = has_ids(export, &step, export->last, error);
     snapshot_step_free(&step);
-    return !lacks || error_set(error, "%s: Step#%zu has no ids, and nobody knows which particle went where",
-                               export->args->scenes[0], export->last);
+    return has;
 }
 
 static bool understand(TrailExport *export, Error *error)
@@ -102,6 +110,15 @@ static bool is_read(const TrailExport *export, bool column)
     return column || trace_def_has_plane(&export->def) || trace_def_has_region(&export->def);
 }
 
+/* A step before the last one may lack what that one has. */
+static bool check_step(const TrailExport *export, const SnapshotStep *step, size_t index, Error *error)
+{
+    return has_ids(export, step, index, error) &&
+           ((step_attributes(export->scalar) & ~snapshot_attributes(step)) == 0 ||
+            error_set(error, "%s: Step#%zu has no %s", export->args->scenes[0], index,
+                      scalar_name(export->scalar)));
+}
+
 static bool take_step(TrailExport *export, size_t index, Error *error)
 {
     SnapshotStep step;
@@ -114,6 +131,7 @@ static bool take_step(TrailExport *export, size_t index, Error *error)
     if (!snapshot_read_shown(export->reader, index, &step, error))
         return false;
     const bool taken =
+        check_step(export, &step, index, error) &&
         (snapshot_sift(&export->flaws, index, &step) || error_set(error, "out of memory for a snapshot")) &&
         trace_step(&export->trace, &step, column, error);
     snapshot_step_free(&step);

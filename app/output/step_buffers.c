@@ -64,7 +64,7 @@ static bool follow_count(StepBuffers *buffers, size_t count, unsigned attributes
     return buffers->upload != NULL;
 }
 
-static bool derive(Derived *derived, const ParticleWants *wants, const SnapshotScene *scene,
+static bool derive(Derived *derived, const ParticleWants *wants, const SnapshotScene *scene, Scalar scalar,
                    ParticleBuffers *buffers, Error *error)
 {
     DerivedSpace space = {.flat = scene->dimensions == 2};
@@ -72,7 +72,9 @@ static bool derive(Derived *derived, const ParticleWants *wants, const SnapshotS
     if (!derived_follow(derived, wants, error))
         return false;
     derived_fill(derived, wants, &space, buffers);
-    return true;
+    return buffers->count == 0 || buffers->scalar[scalar].buffer ||
+           error_set(error, "the GPU has no memory for %s",
+                     derived->lacks ? derived->lacks : scalar_name(scalar));
 }
 
 bool step_buffers_make(StepBuffers *buffers, const SnapshotScene *scene, const SnapshotStep *step,
@@ -88,7 +90,7 @@ bool step_buffers_make(StepBuffers *buffers, const SnapshotScene *scene, const S
         snapshot_arrays(scene, step, volume, &arrays);
     made = made && follow_count(buffers, step->count, attributes, error) &&
            upload_arrays(buffers->upload, &arrays, &state, error) && upload_take(buffers->upload, out) &&
-           derive(&buffers->derived, &wants, scene, out, error);
+           derive(&buffers->derived, &wants, scene, scalar, out, error);
     free_arrays(&arrays);
     return made;
 }

@@ -669,6 +669,12 @@ class Bad(ExportTest):
             self.refused('a.h5part', name, '--trails', '{}', words="trails are one file, not '.*'; name an OUT.vtp")
         self.refused('a.h5part', 'a.vti', '--trails', '{}', '--slice', '{}', words='--trails makes no sense with --slice')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#1']['pressure']
+        self.refused(*vtp, '{}', '--scalar', 'pressure', words='a.h5part: Step#1 has no pressure', code=1)
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file['Step#1']['id']
+        self.refused(*vtp, '{}', words='a.h5part: Step#1 has no ids', code=1)
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
             del file['Step#2']['id']
         self.refused(*vtp, '{}', words='Step#2 has no ids')
 
