@@ -55,7 +55,8 @@ static TrailSight sight_of(const TrailStore *store, const Frame *frame)
 static TrailLook look_of(const TrailStore *store, const Frame *frame)
 {
     return (TrailLook){.sight = sight_of(store, frame),
-                       .by_cpu = store->mapped_places && trails_def(frame->def)->by == TRAILS_AUTO,
+                       .by_cpu = store->mapped_places && store->mapped_owners &&
+                                 trails_def(frame->def)->by == TRAILS_AUTO,
                        .width = frame->width,
                        .height = frame->height,
                        .scalar = frame->def->color_by,

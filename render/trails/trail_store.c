@@ -20,6 +20,8 @@ enum {
     POINT_BYTES = 4 * sizeof(float)
 };
 
+static const uint32_t NOBODY = UINT32_MAX; /* no listed id: those are numbers of 31 bits */
+
 bool trail_store_create(TrailStore *store, const Subject *subject, Error *error)
 {
     static const char *const claim[] = {"trails/trails_claim.comp", NULL};
@@ -109,13 +111,46 @@ static bool make_buffers(TrailStore *store)
     return gl_errors_take(GL_OUT_OF_MEMORY) == 0;
 }
 
-/* Whether the list of ids is the same, or the same and more behind it. */
+/* Whether the ids are the same, or a list as before: each has a slot. */
 static bool list_goes_on(const TrailStore *store, const TrailsDef *def)
 {
     uint32_t ids[TRAILS_LISTED_MAX];
-    const int count = trails_listed(def, ids), had = store->listed_count;
-    return strcmp(def->ids, store->def.ids) == 0 ||
-           (had > 0 && count >= had && memcmp(ids, store->listed, sizeof *ids * (size_t)had) == 0);
+    return strcmp(def->ids, store->def.ids) == 0 || (store->listed_count > 0 && trails_listed(def, ids) > 0);
+}
+
+static int place_of(const uint32_t ids[], int count, uint32_t id)
+{
+    int at = 0;
+    while (at < count && ids[at] != id)
+        at++;
+    return at;
+}
+
+/* The slot is nobody's, in no column. */
+static void forget(TrailStore *store, int slot)
+{
+    for (int k = 0; k < store->ring.room; k++)
+        clear(store->owners, (size_t)k * (size_t)store->slots + (size_t)slot, 1, 0);
+    clear(store->seen, (size_t)slot, 1, 0);
+    store->listed[slot] = NOBODY;
+    store->made++;
+}
+
+/* Who stays keeps slot and past, and new ones take the slots of who is gone. */
+static void follow_list(TrailStore *store, const TrailsDef *def)
+{
+    uint32_t ids[TRAILS_LISTED_MAX];
+    const int count = trails_listed(def, ids);
+    for (int slot = 0; slot < store->listed_count; slot++)
+        if (store->listed[slot] != NOBODY && place_of(ids, count, store->listed[slot]) == count)
+            forget(store, slot);
+    for (int i = 0; i < count; i++) {
+        if (place_of(store->listed, store->listed_count, ids[i]) < store->listed_count)
+            continue;
+        const int slot = place_of(store->listed, store->listed_count, NOBODY);
+        store->listed[slot] = ids[i];
+        store->listed_count += slot == store->listed_count;
+    }
 }
 
 /* Whether there is room for that state by those settings; else all begins anew. */
@@ -130,7 +165,7 @@ static void make_room(TrailStore *store, const TrailsDef *def, size_t count)
 {
     const int points = trails_points(def);
     if (has_room(store, def, count)) {
-        store->listed_count = trails_listed(def, store->listed);
+        follow_list(store, def);
         return;
     }
     drop_buffers(store);
@@ -280,10 +315,10 @@ void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const
     const TrailsDef *own = trails_def(def);
     const bool has = particle_shown(particles, def->color_by)->buffer;
     const Scalar scalar = has ? def->color_by : SCALAR_COUNT; /* which none shows */
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     make_room(store, own, particles->count);
     if (store->slots == 0 || (particles->count > 0 && !particles->id.buffer))
         return;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     follow_choice(store, own, particles);
     const bool back = store->ring.end > store->ring.begin && particles->time < store->ring.now;
     trail_ring_take(&store->ring, particles->time, scalar);

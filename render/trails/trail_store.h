@@ -22,14 +22,14 @@ typedef struct TrailStore {
     int slots;       /* trails that there is room for; 0: no memory, or nothing was taken yet */
     int stride;      /* in ids, at least the def's */
     size_t capacity; /* particles that the slots are for */
-    uint64_t made;   /* how often all began anew */
+    uint64_t made;   /* how often all began anew, or a trail was taken away */
     const float *mapped_places; /* on a software driver: the CPU reads them too, NULL elsewhere, */
     const uint32_t *mapped_owners;
-    void *taken;                 /* fence behind the last column; NULL: it has been waited for */
-    double box_size[3], spacing; /* of the state taken last, m */
-    int listed_count;            /* of `listed`; 0: by stride; -1: no list, and no trails */
-    uint32_t listed[TRAILS_LISTED_MAX];
-    TrailsDef def; /* by which it was taken */
+    void *taken;                        /* fence behind the last column; NULL: it has been waited for */
+    double box_size[3], spacing;        /* of the state taken last, m */
+    int listed_count;                   /* of `listed`; 0: by stride; -1: no list, and no trails */
+    uint32_t listed[TRAILS_LISTED_MAX]; /* the id of each slot; UINT32_MAX: it is free */
+    TrailsDef def;                      /* by which it was taken */
 } TrailStore;
 
 /* False when a shader does not compile; trail_store_destroy is needed in either case. */

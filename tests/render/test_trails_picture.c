@@ -459,22 +459,58 @@ static void states_between_pictures_count(void **state)
     close_show(&show);
 }
 
+/* Side by side, each straight up. */
+static void draw_risers(Show *show, int from, int to, uint8_t rgb[BYTES])
+{
+    for (int i = from; i <= to; i++) {
+        movers_clear(show->movers);
+        for (unsigned k = 0; k < 4; k++)
+            movers_add(show->movers, 10 * k, -0.3 + 0.2 * k, 0.2 + 0.01 * i, 0, 0.2 * k);
+        draw(show, 0.01 * i, rgb);
+    }
+}
+
+static void list(Show *show, const char *ids)
+{
+    TrailsDef *own = trails_def(&show->def);
+    snprintf(own->ids, sizeof own->ids, "%s", ids);
+    follow(show);
+}
+
+/* As if they alone had been listed from the start; the slot that is free is the next one's. */
+static void one_goes_and_the_others_stay(void **state)
+{
+    (void)state;
+    static uint8_t rgb[BYTES], alone[BYTES];
+    Show some = open_show(), two = open_show();
+    list(&some, "0 20 10");
+    list(&two, "0 10");
+    draw_risers(&some, 0, 30, rgb);
+    draw_risers(&two, 0, 30, alone);
+    assert_memory_not_equal(rgb, alone, BYTES);
+    list(&some, "0 10");
+    draw_risers(&some, 30, 30, rgb); /* the same state: at once */
+    assert_memory_equal(rgb, alone, BYTES);
+    list(&some, "0 10 30");
+    list(&two, "0 10 30");
+    draw_risers(&some, 30, 45, rgb);
+    draw_risers(&two, 30, 45, alone);
+    assert_memory_equal(rgb, alone, BYTES);
+    close_show(&some);
+    close_show(&two);
+}
+
 #define TEST(name) cmocka_unit_test_teardown(name, no_gl_errors)
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(the_path_is_the_circle),
-        TEST(what_is_kept_is_what_would_be_drawn),
-        TEST(a_step_back_leaves_nothing),
-        TEST(the_order_of_particles_is_of_no_account),
-        TEST(no_line_across_periodic_sides),
-        TEST(who_goes_leaves_a_trail_that_fades),
-        TEST(solids_hide_what_is_behind),
-        TEST(colours_are_those_of_the_time),
-        TEST(states_between_pictures_count),
-        TEST(cpu_and_gpu_draw_the_same),
-        TEST(pieces_are_few_while_the_camera_moves),
+        TEST(the_path_is_the_circle),        TEST(what_is_kept_is_what_would_be_drawn),
+        TEST(a_step_back_leaves_nothing),    TEST(the_order_of_particles_is_of_no_account),
+        TEST(no_line_across_periodic_sides), TEST(who_goes_leaves_a_trail_that_fades),
+        TEST(solids_hide_what_is_behind),    TEST(colours_are_those_of_the_time),
+        TEST(states_between_pictures_count), TEST(one_goes_and_the_others_stay),
+        TEST(cpu_and_gpu_draw_the_same),     TEST(pieces_are_few_while_the_camera_moves),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
