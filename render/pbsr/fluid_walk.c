@@ -95,7 +95,8 @@ void fluid_walk_see(FluidWalk *walk, const PbsrLayer *said, const Layer *layer, 
     nearest = isfinite(nearest) ? fmax(nearest, (double)sight->near_plane) : 1;
     still->sight = *sight;
     still->wanted = point_density_of_opacity(said->opacity, 1);
-    still->needed = point_density_of_opacity(said->opacity, (double)sight->pixel * nearest * nearest);
+    still->needed = (1 + (double)sight->edges) *
+                    point_density_of_opacity(said->opacity, (double)sight->pixel * nearest * nearest);
     still->density = still->needed;
 }
 
@@ -131,14 +132,15 @@ void fluid_walk_sets(FluidWalk *walk, const PbsrLayer *said, const FluidLayers *
     SurfaceResult result;
     if (!walk->walks || !(still->wanted > 0) || walk->near.triangle_count == 0)
         return;
-    const SurfaceRequest request = {.field = &still->field,
-                                    .level = said->level,
-                                    .density = still->needed,
-                                    .sets = count,
-                                    .seed = random_mix(random_mix((uint64_t)seed) + (uint64_t)first),
-                                    .surface = number,
-                                    .pixel = sqrt(still->wanted / still->needed),
-                                    .points_most = POINTS_MOST};
+    const SurfaceRequest request = {
+        .field = &still->field,
+        .level = said->level,
+        .density = still->needed,
+        .sets = count,
+        .seed = random_mix(random_mix(random_mix((uint64_t)seed) + number) + (uint64_t)first),
+        .surface = number,
+        .pixel = sqrt(still->wanted * (1 + (double)still->sight.edges) / still->needed),
+        .points_most = POINTS_MOST};
     still->points.count = 0;
     walk->walks = near_walk(&request, &walk->near, &still->points, &result, &still->trouble);
     still->sets = walk->walks ? count : 0;

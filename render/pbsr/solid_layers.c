@@ -78,7 +78,7 @@ static bool take_mesh(const SolidMesh *mesh, Polygons *polygons, Error *error)
     return true;
 }
 
-static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, double slab)
+static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, double slab, int index)
 {
     SolidMesh mesh = {0};
     Polygons polygons = {0};
@@ -86,7 +86,7 @@ static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, 
     if (!solid_mesh_add(&mesh, solid, slab, 0))
         error_set(&still->trouble, "no memory for the mesh of a solid");
     else if (take_mesh(&mesh, &polygons, &still->trouble))
-        still_layer_of_polygons(still, &polygons, def);
+        still_layer_of_polygons(still, &polygons, def, PBSR_LAYERS_MAX + (unsigned)index);
     solid_mesh_destroy(&mesh);
 }
 
@@ -143,7 +143,7 @@ void solid_layers_follow(SolidLayers *layers, const PbsrDef *def, double time, c
         const unsigned number = number_of(def, layers->layer, world, i);
         StillLayer *still = &layers->still[i];
         if (!same(layers, i, solid, def, frame->slab, number))
-            begin(still, solid, def, frame->slab);
+            begin(still, solid, def, frame->slab, i);
         still->followed = true;
         layers->shapes[i] = *solid;
         layers->numbers[i] = number;

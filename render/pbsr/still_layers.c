@@ -96,7 +96,7 @@ static bool make_sets(StillLayer *still, unsigned number, double density, double
         .sampler = triangles ? SURFACE_TRIANGLES : SURFACE_WALK,
         .density = density,
         .sets = most > 1 ? most : 1,
-        .seed = (uint64_t)still->seed,
+        .seed = random_mix(random_mix((uint64_t)still->seed) + still->stream),
         .surface = number,
         .pixel =
             sqrt(still->wanted * (1 + (double)still->sight.edges) / still->needed), /* where it is nearest */
@@ -154,6 +154,7 @@ static bool begin(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, 
 {
     still_layer_free(still);
     still->said = *said;
+    still->stream = number;
     still->seed = def->seed;
     still->repeat = def->repeat;
     still->most = def->points;
@@ -204,12 +205,13 @@ bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef 
                                  : still_layer_see(still, said, said->angle_deg != 0, number);
 }
 
-void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def)
+void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream)
 {
     still_layer_free(still);
     still->polygons = *polygons;
     *polygons = (Polygons){0};
     polygons_bounds(&still->polygons, still->field.low, still->field.high);
+    still->stream = stream;
     still->seed = def->seed;
     still->repeat = def->repeat;
     still->most = def->points;

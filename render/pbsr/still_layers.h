@@ -40,6 +40,7 @@ typedef struct StillLayer {
     /* what they were made for */
     bool followed, begun; /* there is what follows; and it has a field */
     PbsrLayer said;
+    unsigned stream; /* of random numbers: layers that are equal fall independently of each other */
     int seed, repeat;
     double most; /* points, PbsrDef.points */
     double box[3];
@@ -51,8 +52,9 @@ typedef struct StillLayer {
 bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, const double box[3],
                         unsigned number, const SetSight *sight);
 
-/* Begins a layer of polygons, which it takes; there must be a vertex. */
-void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def);
+/* Begins a layer of polygons, which it takes; there must be a vertex. `stream`: no other layer's; those of
+   the list have their numbers. */
+void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream);
 
 /* Makes the points that a look by `sight` needs, where there are not enough yet. `turned`: it may turn on.
    Only what has begun. False as still_layer_follow. */

@@ -452,6 +452,35 @@ static void still_layers_stay(void **state)
     still_layer_free(&still);
 }
 
+/* Layers that are equal are as opaque as two, not as one. */
+static void equal_layers_are_two(void **state)
+{
+    (void)state;
+    enum { SIDE = 24 };
+    const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.3};
+    const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
+    const double box[3] = {1, 0, 1}, asked = 1 - pow(0.7, 4); /* of each both sides */
+    const SetSight sight = sight_at(5);
+    StillLayer still[2] = {{.sets = 0}};
+    SetImage image = image_for(&sight);
+    double sum = 0;
+    for (unsigned k = 0; k < 2; k++)
+        assert_true(still_layer_follow(&still[k], &said, &def, box, k, &sight));
+    for (uint64_t set = 0; set < 16; set++) {
+        set_image_clear(&image, &sight);
+        for (int k = 0; k < 2; k++)
+            still_layer_project(&still[k], 1, set, &image);
+        for (int i = 0; i < SIDE * SIDE; i++)
+            sum += image.depth[128 - SIDE / 2 + i % SIDE + 256 * (128 - SIDE / 2 + i / SIDE)] > 0;
+    }
+    const double drawn = SIDE * SIDE * 16, error = sqrt(asked * (1 - asked) / drawn);
+    if (fabs(sum / drawn - asked) > 4 * error)
+        fail_msg("%g, not %g +- %g", sum / drawn, asked, error);
+    image_free(&image);
+    for (int k = 0; k < 2; k++)
+        still_layer_free(&still[k]);
+}
+
 /* What a pixel is to have of a sphere of radius 0.4 m, seen from 5 m, and the cosine there. */
 static double edge_opacity(const PbsrLayer *said, double edges, int x, int y, double *cosine)
 {
@@ -807,6 +836,7 @@ int main(void)
         cmocka_unit_test(noise_falls_with_the_root),
         cmocka_unit_test(spheres_are_composited),
         cmocka_unit_test(still_layers_stay),
+        cmocka_unit_test(equal_layers_are_two),
         cmocka_unit_test(formulas_have_the_fluids_colors),
         cmocka_unit_test(sets_of_walks_are_independent),
         cmocka_unit_test(clouds_of_data_are_as_opaque_as_said),

@@ -78,14 +78,15 @@ static PbsrDef def_of(double opacity)
     return def;
 }
 
-/* How much of the pixels nearer than 10 to (x, y) the sets cover. */
-static double covered(const StillLayer *still, const SetSight *sight, int x, int y)
+/* How much of the pixels nearer than 10 to (x, y) the sets of so many solids cover. */
+static double covered(const StillLayer *still, int solids, const SetSight *sight, int x, int y)
 {
     SetImage image = image_for(sight);
     int found = 0;
     for (uint64_t set = 0; set < SETS; set++) {
         set_image_clear(&image, sight);
-        still_layer_project(still, 1, set, &image);
+        for (int i = 0; i < solids; i++)
+            still_layer_project(&still[i], 1, set, &image);
         for (int i = 0; i < PIXELS; i++)
             found += image.depth[i] && abs(i % SIDE - x) < 10 && abs(i / SIDE - y) < 10;
     }
@@ -109,7 +110,7 @@ static void solids_are_as_opaque_as_said(void **state)
         solid_layers_follow(&layers, &def, time, &frame, &sight);
         assert_int_equal(layers.count, 1);
         const double asked = 1 - 0.6 * 0.6, off = sqrt(asked * (1 - asked) / (19.0 * 19 * SETS));
-        const double found = covered(&layers.still[0], &sight, SIDE / 2 + moved, SIDE / 2);
+        const double found = covered(&layers.still[0], 1, &sight, SIDE / 2 + moved, SIDE / 2);
         if (fabs(found - asked) > 4 * off)
             fail_msg("at %d s: %g, not %g +- %g", time, found, asked, off);
         assert_float_equal(still_layer_part(&layers.still[0]), 1, 0);
@@ -123,6 +124,24 @@ static void solids_are_as_opaque_as_said(void **state)
     const PbsrDef none = {.repeat = SETS, .points = 1.2e7};
     solid_layers_follow(&layers, &none, 0, &frame, &sight);
     assert_int_equal(layers.count, 0);
+    solid_layers_free(&layers);
+}
+
+/* Solids that fill the same place are as opaque as two, not as one. */
+static void equal_solids_are_two(void **state)
+{
+    (void)state;
+    const SetSight sight = sight_of_all();
+    WorldDef world = two_boxes();
+    const Frame frame = {.world = &world};
+    const PbsrDef def = def_of(0.3);
+    SolidLayers layers = {.count = 0};
+    world.solids[1] = world.solids[0];
+    solid_layers_follow(&layers, &def, 0, &frame, &sight);
+    const double asked = 1 - pow(0.7, 4), off = sqrt(asked * (1 - asked) / (19.0 * 19 * SETS)),
+                 found = covered(layers.still, 2, &sight, SIDE / 2, SIDE / 2);
+    if (fabs(found - asked) > 4 * off)
+        fail_msg("%g, not %g +- %g", found, asked, off);
     solid_layers_free(&layers);
 }
 
@@ -227,6 +246,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solids_are_as_opaque_as_said),
+        cmocka_unit_test(equal_solids_are_two),
         cmocka_unit_test(solids_stand_as_they_turn),
         cmocka_unit_test(solids_have_their_colors),
     };

@@ -575,6 +575,47 @@ static void walks_on_the_fluid_look_as_triangles(void **unused)
     scenery_free(&scenery);
 }
 
+/* How dark so many equal walks on the fluid's surface make the picture, of so many as opaque as they all. */
+static double dark_of_walks(int layers, double opacity, double edges, PbsrSampler sampler, Scenery *scenery)
+{
+    static uint8_t rgb[2][BYTES];
+    for (int k = 0; k < 2; k++) {
+        ViewDef def = pbsr_view(64);
+        pbsr_def(&def)->method = PBSR_CPU;
+        pbsr_def(&def)->edges = edges;
+        for (int i = 0; i < layers; i++) {
+            add_layer(&def, PBSR_SURFACE, 0.5, k == 0 ? 0 : opacity, 1);
+            pbsr_def(&def)->layers[i].sampler = sampler;
+        }
+        picture_of(&def, NULL, scenery, rgb[k]);
+    }
+    return light_of(rgb[0]) - light_of(rgb[1]);
+}
+
+static void equal_walks_are_two(void **unused)
+{
+    (void)unused;
+    Scenery scenery = wave();
+    const double one = dark_of_walks(1, 1 - 0.7 * 0.7, 0, PBSR_SAMPLER_WALK, &scenery),
+                 two = dark_of_walks(2, 0.3, 0, PBSR_SAMPLER_WALK, &scenery);
+    assert_true(one > 0.01);
+    if (fabs(two / one - 1) > 0.01)
+        fail_msg("two layers hide %g, one %g", two, one);
+    scenery_free(&scenery);
+}
+
+static void walks_have_edges(void **unused)
+{
+    (void)unused;
+    Scenery scenery = wave();
+    const double without = dark_of_walks(1, 0.1, 0, PBSR_SAMPLER_WALK, &scenery),
+                 walks = dark_of_walks(1, 0.1, 20, PBSR_SAMPLER_WALK, &scenery),
+                 triangles = dark_of_walks(1, 0.1, 20, PBSR_SAMPLER_TRIANGLES, &scenery);
+    if (fabs(walks / triangles - 1) > 0.03 || walks < 1.2 * without)
+        fail_msg("walks with edges hide %g, triangles %g; without %g", walks, triangles, without);
+    scenery_free(&scenery);
+}
+
 static void assert_walk_lacks(PbsrMethod method, Scenery *scenery, const WorldDef *world, const char *words)
 {
     ViewDef def = pbsr_view(2);
@@ -767,6 +808,8 @@ int main(void)
         cmocka_unit_test_teardown(lines_stand_among_layers, no_gl_errors),
         cmocka_unit_test_teardown(what_is_lacking_is_said, no_gl_errors),
         cmocka_unit_test_teardown(walks_on_the_fluid_look_as_triangles, no_gl_errors),
+        cmocka_unit_test_teardown(equal_walks_are_two, no_gl_errors),
+        cmocka_unit_test_teardown(walks_have_edges, no_gl_errors),
         cmocka_unit_test_teardown(walks_that_cannot_be_are_said, no_gl_errors),
         cmocka_unit_test_teardown(the_legend_names_layers, no_gl_errors),
         cmocka_unit_test_teardown(a_picture_by_bands_is_the_same, no_gl_errors),
