@@ -65,7 +65,7 @@ const Key pbsr_keys[] = {
     NUMBER("view.pbsr.cell", L | O, "spacings", 0, 10, AT(cell), "side of a cell of the grid on which layers are found"),
     NUMBER("view.pbsr.curved", L, "", 0, 100, AT(curved), "of the fluid's surfaces by triangles: where one is bent there are up to so many times as many points more, so that drops and rims stand out; density is 1 + curved min(h / R, 1) times what opacity says, with the support radius h and the radius of curvature R"),
     NUMBER("view.pbsr.edges", L, "", 0, 100, AT(edges), "of surfaces: where one is seen edge on there are so many times as many points more, so that outlines stand out; by theta from the normal density is 1 + edges (1 - cos theta)^4 times what opacity says"),
-    NUMBER("view.pbsr.points", L, "", 1e5, 2e9, AT(points), "of a layer that does not change with the fluid the points that are kept, 24 bytes each: they are dealt to as many of the sets of repeat, at least one, which may have 48 million whatever this says"),
+    NUMBER("view.pbsr.points", L, "", 1e5, 2e9, AT(points), "of a layer that does not change with the fluid the points that are kept, 24 bytes each: they are dealt to as many of the sets of repeat, at least one, which may have 48 million whatever this says; all solids share those of one layer"),
     CHOICE_OF("view.pbsr.method", L | KEY_INDEX | KEY_REBUILD, method_names, AT(method), "who strews and projects points, and walks on the surfaces of formulas; auto: the CPU on a software driver, whose memory is the CPU's, else the GPU"),
     INTEGER("view.pbsr.seed", L, 0, 1000000000, AT(seed), "of the points: the same gives the same picture"),
     KEYS_END,

@@ -20,6 +20,9 @@
 /* A GPU says too late what a picture costs it. */
 enum { GPU_SETS = 8 };
 
+/* Of layers that stay, while looks at them change and nothing says how many. */
+enum { FEW_SETS = 8 };
+
 /* What layers are made of: while it stays they do. */
 typedef struct LayersFrom {
     PbsrDef def;
@@ -56,6 +59,7 @@ typedef struct PbsrView {
     PictureFrom drawn;
     bool valid; /* `made` and `drawn` are of the last picture */
     int wanted; /* sets of a picture at rest */
+    int there;  /* of them that layers that stay have points for */
     int added;  /* sets of the last picture that was not counted */
     char lack[1400], note[1500];
     size_t lacked; /* length of the former */
@@ -222,12 +226,32 @@ static void find_looks(const PbsrDef *def, const WorldDef *world, bool by_gpu,
         }
 }
 
+/* Layers that stay make all sets at once where pictures do not follow each other: a file has what it says. */
+static void hurry(PbsrView *view, const PbsrDef *def, const Frame *frame)
+{
+    const int moving = !frame->more ? 0 : def->moving > 0 ? def->moving : FEW_SETS;
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++)
+        view->still[i].moving = moving;
+    view->solids.moving = moving;
+}
+
+static bool layers_wait(const PbsrView *view)
+{
+    bool any = false;
+    for (int k = 0; k < view->layers.count; k++)
+        any |= still_layer_waits(&view->still[k]);
+    for (int k = 0; k < view->solids.count; k++)
+        any |= still_layer_waits(&view->solids.still[k]);
+    return any;
+}
+
 /* What of a layer follows from how it is seen. */
 static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const PbsrDef *def,
                        const Frame *frame)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
     const int count = pbsr_layers(def, said);
+    hurry(view, def, frame);
     for (int i = 0; i < count; i++) {
         if (!layer_share(&view->layers.layers[i], &view->average.sight))
             return error_set(&view->trouble, "no memory for the points of a layer");
@@ -268,7 +292,7 @@ static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame
     layers_from(&layers, particles, frame);
     picture_from(&picture, &layers, frame);
     const bool same_layers = view->valid && same_bytes(&layers, &view->made, sizeof layers);
-    if (view->valid && same_bytes(&picture, &view->drawn, sizeof picture))
+    if (view->valid && same_bytes(&picture, &view->drawn, sizeof picture) && !layers_wait(view))
         return true;
     view->valid = false;
     find_looks(pbsr_def(frame->def), frame->world, view->project.program != 0, looks);
@@ -366,24 +390,32 @@ static void add_in_budget(PbsrView *view, double begun, const Frame *frame)
                          : least(view->average.room, parallel_processors() > 1 ? parallel_processors() : 2);
     double cost = 0;
     for (bool first = true;
-         view->average.count < view->wanted && (first || wall_ms() - begun + cost <= def->budget);
+         view->average.count < view->there && (first || wall_ms() - begun + cost <= def->budget);
          first = false) {
         const double before = wall_ms();
-        add_sets(view, least(some, view->wanted - view->average.count), frame);
+        add_sets(view, least(some, view->there - view->average.count), frame);
         cost = wall_ms() - before;
     }
 }
 
 /* Points that stay are dealt to as many sets as their memory allows: one that is drawn twice says nothing
    new. */
-static int sets_wanted(const PbsrView *view, const PbsrDef *def)
+static void limit_sets(PbsrView *view, const StillLayer *still)
 {
-    int sets = def->repeat;
+    if (still->sets == 0)
+        return;
+    view->there = least(view->there, still->sets);
+    if (!still->few)
+        view->wanted = least(view->wanted, still->sets);
+}
+
+static void find_sets_wanted(PbsrView *view, const PbsrDef *def)
+{
+    view->wanted = view->there = def->repeat;
     for (int k = 0; k < view->layers.count; k++)
-        sets = view->still[k].sets > 0 ? least(sets, view->still[k].sets) : sets;
+        limit_sets(view, &view->still[k]);
     for (int k = 0; k < view->solids.count; k++)
-        sets = view->solids.still[k].sets > 0 ? least(sets, view->solids.still[k].sets) : sets;
-    return sets;
+        limit_sets(view, &view->solids.still[k]);
 }
 
 /* What a picture adds to the mean, up to all that is wanted. */
@@ -391,13 +423,13 @@ static void add_wanted(PbsrView *view, double begun, const Frame *frame)
 {
     const PbsrDef *def = pbsr_def(frame->def);
     const int some = def->moving > 0 ? def->moving : view->project.program ? GPU_SETS : 0;
-    view->wanted = sets_wanted(view, def);
+    find_sets_wanted(view, def);
     if (frame->more && some == 0) {
         add_in_budget(view, begun, frame);
         return;
     }
     const int room = walks_on_fluid(view) ? least(view->average.room, FLUID_WALK_SETS) : view->average.room;
-    const int most = frame->more ? least(view->average.count + some, view->wanted) : view->wanted;
+    const int most = frame->more ? least(view->average.count + some, view->there) : view->there;
     while (view->average.count < most)
         add_sets(view, least(room, most - view->average.count), frame);
 }
@@ -455,7 +487,7 @@ static ViewProbing probing(const void *state, const ViewDef *def)
 static bool unfinished(const void *state)
 {
     const PbsrView *view = state;
-    return view->valid && view->average.count < view->wanted;
+    return view->valid && (view->average.count < view->wanted || layers_wait(view));
 }
 
 static const char *lacks(const void *state)

@@ -78,7 +78,8 @@ static bool take_mesh(const SolidMesh *mesh, Polygons *polygons, Error *error)
     return true;
 }
 
-static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, double slab, int index)
+static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, double slab, int index,
+                  int count)
 {
     SolidMesh mesh = {0};
     Polygons polygons = {0};
@@ -86,7 +87,7 @@ static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, 
     if (!solid_mesh_add(&mesh, solid, slab, 0))
         error_set(&still->trouble, "no memory for the mesh of a solid");
     else if (take_mesh(&mesh, &polygons, &still->trouble))
-        still_layer_of_polygons(still, &polygons, def, PBSR_LAYERS_MAX + (unsigned)index);
+        still_layer_of_polygons(still, &polygons, def, PBSR_LAYERS_MAX + (unsigned)index, 1.0 / count);
     solid_mesh_destroy(&mesh);
 }
 
@@ -122,12 +123,12 @@ static void see_from(StillLayer *still, const SolidDef *solid, double time, cons
 /* ---- the whole ---- */
 
 static bool same(const SolidLayers *layers, int index, const SolidDef *solid, const PbsrDef *def, double slab,
-                 unsigned number)
+                 unsigned number, int count)
 {
     const StillLayer *still = &layers->still[index];
     return still->followed && still->seed == def->seed && still->repeat == def->repeat &&
-           still->most == def->points && layers->slab == slab && layers->numbers[index] == number &&
-           solid_mesh_same(&layers->shapes[index], solid);
+           still->most == def->points * (1.0 / count) && layers->slab == slab &&
+           layers->numbers[index] == number && solid_mesh_same(&layers->shapes[index], solid);
 }
 
 void solid_layers_follow(SolidLayers *layers, const PbsrDef *def, double time, const Frame *frame,
@@ -142,8 +143,9 @@ void solid_layers_follow(SolidLayers *layers, const PbsrDef *def, double time, c
         const SolidDef *solid = &world->solids[i];
         const unsigned number = number_of(def, layers->layer, world, i);
         StillLayer *still = &layers->still[i];
-        if (!same(layers, i, solid, def, frame->slab, number))
-            begin(still, solid, def, frame->slab, i);
+        still->moving = layers->moving;
+        if (!same(layers, i, solid, def, frame->slab, number, count))
+            begin(still, solid, def, frame->slab, i, count);
         still->followed = true;
         layers->shapes[i] = *solid;
         layers->numbers[i] = number;

@@ -13,7 +13,8 @@ enum { SOLID_NUMBERS = PBSR_LAYERS_MAX, SOLID_COLORS_MAX = OUTSIDE_NUMBER - SOLI
 /* Zero-initialise it. */
 typedef struct SolidLayers {
     int count, layer; /* solids that are drawn, by which layer of the list; 0: there is no such layer */
-    StillLayer still[SOLIDS_MAX];
+    int moving;       /* StillLayer.moving, said by its user */
+    StillLayer still[SOLIDS_MAX]; /* all together have the points that a layer may have */
     /* what they were made for */
     SolidDef shapes[SOLIDS_MAX];
     double slab;

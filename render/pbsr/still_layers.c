@@ -15,7 +15,8 @@ static const double ONE_MOST = 4.8e7;
 /* Points whose pixels are on their way from memory; and how many of a set before a point is read. */
 enum { SPOTS = 64, AHEAD = 12 };
 
-/* So many times the points that a look needs are made: a camera that comes nearer by less makes none anew. */
+/* Points are as dense as the least power of this that a look needs: the same for looks from about the same
+   distance, whichever were before, and enough for who comes a tenth nearer. */
 static const double NEARER = 1.25;
 
 static float depth_of(const SetSight *sight, const double at[3])
@@ -100,7 +101,7 @@ static bool make_sets(StillLayer *still, unsigned number, double density, double
         .surface = number,
         .pixel =
             sqrt(still->wanted * (1 + (double)still->sight.edges) / still->needed), /* where it is nearest */
-        .points_most = (size_t)(most > 1 ? still->most : fmax(still->most, ONE_MOST))};
+        .points_most = (size_t)(most > 1 ? still->most : fmax(still->most, ONE_MOST * still->share))};
     still->points.count = 0;
     still->sets = 0;
     still->made++;
@@ -124,14 +125,16 @@ static bool find_sets(StillLayer *still, unsigned number, double *sets)
 }
 
 /* A gyroid may have some times the area of its bounds' faces. */
-static bool sample(StillLayer *still, unsigned number)
+static bool sample(StillLayer *still, unsigned number, int most)
 {
     static const double FOLDS = 8;
     SurfaceResult result;
     double sets = still->most / (still->asked * faces_of(&still->field) * FOLDS);
-    if (sets < still->repeat && !find_sets(still, number, &sets))
+    still->few = false;
+    if (sets < most && !find_sets(still, number, &sets))
         return false;
-    return make_sets(still, number, still->asked, sets, &result);
+    still->few = most < still->repeat && sets > most;
+    return make_sets(still, number, still->asked, fmin(sets, most), &result);
 }
 
 /* Of all but the pose and the looks. */
@@ -158,6 +161,7 @@ static bool begin(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, 
     still->seed = def->seed;
     still->repeat = def->repeat;
     still->most = def->points;
+    still->share = 1;
     memcpy(still->box, box, sizeof still->box);
     still->begun = still_field(said, box, &still->field, &still->trouble) &&
                    (!data_pieces_are(said) ||
@@ -173,19 +177,40 @@ static bool see_pieces(StillLayer *still, const PbsrLayer *said)
            error_set(&still->trouble, "no memory for the points of a layer");
 }
 
+static double reserve_of(double needed)
+{
+    return pow(NEARER, ceil(log(needed) / log(NEARER) + 1e-9)); /* no less than needed, by rounding */
+}
+
+bool still_layer_waits(const StillLayer *still)
+{
+    return still->sets > 0 &&
+           (still->few || (still->sets < still->repeat && still->needed < still->asked / 2));
+}
+
+/* Whether points are made anew: without `moving` where other looks would have left others; else where there
+   are too few of them, and at rest where there might be more sets. */
+static bool falls_short(const StillLayer *still, bool changes)
+{
+    if (still->moving == 0)
+        return still->few || still->asked != reserve_of(still->needed);
+    return still->needed > still->asked || (!changes && still_layer_waits(still));
+}
+
 bool still_layer_see(StillLayer *still, const PbsrLayer *said, bool turned, unsigned number)
 {
-    const double nearest = nearest_of(still, turned);
+    const double nearest = nearest_of(still, turned), before = still->needed;
     set_sight_find_eye(&still->sight);
     still->needed = (1 + (double)still->sight.edges) *
                     point_density_of_opacity(said->opacity, (double)still->sight.pixel * nearest * nearest);
     still->wanted = point_density_of_opacity(said->opacity, 1);
     if (!(still->wanted > 0))
         return true;
-    if (still->asked > 0 && still->needed <= still->asked)
+    const bool hurries = still->moving > 0 && still->needed != before;
+    if (!falls_short(still, hurries))
         return still->sets > 0;
-    still->asked = still->needed * NEARER;
-    return sample(still, number);
+    still->asked = reserve_of(still->needed);
+    return sample(still, number, hurries && still->moving < still->repeat ? still->moving : still->repeat);
 }
 
 bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, const double box[3],
@@ -205,7 +230,8 @@ bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef 
                                  : still_layer_see(still, said, said->angle_deg != 0, number);
 }
 
-void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream)
+void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream,
+                             double share)
 {
     still_layer_free(still);
     still->polygons = *polygons;
@@ -214,7 +240,8 @@ void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDe
     still->stream = stream;
     still->seed = def->seed;
     still->repeat = def->repeat;
-    still->most = def->points;
+    still->most = def->points * share;
+    still->share = share;
     still->begun = true;
 }
 
@@ -349,5 +376,5 @@ void still_layer_free(StillLayer *still)
     drop_buffer(still);
     layer_free(&still->pieces);
     polygons_free(&still->polygons);
-    *still = (StillLayer){.gpu = still->gpu, .made = made};
+    *still = (StillLayer){.gpu = still->gpu, .moving = still->moving, .made = made};
 }

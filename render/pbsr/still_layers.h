@@ -1,7 +1,7 @@
 /* Layers that do not change with the fluid: surfaces that are formulas or of volume data, of points that stay
-   (sim/surface/sampling.h: the Brownian walk of Tanaka et al. 2012). They are made once, as many as the
-   nearest look at them needs, and a picture leaves out what is too many farther away: so a camera, a fluid or
-   a layer that moves makes none anew, one that comes nearer does. Slices and the cloud of such data are
+   (sim/surface/sampling.h: the Brownian walk of Tanaka et al. 2012). They are made for looks from about the
+   same distance, and a picture leaves out what is too many farther away: so a fluid, or a layer that moves
+   makes none anew, a camera that comes nearer does. Slices and the cloud of such data are
    pieces, made once too, over which each set strews points anew. */
 #ifndef SLOSH_STILL_LAYERS_H
 #define SLOSH_STILL_LAYERS_H
@@ -19,8 +19,10 @@ enum { OUTSIDE_NUMBER = 15 };
 
 /* Zero-initialise it. */
 typedef struct StillLayer {
-    SurfaceGpu *gpu;  /* walks where it has the field, and its points stay in GL's memory; NULL: threads do */
-    LevelField field; /* in the layer's frame, as all below */
+    SurfaceGpu *gpu; /* walks where it has the field, and its points stay in GL's memory; NULL: threads do */
+    int moving; /* said by its user: sets that are made while looks change, the rest when one is as the last;
+                   0: all at each look, so that points depend on no look before it */
+    LevelField field;  /* in the layer's frame, as all below */
     Polygons polygons; /* that points lie on instead of a level of the field, of which bounds alone count */
     SetSight sight;    /* of the last look, from the layer's frame */
     const FluidLayers *paint; /* points that the CPU projects have its colours; NULL: their own values */
@@ -35,6 +37,7 @@ typedef struct StillLayer {
     double density; /* that was reached, 1/m2 */
     double needed;  /* by the last look, 1/m2; more than `density`: the layer is less opaque than said */
     double wanted;  /* points of a set on as much surface as a pixel shows */
+    bool few;       /* no more sets than `moving` were made: there may be more */
     uint64_t made;  /* raised with each change of the points */
     Error trouble;  /* why there are none */
     /* what they were made for */
@@ -42,7 +45,7 @@ typedef struct StillLayer {
     PbsrLayer said;
     unsigned stream; /* of random numbers: layers that are equal fall independently of each other */
     int seed, repeat;
-    double most; /* points, PbsrDef.points */
+    double most, share; /* points; and which part they are of what a layer may have, PbsrDef.points */
     double box[3];
 } StillLayer;
 
@@ -53,12 +56,16 @@ bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef 
                         unsigned number, const SetSight *sight);
 
 /* Begins a layer of polygons, which it takes; there must be a vertex. `stream`: no other layer's; those of
-   the list have their numbers. */
-void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream);
+   the list have their numbers. `share`: of the points that a layer may have. */
+void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream,
+                             double share);
 
 /* Makes the points that a look by `sight` needs, where there are not enough yet. `turned`: it may turn on.
    Only what has begun. False as still_layer_follow. */
 bool still_layer_see(StillLayer *still, const PbsrLayer *said, bool turned, unsigned number);
+
+/* Whether the same look again would make it better. */
+bool still_layer_waits(const StillLayer *still);
 
 /* Formulas without a colour have that of the fluid where they are in it, and are of OUTSIDE_NUMBER elsewhere;
    behind each look. The layers must stay while it is projected. */

@@ -355,6 +355,39 @@ static SetSight sight_at(double away)
     return sight;
 }
 
+/* What a look finds does not depend on the looks before it; where these follow each other at once it does
+   once it is repeated. */
+static void looks_do_not_depend_on_others(void **state)
+{
+    (void)state;
+    const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.3};
+    const PbsrDef def = {.repeat = 16, .points = 4e5, .seed = 3};
+    const double box[3] = {1, 0, 1}, aways[] = {9, 2, 9};
+    StillLayer fresh = {.sets = 0}, still = {.sets = 0};
+    for (int moving = 0; moving <= 2; moving += 2) {
+        still.moving = moving;
+        for (int look = 0; look < 3; look++) {
+            const SetSight sight = sight_at(aways[look]);
+            still_layer_free(&fresh);
+            assert_true(still_layer_follow(&fresh, &said, &def, box, 0, &sight));
+            assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
+            if (moving > 0) {
+                assert_true(still_layer_waits(&still) == (look != 1)); /* no more sets fit there */
+                assert_true(look == 2 || still.sets <= moving);
+                assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
+            }
+            assert_false(still_layer_waits(&still));
+            assert_int_equal(still.sets, fresh.sets);
+            assert_true(still.points.count == fresh.points.count);
+            assert_memory_equal(still.points.point, fresh.points.point,
+                                fresh.points.count * sizeof *fresh.points.point);
+        }
+        assert_int_equal(fresh.sets, 16);
+        still_layer_free(&still);
+    }
+    still_layer_free(&fresh);
+}
+
 /* Of a sphere around the origin what is seen in the middle, where both its sides are parallel to the picture:
    the part of the sets that have a point in a pixel, and what it may be off by. */
 static double middle_of(const StillLayer *still, int sets, double *error)
@@ -421,15 +454,16 @@ static void sets_of_walks_are_independent(void **state)
     }
 }
 
-/* Points that stay have their opacity from near and far, and are made anew for who comes nearer alone. */
+/* Points that stay have their opacity from near and far, and while looks change are made anew for who comes
+   nearer alone. */
 static void still_layers_stay(void **state)
 {
     (void)state;
     PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.3, .axis = {0, 0, 1}};
     const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
-    const double box[3] = {1, 0, 1};       /* its middle is the origin */
-    const double aways[] = {5, 8, 4.7, 3}; /* 4.7: by the reserve */
-    StillLayer still = {.sets = 0};
+    const double box[3] = {1, 0, 1};        /* its middle is the origin */
+    const double aways[] = {5, 8, 4.85, 3}; /* 4.85: by the reserve */
+    StillLayer still = {.moving = 16};
     size_t count = 0;
     for (int look = 0; look < 4; look++) {
         const SetSight sight = sight_at(aways[look]);
@@ -491,19 +525,22 @@ static double edge_opacity(const PbsrLayer *said, double edges, int x, int y, do
     return by < 1 ? 1 - pow(1 - said->opacity, 2 * more / *cosine) : 0;
 }
 
-/* Where a sphere is seen edge on it is as opaque as edges says, elsewhere as without. */
+/* Where a sphere is seen edge on it is as opaque as edges says, elsewhere as without. A walk's points lie
+   near each other: over seeds rings vary 2.5 times as much as by chance, and are right in the mean. */
 static void edges_are_denser(void **state)
 {
     (void)state;
-    const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.1, .axis = {0, 0, 1}};
+    PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.1, .axis = {0, 0, 1}};
     const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
     const double box[3] = {1, 0, 1}, from[] = {0.97, 0.5, 0.25}, to[] = {1, 0.6, 0.35};
     SetSight sight = sight_at(5);
-    for (int way = 0; way < 2; way++) {
+    for (int way = 0; way < 4; way++) {
         StillLayer still = {.sets = 0};
         SetImage image = image_for(&sight);
         double found[3] = {0}, asked[3] = {0}, pixels[3] = {0}, cosine;
-        sight.edges = way ? 4 : 0;
+        sight.edges = way % 2 ? 4 : 0;
+        said.sampler = way < 2 ? PBSR_SAMPLER_TRIANGLES : PBSR_SAMPLER_WALK;
+        const double chance = way < 2 ? 4 : 4 * 2.5;
         assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
         for (int set = 0; set < still.sets; set++) {
             set_image_clear(&image, &sight);
@@ -520,7 +557,7 @@ static void edges_are_denser(void **state)
         }
         for (int k = 0; k < 3; k++) {
             const double mean = asked[k] / pixels[k], off = sqrt(mean * (1 - mean) / pixels[k]);
-            if (fabs(found[k] / pixels[k] - mean) > 4 * off)
+            if (fabs(found[k] / pixels[k] - mean) > chance * off)
                 fail_msg("edges %g, cosine %g to %g: %g, not %g +- %g", (double)sight.edges, from[k], to[k],
                          found[k] / pixels[k], mean, off);
         }
@@ -837,6 +874,7 @@ int main(void)
         cmocka_unit_test(spheres_are_composited),
         cmocka_unit_test(still_layers_stay),
         cmocka_unit_test(equal_layers_are_two),
+        cmocka_unit_test(looks_do_not_depend_on_others),
         cmocka_unit_test(formulas_have_the_fluids_colors),
         cmocka_unit_test(sets_of_walks_are_independent),
         cmocka_unit_test(clouds_of_data_are_as_opaque_as_said),

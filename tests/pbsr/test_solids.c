@@ -145,6 +145,33 @@ static void equal_solids_are_two(void **state)
     solid_layers_free(&layers);
 }
 
+/* All solids together keep no more than a layer may. */
+static void solids_share_the_points(void **state)
+{
+    (void)state;
+    const SetSight sight = sight_of_all();
+    WorldDef world = two_boxes();
+    const Frame frame = {.world = &world};
+    PbsrDef def = def_of(0.4);
+    SolidLayers layers = {.count = 0};
+    def.points = 1e5;
+    def.repeat = 4096;
+    for (int solids = 1; solids <= SOLIDS_MAX; solids += SOLIDS_MAX - 1) {
+        size_t points = 0;
+        world.solid_count = solids;
+        for (int i = 1; i < solids; i++)
+            world.solids[i] = world.solids[0];
+        solid_layers_follow(&layers, &def, 0, &frame, &sight);
+        for (int i = 0; i < solids; i++) {
+            assert_true(layers.still[i].sets > 1);
+            points += layers.still[i].points.count;
+        }
+        if (points > 100000 || points < 50000)
+            fail_msg("%d solids have %zu points", solids, points);
+    }
+    solid_layers_free(&layers);
+}
+
 /* A point of the solid's frame, in the box's, in double. */
 static LayerPoint placed(const SurfacePoint *from, const BoxState *pose)
 {
@@ -245,9 +272,8 @@ static void solids_have_their_colors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(solids_are_as_opaque_as_said),
-        cmocka_unit_test(equal_solids_are_two),
-        cmocka_unit_test(solids_stand_as_they_turn),
+        cmocka_unit_test(solids_are_as_opaque_as_said), cmocka_unit_test(equal_solids_are_two),
+        cmocka_unit_test(solids_share_the_points),      cmocka_unit_test(solids_stand_as_they_turn),
         cmocka_unit_test(solids_have_their_colors),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
