@@ -3,6 +3,7 @@
 #include "render/pbsr/random.h"
 #include "sim/base/parallel.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,6 +48,7 @@ void layer_free(Layer *layer)
 typedef struct Sharing {
     Layer *layer;
     const SetSight *sight;
+    _Atomic float beyond; /* Layer.beyond */
 } Sharing;
 
 /* As the rows of the sight have it. */
@@ -77,11 +79,22 @@ static float area_of(const float a[3], const float b[3], const float c[3])
     return 0.5F * sqrtf(x * x + y * y + z * z);
 }
 
-/* `size`: m2 of surface, m3 of a cell. */
-static LayerShare share_of(const Layer *layer, const SetSight *sight, float size, float low, float high)
+static void note_beyond(Sharing *sharing, float part)
 {
+    float most = atomic_load_explicit(&sharing->beyond, memory_order_relaxed);
+    while (part > most && !atomic_compare_exchange_weak(&sharing->beyond, &most, part))
+        continue;
+}
+
+/* `size`: m2 of surface, m3 of a cell. */
+static LayerShare share_of(Sharing *sharing, float size, float low, float high)
+{
+    const Layer *layer = sharing->layer;
+    const SetSight *sight = sharing->sight;
     const float nearest = fmaxf(fmaxf(low, sight->near_plane), NEAREST_PART * high);
     const float expected = (float)layer->density * size / (sight->pixel * nearest * nearest);
+    if (expected > EXPECTED_MOST)
+        note_beyond(sharing, expected / EXPECTED_MOST);
     return (LayerShare){expected < EXPECTED_MOST ? expected : EXPECTED_MOST, nearest}; /* NaN: many, unseen */
 }
 
@@ -116,8 +129,22 @@ static float bend_of(const Layer *layer, const LayerPoint *const p[3])
     return 1 + (float)layer->curved * fminf(bend, 1);
 }
 
-static LayerShare share_of_triangle(const Layer *layer, const SetSight *sight, const uint32_t corner[3])
+static bool has_normal(const LayerPoint *point)
 {
+    const float *n = point->normal;
+    return n[0] != 0 || n[1] != 0 || n[2] != 0;
+}
+
+/* What has no normal, as a slice, has no edges. */
+static float edges_of(const SetSight *sight, const LayerPoint *const p[3])
+{
+    return has_normal(p[0]) || has_normal(p[1]) || has_normal(p[2]) ? 1 + sight->edges : 1;
+}
+
+static LayerShare share_of_triangle(Sharing *sharing, const uint32_t corner[3])
+{
+    const Layer *layer = sharing->layer;
+    const SetSight *sight = sharing->sight;
     const LayerPoint *p[3] = {NULL};
     float seen[3], low = INFINITY, high = 0;
     unsigned all = ~0U;
@@ -132,16 +159,15 @@ static LayerShare share_of_triangle(const Layer *layer, const SetSight *sight, c
     }
     if (all || !there)
         return (LayerShare){0, 1};
-    const float more = (1 + sight->edges) * bend_of(layer, p);
-    return share_of(layer, sight, more * area_of(p[0]->at, p[1]->at, p[2]->at), low, high);
+    const float more = edges_of(sight, p) * bend_of(layer, p);
+    return share_of(sharing, more * area_of(p[0]->at, p[1]->at, p[2]->at), low, high);
 }
 
 static void share_triangles(void *context, size_t begin, size_t end)
 {
-    const Sharing *sharing = context;
+    Sharing *sharing = context;
     for (size_t i = begin; i < end; i++)
-        sharing->layer->share[i] =
-            share_of_triangle(sharing->layer, sharing->sight, sharing->layer->triangle[i]);
+        sharing->layer->share[i] = share_of_triangle(sharing, sharing->layer->triangle[i]);
 }
 
 /* The near plane and the sides of the picture's part: a place beyond one gives less than 0. */
@@ -180,7 +206,7 @@ static bool cell_unseen(const SightBounds *bounds, const float at[3])
 /* A cell reaches as far as its neighbours' centres, and is as dense as what is inside says. */
 static void share_cells(void *context, size_t begin, size_t end)
 {
-    const Sharing *sharing = context;
+    Sharing *sharing = context;
     Layer *layer = sharing->layer;
     const float reach = (float)fmax(layer->cell[0], fmax(layer->cell[1], layer->cell[2]));
     const float size = (float)(layer->cell[0] * layer->cell[1] * layer->cell[2]);
@@ -192,8 +218,8 @@ static void share_cells(void *context, size_t begin, size_t end)
             continue;
         }
         see(sharing->sight, layer->point[i].at, seen);
-        layer->share[i] = share_of(layer, sharing->sight, size * layer->point[i].inside,
-                                   seen[2] - 1.8F * reach, seen[2] + 1.8F * reach);
+        layer->share[i] =
+            share_of(sharing, size * layer->point[i].inside, seen[2] - 1.8F * reach, seen[2] + 1.8F * reach);
     }
 }
 
@@ -201,11 +227,13 @@ bool layer_share(Layer *layer, const SetSight *sight)
 {
     const bool cells = layer->triangle_count == 0;
     const size_t count = cells ? layer->point_count : layer->triangle_count;
-    Sharing sharing = {layer, sight};
+    Sharing sharing = {.layer = layer, .sight = sight};
+    layer->beyond = 0;
     if (!room((void **)&layer->share, &layer->share_capacity, count, sizeof *layer->share))
         return false;
     parallel_ranges(parallel_processors(), count, SHARES_PART, cells ? share_cells : share_triangles,
                     &sharing);
+    layer->beyond = (double)sharing.beyond;
     return true;
 }
 
@@ -246,10 +274,17 @@ static void in_cell(const Layer *layer, const LayerPoint *centre, RandomStream *
             (random_part(one, 21 * k) + (k == 2 && layer->slab ? 0.5F : random_part(other, 21 * k)) - 1);
 }
 
+double layer_part(const Layer *layer)
+{
+    return layer->beyond > 1 ? 1 / layer->beyond : 1;
+}
+
 /* Of the points that are enough for what is seen edge on. */
 static float part_of(const SetSight *sight, const LayerPoint *point)
 {
-    return sight->edges > 0 ? set_sight_boost(sight, point->at, point->normal) / (1 + sight->edges) : 1;
+    return sight->edges > 0 && has_normal(point)
+               ? set_sight_boost(sight, point->at, point->normal) / (1 + sight->edges)
+               : 1;
 }
 
 /* Thins out what is farther than the nearest of its share. */

@@ -25,6 +25,8 @@ typedef struct Layer {
     unsigned number;   /* 0 .. 15 */
     double curved;     /* 0 and up: so many times as many points more where a surface is bent */
     double support;    /* m: by that radius, or less, and in proportion to its inverse beyond */
+    double beyond;     /* as last seen: so many times the points that are strewn would be needed on the piece
+                          that is largest; 1 and less: none is too large */
 } Layer;
 
 /* Room for that many; what was there is lost. */
@@ -34,6 +36,9 @@ void layer_free(Layer *layer); /* a zeroed one is allowed */
 /* Fills in its shares as they are seen; the same bits for any number of threads. False when memory is short.
  */
 bool layer_share(Layer *layer, const SetSight *sight);
+
+/* The part of the points that its opacity needs where a piece is largest, up to 1. */
+double layer_part(const Layer *layer);
 
 /* Projects set number `set`, 0 and up, of the layer: points that fall independently of each other (a Poisson
    process), so that a piece whose image is a pixel gets one with the layer's opacity whatever the sizes of

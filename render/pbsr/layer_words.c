@@ -107,10 +107,10 @@ static void add_solids(Words *words, int number, const PbsrLayer *said, const So
 }
 
 static void add_layer(Words *words, int number, const PbsrLayer *said, const Layer *layer,
-                      const StillLayer *still)
+                      const StillLayer *still, bool walks)
 {
     char name[LAYER_WORDS_SIZE];
-    const double part = still_layer_part(still);
+    const double part = fmin(still_layer_part(still), walks ? 1 : layer_part(layer_pieces(still, layer)));
     layer_words(said, name);
     if (!(said->opacity > 0))
         return; /* as it was said */
@@ -161,7 +161,8 @@ size_t layers_lack(const LayersDrawn *drawn, char *text, size_t size)
     pbsr_layers(drawn->def, said);
     for (int i = 0; i < drawn->layers->count; i++)
         if (said[i].of != PBSR_SOLIDS)
-            add_layer(&words, i + 1, &said[i], &drawn->layers->layers[i], &drawn->still[i]);
+            add_layer(&words, i + 1, &said[i], &drawn->layers->layers[i], &drawn->still[i],
+                      drawn->walks[i].walks);
         else if (said[i].opacity > 0 && i == solid_layers_number(drawn->def))
             add_solids(&words, i + 1, &said[i], drawn->solids);
         else if (said[i].opacity > 0)

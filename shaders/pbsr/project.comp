@@ -138,7 +138,7 @@ void strew(uint piece, uint slot, uint part)
     random_begin(first + piece, set_range.x + slot, part);
     for (float left = random_gap(); left < expected; left += random_gap()) {
         Point p = kind == PIECE_TRIANGLES ? on_triangle(piece) : in_cell(piece);
-        float w = depth_w(p.at), part = kind == PIECE_TRIANGLES ? boost(p.at, p.normal) / (1.0 + eye.w) : 1.0;
+        float w = depth_w(p.at), part = kind == PIECE_TRIANGLES && p.normal != vec3(0.0) ? boost(p.at, p.normal) / (1.0 + eye.w) : 1.0;
         if (random_part() * w * w <= share.y * share.y * part)
             add(p, slot);
     }

@@ -141,6 +141,39 @@ static void opacity_is_as_asked(void **state)
         compare_opacity(0.1, tilt * PI / 180, 20, 4);
 }
 
+/* What has no normal has no edges, and costs no point more for them; a piece that would need more points than
+   are strewn on one says so. */
+static void slices_and_large_pieces(void **state)
+{
+    (void)state;
+    SetSight sight = sight_from(1000, PIXELS);
+    Layer layer = plane_tilted(0, 0.4, 3);
+    float expected[2];
+    for (int edges = 0; edges <= 12; edges += 12) {
+        sight.edges = (float)edges;
+        set_sight_find_eye(&sight);
+        for (size_t i = 0; i < layer.point_count; i++)
+            memset(layer.point[i].normal, 0, sizeof layer.point[i].normal);
+        assert_true(layer_share(&layer, &sight));
+        expected[edges > 0] = layer.share[0].expected;
+        int counts[PIXELS * PIXELS];
+        double sum = 0, drawn = PIXELS * PIXELS * SETS;
+        count_sets(&layer, &sight, SETS, 1, counts);
+        for (int i = 0; i < PIXELS * PIXELS; i++)
+            sum += counts[i];
+        assert_true(fabs(sum / drawn - 0.4) < 3 * sqrt(0.4 * 0.6 / drawn));
+    }
+    assert_true(expected[0] > 0 && expected[0] == expected[1]);
+    assert_float_equal(layer_part(&layer), 1, 0);
+    layer_free(&layer);
+    sight = sight_from(1000, 4000);
+    layer = plane_tilted(0, 0.4, 1); /* 1.4 m: half of 5600 x 5600 pixels a triangle */
+    assert_true(layer_share(&layer, &sight));
+    const double needed = -log(1 - 0.4) * 5600 * 5600 / 2;
+    assert_float_equal(layer_part(&layer), 4e6 / needed, 1e-4);
+    layer_free(&layer);
+}
+
 /* The standard deviation over pixels of the mean of so many sets. */
 static double noise_of(Layer *layer, const SetSight *sight, int sets, uint64_t seed)
 {
@@ -595,6 +628,14 @@ static void still_layers_that_fall_short(void **state)
         .def = &shown, .layers = &none_of_fluid, .walks = &no_walk, .still = &still, .sets = 2};
     assert_true(layers_lack(&drawn, words, sizeof words) == strlen(words));
     assert_string_equal(words, "layer 1, sphere 0.4 m, is 0.16 opaque where it is nearest, not 0.3");
+    const double needed = still.needed;
+    still.density = needed;
+    FluidLayers too_large = none_of_fluid;
+    LayersDrawn other = drawn;
+    too_large.layers[0].beyond = 2;
+    other.layers = &too_large;
+    assert_true(layers_lack(&other, words, sizeof words) > 0);
+    assert_string_equal(words, "layer 1, sphere 0.4 m, is 0.16 opaque where it is nearest, not 0.3");
     PbsrLayer *idle = &shown.layers[0];
     still.density = still.needed;
     idle->angle_deg = 30;
@@ -870,6 +911,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(formulas_turn_back),
         cmocka_unit_test(opacity_is_as_asked),
+        cmocka_unit_test(slices_and_large_pieces),
         cmocka_unit_test(noise_falls_with_the_root),
         cmocka_unit_test(spheres_are_composited),
         cmocka_unit_test(still_layers_stay),
