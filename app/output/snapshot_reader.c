@@ -1,4 +1,5 @@
 #include "app/base/hdf5_error.h"
+#include "app/base/physical.h"
 #include "app/output/snapshot.h"
 #include "app/output/snapshot_file.h"
 #include "sim/kernel/lattice.h"
@@ -501,7 +502,7 @@ static bool fits_memory(size_t count)
 #define X(name, type, field) bytes += sizeof(type);
     SNAPSHOT_FIELDS(X)
 #undef X
-    return (double)count * (double)bytes <= (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    return (double)count * (double)bytes <= physical_bytes();
 }
 
 static bool read_step(SnapshotReader *reader, size_t index, bool shown, SnapshotStep *step, Error *error)

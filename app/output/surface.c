@@ -1,5 +1,6 @@
 #include "app/output/surface.h"
 
+#include "app/base/physical.h"
 #include "app/output/snapshot_frame.h"
 #include "sim/mesh/field.h"
 #include "sim/mesh/isosurface.h"
@@ -8,14 +9,8 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- the grid ---- */
-
-static double physical_bytes(void)
-{
-    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
-}
 
 /* The grid around low .. high, with h and a cell more on each side, so that its outermost values are 0. Its
    cells are those of one lattice for all steps of a scene, so that a fluid at rest has the same mesh in each.

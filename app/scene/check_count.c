@@ -1,4 +1,5 @@
 /* What the machine can hold, and what there is to hold. */
+#include "app/base/physical.h"
 #include "app/scene/check_parts.h"
 #include "render/frame/overlay.h"
 #include "render/frame/view.h"
@@ -10,7 +11,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { BYTES_A_PARTICLE = 300, BYTES_A_CELL = 8 };
 
@@ -37,11 +37,6 @@ static double points_walked(const WorldDef *world, double spacing)
             sum += points;
         }
     return sum;
-}
-
-static double physical_bytes(void)
-{
-    return (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
 }
 
 static bool too_many(const Check *check, double particles)

@@ -1,5 +1,6 @@
 #include "app/volume/volume_file.h"
 
+#include "app/base/physical.h"
 #include "app/base/read_file.h"
 #include "app/base/suggest.h"
 #include "app/yaml/value.h"
@@ -145,9 +146,9 @@ static double raw_value(int type, uint32_t bits)
     }
 }
 
-void volume_values(const VolumeHeader *header, const unsigned char *raw, float *value)
+void volume_values(const VolumeHeader *header, const unsigned char *raw, size_t count, float *value)
 {
-    const size_t count = count_of(header), bytes = types[header->type].bytes;
+    const size_t bytes = types[header->type].bytes;
     for (size_t i = 0; i < count; i++) {
         uint32_t bits = 0;
         for (size_t b = 0; b < bytes; b++)
@@ -156,32 +157,72 @@ void volume_values(const VolumeHeader *header, const unsigned char *raw, float *
     }
 }
 
-static char *read_raw(const char *header_path, const char *path, const VolumeHeader *header, Error *error)
+/* A raw file, and what its header says of it. */
+typedef struct Raw {
+    const char *path, *header_path;
+    const VolumeHeader *header;
+} Raw;
+
+/* A device or a pipe has no length to compare, and may never end. */
+static bool raw_is_right(const Raw *raw, Error *error)
 {
     struct stat status;
-    const size_t wanted = volume_header_bytes(header), least = 1 << 20;
-    size_t size = 0;
-    const bool there = stat(path, &status) == 0;
-    if (!there) {
-        error_set(error, "%s: %s; %s says that its values are there", path, strerror(errno), header_path);
-        return NULL;
-    }
-    if (S_ISREG(status.st_mode) && (size_t)status.st_size != wanted) {
-        error_set(error, "%s: %zu bytes, but %s says %g x %g x %g values of %s: %zu bytes", path,
-                  (size_t)status.st_size, header_path, header->size[0], header->size[1], header->size[2],
-                  type_name(header->type), wanted);
-        return NULL;
-    }
-    char *bytes = read_file(path, wanted > least ? wanted : least, "volume", &size, error);
-    if (bytes && size != wanted) {
-        error_set(error, "%s: %zu bytes could be read, but %s says %zu", path, size, header_path, wanted);
-        free(bytes);
-        return NULL;
-    }
-    return bytes;
+    const VolumeHeader *header = raw->header;
+    const size_t wanted = volume_header_bytes(header);
+    if (stat(raw->path, &status) != 0)
+        return error_set(error, "%s: %s; %s says that its values are there", raw->path, strerror(errno),
+                         raw->header_path);
+    if (!S_ISREG(status.st_mode))
+        return error_set(error, "%s: no regular file; %s says that its values are there", raw->path,
+                         raw->header_path);
+    if ((size_t)status.st_size != wanted)
+        return error_set(error, "%s: %zu bytes, but %s says %g x %g x %g values of %s: %zu bytes", raw->path,
+                         (size_t)status.st_size, raw->header_path, header->size[0], header->size[1],
+                         header->size[2], type_name(header->type), wanted);
+    return true;
 }
 
-/* Nothing can be found where values are none. */
+/* Some at a time: raw values and floats are never both there in full. */
+static bool read_chunks(const Raw *raw, FILE *file, float *value, Error *error)
+{
+    enum { CHUNK = 1 << 14 };
+    unsigned char bytes[CHUNK * sizeof(float)];
+    const size_t count = count_of(raw->header), each = types[raw->header->type].bytes;
+    for (size_t done = 0; done < count;) {
+        const size_t left = count - done, some = left < CHUNK ? left : CHUNK;
+        if (fread(bytes, each, some, file) != some)
+            return error_set(error, "%s: cannot be read (%s)", raw->path,
+                             ferror(file) ? strerror(errno) : "it has become shorter");
+        volume_values(raw->header, bytes, some, value + done);
+        done += some;
+    }
+    return true;
+}
+
+/* NULL with the reason. */
+static float *read_raw(const Raw *raw, Error *error)
+{
+    const size_t count = count_of(raw->header), bytes = count * sizeof(float);
+    if (!raw_is_right(raw, error))
+        return NULL;
+    float *value = (double)bytes < physical_bytes() ? malloc(bytes) : NULL;
+    if (!value) {
+        error_set(error, "%s: no memory for %zu values, %.3g GB; this machine has %.3g GB", raw->path, count,
+                  1e-9 * (double)bytes, 1e-9 * physical_bytes());
+        return NULL;
+    }
+    FILE *file = fopen(raw->path, "rb");
+    const bool ok = file ? read_chunks(raw, file, value, error)
+                         : error_set(error, "%s: cannot be opened (%s)", raw->path, strerror(errno));
+    if (file)
+        fclose(file);
+    if (ok)
+        return value;
+    free(value);
+    return NULL;
+}
+
+/* No surface can be found where a value is no number. */
 static bool all_finite(const char *path, const VolumeData *volume, Error *error)
 {
     const size_t wide = (size_t)volume->size[0], high = (size_t)volume->size[1],
@@ -201,21 +242,15 @@ bool volume_file_load(const char *path, VolumeData *volume, float **values, Erro
     if (!volume_header_load(path, &header, error))
         return false;
     volume_raw_path(path, &header, raw);
-    char *bytes = read_raw(path, raw, &header, error);
-    if (!bytes)
+    *values = read_raw(&(Raw){raw, path, &header}, error);
+    if (!*values)
         return false;
-    *values = malloc(count_of(&header) * sizeof **values);
-    if (*values)
-        volume_values(&header, (const unsigned char *)bytes, *values);
-    free(bytes);
     *volume = (VolumeData){.value = *values};
     for (int k = 0; k < 3; k++) {
         volume->size[k] = (int)header.size[k];
         volume->corner[k] = header.corner[k];
         volume->spacing[k] = header.spacing[k];
     }
-    if (!*values)
-        return error_set(error, "%s: no memory for %zu values", path, count_of(&header));
     if (all_finite(raw, volume, error))
         return true;
     free(*values);

@@ -37,15 +37,16 @@ void volume_raw_path(const char *path, const VolumeHeader *header, char raw[VOLU
 
 size_t volume_header_bytes(const VolumeHeader *header); /* of the raw file */
 
-/* Its values as floats: as many as the header says, of volume_header_bytes bytes; pure. */
-void volume_values(const VolumeHeader *header, const unsigned char *raw, float *value);
+/* So many of its raw values as floats; pure. */
+void volume_values(const VolumeHeader *header, const unsigned char *raw, size_t count, float *value);
 
 /* Reads the header of that path. False as volume_header_parse, or when it cannot be read. */
 bool volume_header_load(const char *path, VolumeHeader *header, Error *error);
 
 /* A header and its raw file. `volume` is what level_volume takes; its values belong to the caller, who frees
-   them. False when one of the files is not there, or is shorter or longer than the header says, or has a
-   value that is no finite number, or memory is short. */
+   them. False when one of the files is not there, or the raw one is no regular file, is shorter or longer
+   than the header says, has a value that is no finite number, or more values than this machine has memory
+   for. */
 bool volume_file_load(const char *path, VolumeData *volume, float **values, Error *error);
 
 #endif

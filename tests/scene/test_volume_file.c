@@ -2,6 +2,7 @@
 #include "tests/near.h"
 #include "tests/scene/scene_text.h"
 
+#include "app/base/physical.h"
 #include "app/volume/volume_file.h"
 #include "app/volume/volume_kept.h"
 #include "render/pbsr/pbsr_def.h"
@@ -10,6 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -55,7 +57,7 @@ static void values_are_floats(void **state)
         const VolumeHeader header = {
             .size = {1, 1, 1}, .type = rows[i].type, .big = rows[i].big, .scale = 2, .offset = 3};
         float value;
-        volume_values(&header, rows[i].raw, &value);
+        volume_values(&header, rows[i].raw, 1, &value);
         check_near((double)value, 3 + 2 * rows[i].first, 0, "a value");
     }
 }
@@ -128,6 +130,71 @@ static void a_raw_file_of_another_length_is_refused(void **state)
     rmdir(folder);
 }
 
+/* A raw file of so many bytes, which must be refused. */
+static void check_raw_refused(const char *folder, const char *raw_name, const char *size, const char *says)
+{
+    char header[64], text[256];
+    VolumeData volume;
+    float *values;
+    Error error = {{0}};
+    snprintf(header, sizeof header, "%s/r.yaml", folder);
+    snprintf(text, sizeof text, "file: %s\nsize: %s\ntype: uint8\nspacing: [1, 1, 1]\n", raw_name, size);
+    write_file(header, text, strlen(text));
+    assert_false(volume_file_load(header, &volume, &values, &error));
+    assert_null(values);
+    if (!strstr(error.message, says))
+        fail_msg("%s\nnot: %s", error.message, says);
+    unlink(header);
+}
+
+/* What has no length, may never end, or is more than the machine can hold: refused before it is read. */
+static void a_raw_file_that_cannot_be_read_whole_is_refused(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/slosh_raw_XXXXXX", pipe[64], large[64];
+    assert_non_null(mkdtemp(folder));
+    snprintf(pipe, sizeof pipe, "%s/pipe", folder);
+    snprintf(large, sizeof large, "%s/large", folder);
+    assert_int_equal(mkfifo(pipe, 0600), 0);
+    check_raw_refused(folder, "/dev/zero", "[2, 2, 2]", "/dev/zero: no regular file; ");
+    check_raw_refused(folder, "pipe", "[2, 2, 2]", "pipe: no regular file; ");
+    check_raw_refused(folder, ".", "[2, 2, 2]", ".: no regular file; ");
+    write_file(large, "", 0);
+    if (physical_bytes() < 0x1p34 && truncate(large, (off_t)1 << 32) == 0) /* of holes */
+        check_raw_refused(folder, "large", "[65536, 32768, 2]", "no memory for 4294967296 values, 17.2 GB; ");
+    unlink(large);
+    unlink(pipe);
+    rmdir(folder);
+}
+
+/* More than are read at a time. */
+static void long_raw_files_are_read_to_their_end(void **state)
+{
+    (void)state;
+    enum { LONG = 20000 };
+    static const char text[] = "file: l.raw\nsize: [2, 2, 5000]\ntype: uint8\nspacing: [1, 1, 1]\n";
+    static unsigned char bytes[LONG];
+    char folder[] = "/tmp/slosh_long_XXXXXX", header[64], raw[64];
+    VolumeData volume;
+    float *values;
+    Error error = {{0}};
+    assert_non_null(mkdtemp(folder));
+    snprintf(header, sizeof header, "%s/l.yaml", folder);
+    snprintf(raw, sizeof raw, "%s/l.raw", folder);
+    for (int i = 0; i < LONG; i++)
+        bytes[i] = (unsigned char)(i * 7 % 251);
+    write_file(header, text, strlen(text));
+    write_file(raw, bytes, sizeof bytes);
+    if (!volume_file_load(header, &volume, &values, &error))
+        fail_msg("%s", error.message);
+    for (int i = 0; i < LONG; i++)
+        assert_true(values[i] == (float)bytes[i]);
+    free(values);
+    unlink(header);
+    unlink(raw);
+    rmdir(folder);
+}
+
 /* With the place of the first one. */
 static void what_is_no_number_is_refused(void **state)
 {
@@ -177,7 +244,7 @@ static void layers_have_their_files(void **state)
     assert_null(layers[0].data);
     assert_non_null(layers[1].data);
     check_near((double)layers[1].data->low, 10, 0, "the least value");
-    check_near((double)layers[1].data->high, 11, 1, "the greatest value");
+    check_near((double)layers[1].data->high, 12, 0, "the greatest value");
     assert_ptr_equal(layers[1].data, pbsr_def(&scene.views[1])->layers[0].data);
     const RangedVolume *before = layers[1].data;
     const struct timespec moment = {.tv_nsec = 20000000}; /* two writes have two times */
@@ -203,6 +270,8 @@ int main(void)
         cmocka_unit_test(values_are_floats),
         cmocka_unit_test(wrong_headers_are_refused),
         cmocka_unit_test(a_raw_file_of_another_length_is_refused),
+        cmocka_unit_test(a_raw_file_that_cannot_be_read_whole_is_refused),
+        cmocka_unit_test(long_raw_files_are_read_to_their_end),
         cmocka_unit_test(what_is_no_number_is_refused),
         cmocka_unit_test(layers_have_their_files),
     };
