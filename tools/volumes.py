@@ -52,6 +52,8 @@ def breast(x, y, z):
 
 
 def main():
+    if len(sys.argv) != 2 or not os.path.isdir(sys.argv[1]):
+        sys.exit('usage: tools/volumes.py FOLDER, which is there')
     folder = sys.argv[1]
     side, cell = 40, 1 / 39
     axis = [cell * i for i in range(side)]
