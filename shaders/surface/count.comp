@@ -1,9 +1,9 @@
-// Points that lie in counting spheres (sim/surface/counting.h), a point an invocation.
+// Counts the points in each counting sphere (sim/surface/counting.h), a point an invocation.
 #include "shaders/surface/surface_bindings.h"
 layout(local_size_x = SURFACE_GROUP) in;
 layout(std430, binding = SURFACE_STORAGE) readonly buffer Points { float points[]; };
 layout(std430, binding = SPHERES_STORAGE) readonly buffer Spheres { vec4 spheres[]; };          // centre
-layout(std430, binding = SPHERE_CELLS_STORAGE) readonly buffer Cells { uint sphere_cells[]; }; // where each cell's begin; and these
+layout(std430, binding = SPHERE_CELLS_STORAGE) readonly buffer Cells { uint sphere_cells[]; }; // for each cell, where its spheres begin; behind that, their numbers
 layout(std430, binding = COUNTS_STORAGE) buffer Counts { uint counts[]; };
 layout(location = SURFACE_RANGE_AT) uniform uvec2 range;        // the first word, points
 layout(location = SPHERES_LOW_AT) uniform vec3 spheres_low;     // of the cells

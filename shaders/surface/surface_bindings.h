@@ -27,6 +27,10 @@
 #define SPHERES_CELL_AT   30
 #define SPHERES_RADIUS_AT 31
 
+/* A step's ways back to the surface, as sim/surface/walk.h has them */
+#define WALK_NEWTON_STEPS 5
+#define WALK_HALVINGS     16
+
 /* 32-bit words of a SurfacePoint (sim/surface/points.h), work group */
 #define SURFACE_WORDS 6u
 #define SURFACE_GROUP 64

@@ -18,8 +18,6 @@ layout(location = WALK_WALKERS_AT) uniform uvec3 walkers_at; // all, the first a
 layout(location = WALK_SURFACE_AT) uniform uint surface;
 layout(location = SURFACE_RANGE_AT) uniform uint first_word; // of the points that these walkers leave
 
-const int newton_steps = 5, halvings = 16;
-
 // To first order the distance; a zero gradient or what is no number is not.
 bool on_level(Sample s)
 {
@@ -31,7 +29,7 @@ bool newton(inout vec3 place, out Sample s)
 {
     s = field_at(place);
     bool done = on_level(s);
-    for (int k = 0; k < newton_steps && !done; k++) {
+    for (int k = 0; k < WALK_NEWTON_STEPS && !done; k++) {
         place += (level - s.value) / dot(s.slope, s.slope) * s.slope;
         s = field_at(place);
         done = on_level(s);
@@ -46,7 +44,7 @@ bool bisect(vec3 slope, inout vec3 place, out Sample s)
     float b = lengths.z / length(slope), a = -b;
     s = field_at(from + a * slope);
     bool sign_there = s.value < level;
-    for (int k = 0; k < halvings; k++) {
+    for (int k = 0; k < WALK_HALVINGS; k++) {
         float middle = 0.5 * (a + b);
         place = from + middle * slope;
         s = field_at(place);

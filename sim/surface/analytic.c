@@ -73,8 +73,8 @@ static LevelField field_of(const LevelKind *kind, const double low[3], const dou
 {
     LevelField field = {.kind = kind, .length = length, .number = {0}};
     field.step = paper * length;
-    field.march = finest * length;
     for (int k = 0; k < 3; k++) {
+        field.march[k] = finest * length;
         field.low[k] = low[k];
         field.high[k] = high[k];
     }
@@ -104,7 +104,8 @@ LevelField level_sphere(const double centre[3], double radius)
 LevelField level_torus(const double centre[3], double ring, double tube)
 {
     LevelField field = about(&torus_kind, centre, (double[3]){ring + tube, tube, ring + tube});
-    field.march = fmin(field.march, tube / 8);
+    for (int k = 0; k < 3; k++)
+        field.march[k] = fmin(field.march[k], tube / 8);
     field.step = fmin(field.step, tube / 8);
     field.number[3] = tube;
     field.number[4] = ring;

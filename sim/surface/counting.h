@@ -5,7 +5,8 @@
 
    A sphere into which more of the surface reaches than its great circle would count too many: only those are
    taken in which all known places of the surface lie near the tangent plane and have about the same normal,
-   and which the bounds do not cut. Where hardly any is, all are made smaller. */
+   and which the bounds do not cut. Where hardly any is, all are made smaller. Where it is folded more
+   finely than the known places tell, n is wrong all the same: sampling.c checks it against the area. */
 #ifndef SLOSH_SURFACE_COUNTING_H
 #define SLOSH_SURFACE_COUNTING_H
 
@@ -20,7 +21,6 @@ typedef struct Counting {
     uint32_t inside[COUNTING_SPHERES]; /* points so far */
     double low[3], cell[3]; /* of a grid over the surface that says which spheres may hold a point */
     uint32_t begin[COUNTING_CELLS * COUNTING_CELLS * COUNTING_CELLS + 1];
-    uint32_t member_capacity;
     uint8_t *member;
 } Counting;
 

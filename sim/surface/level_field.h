@@ -12,9 +12,9 @@ typedef struct LevelKind LevelKind; /* its functions: sim/surface/level_kind.h *
 typedef struct LevelField {
     const LevelKind *kind;
     double low[3], high[3]; /* m, the box's frame: the field is there and nowhere else; surfaces end there */
-    double length; /* m, typical: the width of what is analytic, the cell of a volume, h of particles */
-    double step;   /* m: a walk's sqrt(2 dt), as Tanaka et al. 2012 advise for the kind */
-    double march;  /* m: how finely a line looks for the surface; what is thinner may be missed */
+    double length;   /* m, typical: the width of what is analytic, the cell of a volume, h of particles */
+    double step;     /* m: a walk's sqrt(2 dt), as Tanaka et al. 2012 advise for the kind */
+    double march[3]; /* m, along x, y, z: how finely a line looks; what is thinner may be missed */
     union {
         double number[8]; /* of an analytic one: its shape */
         const void *own;  /* of another: belongs to who made it, which must outlive the field */

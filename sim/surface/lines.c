@@ -7,7 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_LINES = 4096, MOST_LINES = 1 << 21, A_RANGE = 64, NINTHS = 6 };
+enum { FIRST_LINES = 4096, MOST_LINES = 1 << 21, SOME_LINES = 1024, A_RANGE = 64, NINTHS = 6 };
+
+static const size_t enough = (size_t)1 << 21; /* crossings: no walk has so many walkers */
+static const double pieces_most = 1e5;        /* along an axis: a thousand lines take a second or two */
 
 /* What the lines of one range found. */
 typedef struct Found {
@@ -171,9 +174,18 @@ static void look_closer(const LineSearch *search, const Line *line, double from,
     }
 }
 
+/* How many of the field's steps a line is long, each axis with its own. */
+static double steps_along(const LineSearch *search, const Line *line)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++)
+        square += pow(line->along[k] / search->field->march[k], 2);
+    return line->length * sqrt(square);
+}
+
 static void follow(const LineSearch *search, const Line *line, Found *found)
 {
-    const int pieces = (int)fmin(ceil(line->length / search->field->march), 1e6) + 1;
+    const int pieces = (int)ceil(steps_along(search, line)) + 1;
     const double apart = line->length / pieces;
     Seen last = {0};
     for (int i = 0; i <= pieces; i += LANES) {
@@ -304,12 +316,37 @@ static Lines lines_of(const LineSearch *search)
     return lines;
 }
 
+/* So that a line's places are not too many; no number of them where a field has no march is too many too. */
+static bool can_be_followed(const LineSearch *search, Error *error)
+{
+    for (int k = 0; k < 3; k++) {
+        const double side = search->high[k] - search->low[k], march = search->field->march[k];
+        if (!(side <= pieces_most * march))
+            return error_set(error,
+                             "lines look for the surface each %.3g m, and its bounds are %.3g m wide along "
+                             "%c: more than %g places; take a coarser field or smaller bounds",
+                             march, side, "xyz"[k], pieces_most);
+    }
+    return true;
+}
+
+/* Some at a time: what is finely folded has enough crossings after a few. */
+static bool first_lines(Lines *lines, Crossings *crossings, Found *all, Error *error)
+{
+    bool ok = true;
+    while (ok && crossings->lines < FIRST_LINES && crossings->count < enough)
+        ok = more_lines(lines, SOME_LINES, crossings, all, error);
+    return ok;
+}
+
 bool lines_cross(const LineSearch *search, Crossings *crossings, Error *error)
 {
     Lines lines = lines_of(search);
     Found all = {.least = HUGE_VAL, .most = -HUGE_VAL};
     *crossings = (Crossings){0};
-    bool ok = more_lines(&lines, FIRST_LINES, crossings, &all, error);
+    if (!can_be_followed(search, error))
+        return false;
+    bool ok = first_lines(&lines, crossings, &all, error);
     if (ok && crossings->count == 0 && all.flat == 0) /* a small thing in a large box */
         ok = more_lines(&lines, 15 * FIRST_LINES, crossings, &all, error);
     if (ok && crossings->count > all.flat) {

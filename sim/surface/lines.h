@@ -30,8 +30,8 @@ typedef struct Crossings {
     size_t lines;
 } Crossings;
 
-/* Of some thousand lines. False where none crosses the level, with the reason, or where the field is no
-   number; then nothing needs to be freed. */
+/* Of some thousand lines. False where none crosses the level, with the reason, where the field is no number,
+   or is so fine for its bounds that no line could be followed; then nothing needs to be freed. */
 bool lines_cross(const LineSearch *search, Crossings *crossings, Error *error);
 
 /* More lines until there are about as many crossings as wanted, or two million lines. */

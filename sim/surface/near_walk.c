@@ -16,13 +16,12 @@ typedef struct NearWalk {
     Walkers walkers;
     Walk walk;
     int threads;
-    size_t
-        steps; /* of each walker: consecutive points of one are in different sets, where there are as many */
+    size_t steps; /* of each walker; its consecutive points are in different sets */
 } NearWalk;
 
 /* ---- where walkers begin ---- */
 
-/* Newton's method from a place near the level; who finds none begins nowhere. */
+/* Newton's method from a place near the level; a walker that finds none begins nowhere. */
 LANES_INLINE void seat_eight(const NearWalk *near, size_t w)
 {
     float *const *column = near->walkers.place;
@@ -112,7 +111,9 @@ static void walk_range(void *context, size_t begin_at, size_t end)
     near->request->field->kind->walk[lanes_wide()](&near->walk, begin_at * LANES, end * LANES);
 }
 
-/* Those of walkers that began nowhere, and what rounding has made too many; how many walkers began. */
+/* Drops the points of walkers that began nowhere, and what rounding has made too many; how many walkers
+ * began.
+ */
 static size_t drop_points(const NearWalk *near, size_t seeds, size_t wanted, SurfacePoints *points)
 {
     SurfacePoint *point = points->point + points->count;

@@ -1,6 +1,7 @@
 /* Points on a mesh of triangles, as dense everywhere: polygons among transparent surfaces. After: S. Tanaka
    et al., "Particle-based transparent rendering of implicit surfaces and its application to fused
-   visualization", 2012, section 5: triangle by triangle, in proportion to its area. */
+   visualization", 2012, section 5; but each point on a triangle drawn by chance, by its area, so that sets
+   are independent. */
 #ifndef SLOSH_SURFACE_POLYGONS_H
 #define SLOSH_SURFACE_POLYGONS_H
 

@@ -1,6 +1,9 @@
 #include "sim/surface/request.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
 
 static const size_t usual_most = (size_t)1 << 26; /* 1.6 GB of points */
 
@@ -40,4 +43,18 @@ bool request_check(const SurfaceRequest *request, Error *error)
             return error_set(error, "the bounds of a surface are empty along %c: %g to %g m", "xyz"[k],
                              low[k], high[k]);
     return true;
+}
+
+void result_note(SurfaceResult *result, const char *format, ...)
+{
+    va_list list;
+    size_t used = strlen(result->note);
+    const size_t size = sizeof result->note;
+    if (used > 0 && used + 3 < size) {
+        strcpy(result->note + used, "; ");
+        used += 2;
+    }
+    va_start(list, format);
+    vsnprintf(result->note + used, size - used, format, list);
+    va_end(list);
 }

@@ -35,19 +35,22 @@ typedef struct SurfaceRequest {
     const SurfaceDevice *device; /* takes the steps; NULL: threads do */
     bool stay;                   /* the points stay with the device */
     /* of SURFACE_TRIANGLES */
-    double cell; /* m, of the grid on which the field is sampled; 0: the field's march */
+    double cell; /* m, of the grid on which the field is sampled; 0: the field's march,
+                    or larger where that would be too many */
 } SurfaceRequest;
 
 typedef struct SurfaceResult {
     size_t points;
-    double area;         /* S of the surface, m2: by the crossings of lines, or of the triangles */
-    double density;      /* of one set, 1/m2, by the counting spheres; by the area with triangles */
-    bool reached;        /* density is the one asked for, within what the spheres can tell */
-    double counted;      /* the mean n of the counting spheres, over all sets */
+    double area;    /* S of the surface, m2: by the crossings of lines, or of the triangles */
+    double density; /* of one set, 1/m2, by the counting spheres; by the area with triangles */
+    bool reached;   /* density is the one asked for, within what spheres and area can tell */
+    double counted; /* the mean n of the counting spheres, over all sets; by the area where they differ */
     double great_circle; /* S of a counting sphere, m2 */
     int spheres;         /* counting spheres; 0 with triangles */
     size_t stayed;  /* steps that found no way back to the surface or left the bounds, and were not taken */
-    char note[256]; /* one line where something falls short of what was asked; else empty */
+    char lack[256]; /* one line where the density was not reached; else empty */
+    char note[256]; /* one line where points are made in another way than asked, or less well known; else
+                       empty */
 } SurfaceResult;
 
 /* Whether the request makes sense. */
@@ -57,5 +60,8 @@ bool request_check(const SurfaceRequest *request, Error *error);
 void request_bounds(const SurfaceRequest *request, double low[3], double high[3]);
 
 size_t request_points_most(const SurfaceRequest *request);
+
+/* Appends to the result's note. */
+void result_note(SurfaceResult *result, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

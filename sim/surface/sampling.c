@@ -18,6 +18,8 @@ enum { ROUND = 16, A_RANGE = 256, WALKERS_LEAST = 4096, WALKERS_MOST = 1 << 20, 
 static const double closest = 1e-5;  /* of the surface's extent: what counts as on it */
 static const double rounding = 4e-7; /* of the coordinates: what floats can hold */
 static const double widest = 0.05;   /* of the extent: a step of what is small in its field */
+static const double differs = 0.05;  /* of n: then the area is nearer the truth than the spheres */
+static const double doubted = 0.1;   /* and this is no chance: it is said */
 
 /* ---- the walk ---- */
 
@@ -185,6 +187,33 @@ static bool keep_points(const SurfaceRequest *request, size_t kept, SurfacePoint
     return true;
 }
 
+/* n of `made` points. The spheres are wrong by factors where a surface is folded so finely that several
+   sheets are in one, or that those drawn are the ones with few points; and where walkers begin at the
+   spheres' own middles, since there are no more crossings. The area of the lines knows none of that, and is
+   right within some hundredths. */
+static double count_in_circle(const Sampling *sampling, double great_circle, size_t made)
+{
+    const double n = counting_mean(&sampling->counting);
+    const double by_area = (double)made / sampling->crossings.area * great_circle;
+    return fabs(n - by_area) > differs * by_area ? by_area : n;
+}
+
+static void note_walk(const Sampling *sampling, double great_circle, size_t made, SurfaceResult *result)
+{
+    const double by_area = (double)made / sampling->crossings.area * great_circle;
+    const double times = counting_mean(&sampling->counting) / by_area;
+    const size_t steps = sampling->walk.first * sampling->walkers.count;
+    if (fabs(times - 1) > doubted)
+        result_note(
+            result,
+            "its points are counted by its area: spheres on it hold %.2g times as many, as where it is "
+            "folded finely or small in its bounds",
+            times);
+    if (2 * result->stayed > steps)
+        result_note(result, "%.0f %% of all steps found no way along it: take a smaller step",
+                    100 * (double)result->stayed / (double)steps);
+}
+
 /* Rounds of steps, until the counting spheres hold enough or there are as many points as may be. */
 static bool walk_on(Sampling *sampling, SurfacePoints *points, SurfaceResult *result, Error *error)
 {
@@ -201,18 +230,21 @@ static bool walk_on(Sampling *sampling, SurfacePoints *points, SurfaceResult *re
             return false;
         made += more * each;
         steps += more;
-        n = counting_mean(counting);
+        n = count_in_circle(sampling, great_circle, made);
     }
-    const double kept = fmin(n > wanted ? rint((double)made * wanted / n) : (double)made, (double)most);
+    const double right = n > wanted ? rint((double)made * wanted / n) : (double)made;
+    const double kept = fmin(right, (double)most);
+    const bool reached = n >= wanted && kept == right && kept > 0;
     n *= kept / (double)made;
     *result = (SurfaceResult){.points = (size_t)kept,
                               .area = sampling->crossings.area,
                               .density = n / great_circle / request->sets,
-                              .reached = n > 0.999 * wanted,
+                              .reached = reached,
                               .counted = n,
                               .great_circle = great_circle,
                               .spheres = counting->count,
                               .stayed = sampling->walk.first * each - taken(sampling)};
+    note_walk(sampling, great_circle, made, result);
     return keep_points(request, (size_t)kept, points, error);
 }
 
@@ -284,6 +316,20 @@ const char *surface_sampler_name(SurfaceSampler sampler)
     return sampler < SURFACE_SAMPLERS ? names[sampler] : NULL;
 }
 
+static void say_lack(const SurfaceRequest *request, SurfaceResult *result)
+{
+    if (result->points == 0)
+        snprintf(result->lack, sizeof result->lack,
+                 "surface %u has no point: %.3g a m2 and set are less than one in all", request->surface,
+                 request->density);
+    else
+        snprintf(
+            result->lack, sizeof result->lack,
+            "surface %u has %.3g of %.3g points a m2 and set: %zu points are the most; take fewer sets, less "
+            "opacity or a smaller picture",
+            request->surface, result->density, request->density, request_points_most(request));
+}
+
 bool surface_sample(const SurfaceRequest *request, SurfacePoints *points, SurfaceResult *result, Error *error)
 {
     const size_t first = points->count;
@@ -304,11 +350,7 @@ bool surface_sample(const SurfaceRequest *request, SurfacePoints *points, Surfac
         return false;
     }
     if (!result->reached)
-        snprintf(
-            result->note, sizeof result->note,
-            "surface %u has %.3g of %.3g points a m2 and set: %zu points are the most; take fewer sets, less "
-            "opacity or a smaller picture",
-            request->surface, result->density, request->density, request_points_most(request));
+        say_lack(request, result);
     if (request->colour && points->count > first && !request->device) {
         Colouring colouring = {request->colour, points->point + first};
         parallel_ranges(search.threads, points->count - first, 16 * A_RANGE, colour_range, &colouring);

@@ -295,11 +295,11 @@ static LevelField field_of(const SphField *from, const LevelKind *kind)
     for (int k = 0; k < 3; k++) {
         field.low[k] = from->low[k] - from->support;
         field.high[k] = from->high[k] + from->support;
+        field.march[k] = 0.25 * from->support;
     }
     field.own = from;
     field.length = from->support;
     field.step = step * from->support;
-    field.march = 0.25 * from->support;
     return field;
 }
 

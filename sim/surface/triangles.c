@@ -3,6 +3,7 @@
 #include "sim/base/parallel.h"
 #include "sim/mesh/isosurface.h"
 #include "sim/surface/level_kind.h"
+#include "sim/surface/lines.h"
 #include "sim/surface/polygons.h"
 #include "sim/surface/request.h"
 
@@ -18,8 +19,9 @@ static const double values_most = 0x1p28; /* 1 GB */
  * there. */
 typedef struct Grid {
     const LineSearch *search;
-    int size[3];    /* points */
-    double cell[3]; /* m: point i at low + (i - 1) cell */
+    int size[3];     /* points */
+    double cell[3];  /* m: point i at low + (i - 1) cell */
+    double enlarged; /* so many times the cells that the field asks for */
     float *value;
 } Grid;
 
@@ -57,20 +59,36 @@ static void fill_rows(void *context, size_t begin, size_t end)
     }
 }
 
+/* Cells of about so many times what was asked for, or of the field's march; how many values they have. */
+static double size_grid(const SurfaceRequest *request, double times, int size[3], double cell[3])
+{
+    double low[3], high[3], values = 1;
+    request_bounds(request, low, high);
+    for (int k = 0; k < 3; k++) {
+        const double wanted = times * (request->cell > 0 ? request->cell : request->field->march[k]);
+        const double side = high[k] - low[k], cells = fmin(fmax(ceil(side / wanted), 2), 1e6);
+        cell[k] = side / cells;
+        size[k] = (int)cells + 3;
+        values *= size[k];
+    }
+    return values;
+}
+
+double triangles_grid(const SurfaceRequest *request, int size[3], double cell[3])
+{
+    double times = 1;
+    while (size_grid(request, times, size, cell) > values_most && !(request->cell > 0))
+        times *= 1.1;
+    return times;
+}
+
 static bool grid_fill(Grid *grid, const SurfaceRequest *request, Error *error)
 {
-    const double cell = request->cell > 0 ? request->cell : request->field->march;
-    double values = 1;
-    for (int k = 0; k < 3; k++) {
-        const double side = grid->search->high[k] - grid->search->low[k];
-        const double cells = fmin(fmax(ceil(side / cell), 2), 1e6);
-        grid->cell[k] = side / cells;
-        grid->size[k] = (int)cells + 3;
-        values *= grid->size[k];
-    }
+    grid->enlarged = triangles_grid(request, grid->size, grid->cell);
+    const double values = (double)grid->size[0] * grid->size[1] * grid->size[2];
     if (values > values_most) {
-        error_set(error, "cells of %.3g m make a grid of %d x %d x %d values; take larger ones", cell,
-                  grid->size[0], grid->size[1], grid->size[2]);
+        error_set(error, "cells of %.3g m make a grid of %d x %d x %d values; take larger ones",
+                  request->cell, grid->size[0], grid->size[1], grid->size[2]);
         return false;
     }
     grid->value = malloc((size_t)values * sizeof *grid->value);
@@ -281,6 +299,11 @@ static bool on_mesh(const SurfaceRequest *request, const Grid *grid, const IsoMe
                       : error_set(error, "level %.6g is empty: no cell of %.3g m has a part of it",
                                   request->level, grid->cell[0]);
         ok = ok && scatter_points(request, grid->search, &t, area, points, result, error);
+        if (ok && grid->enlarged > 1)
+            result_note(
+                result,
+                "its cells are %.3g times as wide as those of its field, of which there would be too many",
+                grid->enlarged);
     }
     free(inside);
     triangles_free(&t);

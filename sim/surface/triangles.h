@@ -1,13 +1,19 @@
 /* The sampler SURFACE_TRIANGLES. After: S. Tanaka et al., "Particle-based transparent rendering of implicit
-   surfaces", 2012, section 5: marching cubes, then each triangle gets points in proportion to its area. */
+   surfaces", 2012, section 5: marching cubes, then each point on a triangle drawn by chance, by its area. */
 #ifndef SLOSH_SURFACE_TRIANGLES_H
 #define SLOSH_SURFACE_TRIANGLES_H
 
-#include "sim/surface/lines.h"
 #include "sim/surface/points.h"
 #include "sim/surface/request.h"
 
+typedef struct LineSearch LineSearch; /* sim/surface/lines.h */
+
 bool triangles_sample(const SurfaceRequest *request, const LineSearch *search, SurfacePoints *points,
                       SurfaceResult *result, Error *error);
+
+/* The grid that marches: its values along each axis, and its cells, m. Returns how many times larger they are
+   than the field's own march, of which there would be too many for memory; those that the request names stay.
+ */
+double triangles_grid(const SurfaceRequest *request, int size[3], double cell[3]);
 
 #endif

@@ -226,11 +226,11 @@ bool level_volume(const VolumeData *volume, VolumeInterpolation interpolation, L
                 "xyz"[k], volume -> spacing[k], volume -> corner[k]);
         field->low[k] = volume->corner[k];
         field->high[k] = volume->corner[k] + (volume->size[k] - 1) * volume->spacing[k];
+        field->march[k] = volume->spacing[k];
         cell = fmin(cell, volume->spacing[k]);
     }
     field->own = volume;
     field->length = cell;
     field->step = paper * cell;
-    field->march = cell;
     return numbers(volume, error);
 }

@@ -143,6 +143,26 @@ static void volumes_are_walked(void **state)
     }
 }
 
+/* Each axis is looked at by its own spacing: a billion times as many places along the others would never end.
+ */
+static void volumes_as_flat_as_may_be_are_walked(void **state)
+{
+    (void)state;
+    const float value[8] = {0, 1, 0, 1, 0, 1, 0, 1};
+    const VolumeData volume = {{2, 2, 2}, {0, 0, 0}, {1e-9, 1, 1}, value};
+    LevelField field;
+    SurfacePoints points = {0};
+    assert_true(level_volume(&volume, VOLUME_TRILINEAR, &field, NULL));
+    SurfaceRequest request = request_for(&field, 1, 2e4);
+    request.level = 0.5;
+    const SurfaceResult result = sample(&request, &points);
+    check_near(result.area, 1, 0.02, "area");
+    check_near((double)points.count / 2e4, 1, 0.05, "points");
+    for (size_t i = 0; i < points.count; i += 5)
+        check_near(1e9 * (double)points.point[i].position[0], 0.5, 0.01, "height");
+    surface_points_free(&points);
+}
+
 static void volumes_that_make_no_sense_are_refused(void **state)
 {
     (void)state;
@@ -217,6 +237,43 @@ static void the_particles_field_is_the_sum_over_all(void **state)
     assert_string_equal(error.message, "there is no particle to make a field of");
 }
 
+/* The same field on a grid, as a view has it: interpolated, near the sum over all and with about its area. */
+static void the_particles_field_on_a_grid_is_walked(void **state)
+{
+    (void)state;
+    enum { CELLS = 40 };
+    static float value[CELLS * CELLS * CELLS];
+    const FieldParticles particles = ball_of_particles();
+    const VolumeGrid grid = {{CELLS, CELLS, CELLS}, {-0.56, -0.52, -0.52}, 1.04 / CELLS};
+    const double off[VOLUME_INTERPOLATIONS] = {0.2, 0.05}; /* cells; they are a quarter of h wide */
+    FieldSlabs slabs = {0};
+    Error error;
+    assert_true(field_sum(&particles, &grid, 2, &slabs, value, NULL, &error));
+    field_slabs_free(&slabs);
+    const VolumeData volume = volume_of_grid(&grid, value);
+    for (VolumeInterpolation way = 0; way < VOLUME_INTERPOLATIONS; way++) {
+        LevelField field;
+        SurfacePoints points = {0};
+        assert_true(level_volume(&volume, way, &field, &error));
+        SurfaceRequest request = request_for(&field, 2, 2e4);
+        request.level = 0.5;
+        const SurfaceResult result = sample(&request, &points);
+        double squares = 0, count = 0;
+        for (size_t i = 0; i < points.count; i += 20, count++) {
+            const float *p = points.point[i].position;
+            const double place[3] = {(double)p[0], (double)p[1], (double)p[2]};
+            const LevelSample s = at(&field, place);
+            const float *g = s.gradient;
+            const double slope = sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+            squares += pow((field_at(&particles, place, NULL) - 0.5) / slope, 2);
+            check_near(((double)s.value - 0.5) / slope, 0, 2e-5, "distance from what is interpolated");
+        }
+        check_near(sqrt(squares / count) / grid.cell, 0, off[way], volume_interpolation_name(way));
+        check_near(result.area / (4 * M_PI * 0.41 * 0.41), 1, 0.15, "area of a bumpy ball");
+        surface_points_free(&points);
+    }
+}
+
 /* The fluid's surface, and a level of a scalar inside it, coloured by the other. */
 static void the_particles_field_is_walked(void **state)
 {
@@ -248,8 +305,10 @@ int main(void)
         cmocka_unit_test(derivatives_are_those_of_the_value),
         cmocka_unit_test(volumes_interpolate_their_values),
         cmocka_unit_test(volumes_are_walked),
+        cmocka_unit_test(volumes_as_flat_as_may_be_are_walked),
         cmocka_unit_test(volumes_that_make_no_sense_are_refused),
         cmocka_unit_test(the_particles_field_is_the_sum_over_all),
+        cmocka_unit_test(the_particles_field_on_a_grid_is_walked),
         cmocka_unit_test(the_particles_field_is_walked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

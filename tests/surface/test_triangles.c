@@ -2,6 +2,8 @@
 #include "fixture.h"
 
 #include "sim/surface/polygons.h"
+#include "sim/surface/triangles.h"
+#include "sim/surface/volume_field.h"
 
 static SurfaceRequest on_triangles(const LevelField *field, double area, double points)
 {
@@ -68,6 +70,30 @@ static void threads_make_no_difference(void **state)
     assert_memory_equal(points[0].point, points[1].point, points[0].count * sizeof *points[0].point);
     surface_points_free(&points[0]);
     surface_points_free(&points[1]);
+}
+
+/* Of a field as fine as may be; and of one whose axes differ, each by its own. */
+static void cells_are_as_fine_as_memory_allows(void **state)
+{
+    (void)state;
+    const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
+    const LevelField coarse = level_gyroid(low, high, 1), fine = level_gyroid(low, high, 1e-3);
+    SurfaceRequest request = on_triangles(&coarse, 1, 1);
+    const float value[8] = {0};
+    const VolumeData volume = {{2, 2, 2}, {0, 0, 0}, {1e-9, 1, 1}, value};
+    LevelField flat;
+    int size[3];
+    double cell[3];
+    assert_true(triangles_grid(&request, size, cell) == 1 && size[0] == 32 + 3);
+    request.field = &fine;
+    const double times = triangles_grid(&request, size, cell), values = (double)size[0] * size[1] * size[2];
+    assert_true(times > 40 && values <= 0x1p28 && values > 0x1p28 / 1.4);
+    check_near(cell[2] / (times * fine.march[2]), 1, 2e-3, "larger cells");
+    request.cell = 1e-4; /* stays: who named it is told */
+    assert_true(triangles_grid(&request, size, cell) == 1 && size[0] == 10003);
+    assert_true(level_volume(&volume, VOLUME_TRILINEAR, &flat, NULL));
+    request = on_triangles(&flat, 1, 1);
+    assert_true(triangles_grid(&request, size, cell) == 1 && size[0] == 5 && size[1] == 5);
 }
 
 /* So thin that there is no point: said, and nothing is touched. */
@@ -152,6 +178,7 @@ int main(void)
         cmocka_unit_test(triangles_get_points_by_area),
         cmocka_unit_test(an_open_surface_stays_open),
         cmocka_unit_test(threads_make_no_difference),
+        cmocka_unit_test(cells_are_as_fine_as_memory_allows),
         cmocka_unit_test(too_thin_for_a_point),
         cmocka_unit_test(polygons_are_even_whatever_their_triangles),
     };

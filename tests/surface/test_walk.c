@@ -54,6 +54,88 @@ static void walks_become_uniform(void **state)
                  bound);
 }
 
+/* One step from (R, 0, 0): the tangent leads outwards by step^2 / R on average, which the drift takes back.
+   All places are close enough here, so Newton's method does nothing. */
+static void the_drift_keeps_walkers_at_their_distance(void **state)
+{
+    (void)state;
+    enum { WALKERS = 40000 };
+    static float place[3][WALKERS];
+    static uint32_t taken[WALKERS];
+    static SurfacePoint out[WALKERS];
+    const double radius = 0.5, step = 0.05;
+    const LevelField sphere = level_sphere(origin, radius);
+    const Walkers walkers = {WALKERS, {place[0], place[1], place[2]}, taken};
+    Walk walk = {.field = &sphere, .walkers = &walkers, .low = {-9, -9, -9}, .high = {9, 9, 9}, .count = 1};
+    walk.step = (float)step;
+    walk.close = 9;
+    walk.reach = 9;
+    walk.key = philox_key(5);
+    walk.out = out;
+    for (int i = 0; i < WALKERS; i++)
+        place[0][i] = (float)radius;
+    sphere.kind->walk[lanes_wide()](&walk, 0, WALKERS);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < WALKERS; i++) {
+        const float *p = out[i].position;
+        const double off = sqrt((double)(p[0] * p[0] + p[1] * p[1] + p[2] * p[2])) - radius;
+        sum += off;
+        squares += off * off;
+    }
+    const double error = sqrt(squares) / WALKERS; /* step^2 / R / sqrt(walkers) */
+    check_near(error, step * step / radius / sqrt(WALKERS), 0.1 * error, "standard error");
+    check_near(sum / WALKERS, 0, 4 * error, "mean distance from the sphere");
+}
+
+/* A sphere by the root of the distance, over which Newton's method leaps from d to -d for ever. */
+LANES_INLINE void leaping_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    (void)field;
+    const Lanes r = lanes_sqrt(p->x * p->x + p->y * p->y + p->z * p->z), d = lanes(0.5F) - r;
+    const Lanes root = lanes_sqrt(lanes_most(lanes_abs(d), lanes(1e-9F))), slope = lanes(-0.5F) / root / r;
+    *out = (LaneSample){lanes_signed(root, d), slope * p->x, slope * p->y, slope * p->z, lanes(2) * slope};
+}
+
+LEVEL_KIND(leaping)
+
+/* The part of all steps that walkers took; how far their points are from the sphere. */
+static double part_taken(bool no_bisection, double *worst)
+{
+    enum { WALKERS = 64, STEPS = 40 };
+    float place[3][WALKERS] = {{0}};
+    uint32_t taken[WALKERS] = {0};
+    SurfacePoint out[WALKERS * STEPS];
+    const LevelField field = {.kind = &leaping_kind};
+    const Walkers walkers = {WALKERS, {place[0], place[1], place[2]}, taken};
+    Walk walk = {.field = &field, .walkers = &walkers, .low = {-1, -1, -1}, .high = {1, 1, 1}, .step = 0.01F};
+    walk.close = 1e-5F;
+    walk.reach = 0.06F;
+    walk.no_bisection = no_bisection;
+    walk.count = STEPS;
+    walk.out = out;
+    for (int i = 0; i < WALKERS; i++)
+        place[0][i] = 0.5F;
+    field.kind->walk[lanes_wide()](&walk, 0, WALKERS);
+    double sum = 0;
+    for (int i = 0; i < WALKERS; i++)
+        sum += taken[i];
+    for (int i = 0; i < WALKERS * STEPS; i++) {
+        const float *p = out[i].position;
+        *worst = fmax(*worst, fabs(sqrt((double)(p[0] * p[0] + p[1] * p[1] + p[2] * p[2])) - 0.5));
+    }
+    return sum / (WALKERS * STEPS);
+}
+
+static void bisection_finds_what_newton_does_not(void **state)
+{
+    (void)state;
+    double worst = 0;
+    const double without = part_taken(true, &worst), with = part_taken(false, &worst);
+    if (!(without < 0.2 && with > 0.95))
+        fail_msg("%g of all steps were taken without bisection, %g with it", without, with);
+    check_near(worst, 0, 1e-5, "distance from the sphere");
+}
+
 /* A whole set over 100 equal patches; its size and the area; the distance of each point. */
 static void check_set(const LevelField *field, double area, Patch *patch, double step)
 {
@@ -61,11 +143,10 @@ static void check_set(const LevelField *field, double area, Patch *patch, double
     SurfaceRequest request = request_for(field, area, 1e6);
     request.step = step;
     const SurfaceResult result = sample(&request, &points);
-    assert_true(result.reached && result.note[0] == '\0');
+    assert_true(result.reached && result.lack[0] == '\0' && result.note[0] == '\0');
     assert_int_equal(result.stayed, 0);
     check_near(result.area / area, 1, 0.02, "area by lines");
-    check_near(result.density / request.density, 1, 1e-3, "density by spheres");
-    check_near((double)points.count / 1e6, 1, 0.02, "points");
+    check_near((double)points.count / request.sets / area / request.density, 1, 0.02, "density");
     check_near(evenness(points.point, points.count, 1, patch, 10).worst, 0, 0.1,
                "the worst of 100 patches"); /* 62,500 walkers: three standard errors of 625 */
     for (size_t i = 0; i < points.count; i += 7) {
@@ -89,6 +170,23 @@ static void a_set_is_uniform_and_as_dense_as_asked(void **state)
                      torus = level_torus(origin, 1e-3 * RING_MM, 1e-3 * TUBE_MM);
     check_set(&sphere, M_PI, sphere_patch, 0);
     check_set(&torus, torus_area, torus_patch, 0.05);
+}
+
+/* Several sheets of it are in each counting sphere, of which the known places tell nothing. */
+static void what_is_folded_finely_is_as_dense_as_asked(void **state)
+{
+    (void)state;
+    const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, period = 0.05;
+    const LevelField field = level_gyroid(low, high, period);
+    const double area = 3.0915 / period; /* Schoen 1970: 3.0915 of a unit cell */
+    SurfacePoints points = {0};
+    const SurfaceRequest request = request_for(&field, area, 3e5);
+    const SurfaceResult result = sample(&request, &points);
+    check_near((double)points.count / request.sets / area / request.density, 1, 0.05, "density");
+    check_near(result.density / request.density, 1, 1e-3, "density that is said");
+    assert_true(result.reached);
+    assert_non_null(strstr(result.note, "its points are counted by its area: spheres on it hold "));
+    surface_points_free(&points);
 }
 
 static void the_same_seed_gives_the_same_bits(void **state)
@@ -158,7 +256,7 @@ LEVEL_KIND(three)
 static void separate_parts_all_have_their_share(void **state)
 {
     (void)state;
-    const LevelField field = {&three_kind, {-1, -1, -1}, {1, 1, 1}, 1, 0.01, 0.02, {{0}}};
+    const LevelField field = {&three_kind, {-1, -1, -1}, {1, 1, 1}, 1, 0.01, {0.02, 0.02, 0.02}, {{0}}};
     const double area = 4 * M_PI * (0.16 + 0.09 + 0.01);
     SurfacePoints points = {0};
     const SurfaceRequest request = request_for(&field, area, 1e6);
@@ -209,6 +307,22 @@ static void a_surface_ends_at_its_bounds(void **state)
     surface_points_free(&points);
 }
 
+/* Steps as long as the slice is wide leave it, nearly all of them. */
+static void a_walk_that_does_not_move_is_said(void **state)
+{
+    (void)state;
+    const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, up[3] = {0, 1, 0};
+    const LevelField field = level_plane(low, high, origin, up);
+    SurfacePoints points = {0};
+    SurfaceRequest request = request_for(&field, 1, 1e5);
+    request.step = 2;
+    const SurfaceResult result = sample(&request, &points);
+    assert_true(result.reached);
+    assert_non_null(strstr(result.note, " % of all steps found no way along it: take a smaller step"));
+    check_near((double)points.count / 1e5, 1, 0.03, "points");
+    surface_points_free(&points);
+}
+
 /* A slice whose points take their values from another field; and appended to what is there. */
 static void points_take_their_value_from_a_field(void **state)
 {
@@ -240,11 +354,15 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walks_become_uniform),
+        cmocka_unit_test(the_drift_keeps_walkers_at_their_distance),
+        cmocka_unit_test(bisection_finds_what_newton_does_not),
         cmocka_unit_test(a_set_is_uniform_and_as_dense_as_asked),
+        cmocka_unit_test(what_is_folded_finely_is_as_dense_as_asked),
         cmocka_unit_test(the_same_seed_gives_the_same_bits),
         cmocka_unit_test(lanes_have_the_same_bits_at_any_width),
         cmocka_unit_test(separate_parts_all_have_their_share),
         cmocka_unit_test(a_surface_ends_at_its_bounds),
+        cmocka_unit_test(a_walk_that_does_not_move_is_said),
         cmocka_unit_test(points_take_their_value_from_a_field),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

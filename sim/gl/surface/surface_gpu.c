@@ -19,6 +19,9 @@ enum {
     GROUPS_MOST = 32768 /* of a dispatch: an axis may have 65,535 */
 };
 
+_Static_assert(WALK_NEWTON_STEPS == NEWTON_STEPS && WALK_HALVINGS == HALVINGS,
+               "a step is the same on CPU and GPU");
+
 static const size_t POINT = sizeof(SurfacePoint);
 
 /* Such a buffer may begin anywhere that a binding may: no driver asks for more. */
