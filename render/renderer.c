@@ -353,14 +353,17 @@ static bool is_over_all(const Frame *frame)
     return frame->slab > 0;
 }
 
-/* Frame.over_depth. */
-static unsigned draw_over_depth(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+/* Fills in the frame's over_depth and what is said of it. */
+static void draw_over_depth(Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
 {
     const bool overlays = !is_over_all(frame) && overlays_any(&renderer->overlays);
     Frame depths = *frame;
     if (!draws_front(renderer) || (!overlays && !has_edges(renderer, frame)))
-        return 0;
-    const Target target = over_depth_begin(&renderer->over, frame->target);
+        return;
+    Target target;
+    frame->over_lacks = !over_depth_begin(&renderer->over, frame->target, &target);
+    if (frame->over_lacks)
+        return;
     depths.target = &target;
     depths.depths = true;
     if (overlays)
@@ -370,7 +373,8 @@ static unsigned draw_over_depth(Renderer *renderer, const ParticleBuffers *parti
         {
             edges_draw(&renderer->edges, &depths);
         }
-    return target.depth;
+    frame->over_depth = target.depth;
+    frame->over_coarse = overlays && overlays_unfinished(&renderer->overlays);
 }
 
 /* Behind the view: what lies over it, and what of the view lies over that. */
@@ -521,7 +525,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         {
             solids_draw(renderer->solids, &frame);
         }
-    frame.over_depth = draw_over_depth(renderer, particles, &frame);
+    draw_over_depth(renderer, particles, &frame);
     if (renderer->view) {
         view_draw(renderer->view, particles, &frame);
         if (renderer->def.legend) /* which waits for what it tells */

@@ -39,13 +39,14 @@ static bool measure(const Plan *plan, Error *error)
     static PointsFigures figures;
     static Reference reference;
     const size_t asked = plan->settings.particles;
-    if (args->output)
-        return error_set(error, "slosh bench: the table %s has no chart; leave -o out", plan->table->name);
     if ((args->json && !json_file_check(args->json, error)) ||
         !reference_load(plan->table->reference, &reference, error) ||
         !points_sampling((double)(asked ? asked : USUAL_POINTS), &figures, error) ||
         !render(plan, &figures, error))
         return false;
+    if (!(points_shown(&figures.rendering) > 0))
+        return error_set(error, "slosh bench: no point of %s was shown, or memory was short to count them",
+                         figures.rendering.scene);
     if (!args->quiet)
         points_print(&figures, &reference, stdout);
     return !args->json || points_write_json(&figures, args->json, error);
@@ -54,6 +55,10 @@ static bool measure(const Plan *plan, Error *error)
 int bench_points(const Plan *plan)
 {
     Error error = {{0}};
+    if (plan->args->output) {
+        fprintf(stderr, "slosh bench: the table %s has no chart; leave -o out\n", plan->table->name);
+        return EXIT_USAGE;
+    }
     if (measure(plan, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);

@@ -54,6 +54,8 @@ typedef struct Frame {
     bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
     unsigned over_depth;       /* GL texture: depths of the target, and of overlays and edges, for a view that
                                   has draw_front; 0: there are none of them */
+    bool over_coarse;          /* and those of overlays are not whole yet: the next picture has others */
+    bool over_lacks;           /* there is no memory for them */
     bool depths;               /* overlays and edges leave their depth, all that is wanted of them */
     unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */

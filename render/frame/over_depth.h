@@ -11,8 +11,9 @@ typedef struct OverDepth {
     int width, height;
 } OverDepth;
 
-/* Depths as the target has them now; the target to draw the others into, which has no colour. */
-Target over_depth_begin(OverDepth *over, const Target *target);
+/* Depths as the target has them now; `to`: the target to draw the others into, which has no colour. False
+   where the driver has no memory for them. */
+bool over_depth_begin(OverDepth *over, const Target *target, Target *to);
 
 void over_depth_destroy(OverDepth *over); /* a zeroed one is allowed */
 

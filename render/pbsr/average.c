@@ -49,26 +49,34 @@ static GLuint make_texture(const Target *target, GLenum format, const char *labe
     GLuint texture;
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glObjectLabel(GL_TEXTURE, texture, -1, label);
+    gl_debug_asks_for_memory(true);
     glTextureStorage2D(texture, 1, format, target->width, target->height);
+    gl_debug_asks_for_memory(false);
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }
 
-static void follow_target(Average *average, const Target *target)
+static bool follow_target(Average *average, const Target *target, Error *error)
 {
     if (average->target_number == target->number)
-        return;
+        return true;
     glDeleteTextures(3, (GLuint[]){average->sum[0], average->sum[1], average->nearest});
+    average->sum[0] = average->sum[1] = average->nearest = average->target_number = 0;
+    gl_debug_errors(); /* what is asked below is of these textures */
     average->nearest = make_texture(target, GL_R32F, "sets' nearest depth");
-    for (int side = 0; side < 2; side++) {
+    for (int side = 0; side < 2; side++)
         average->sum[side] = make_texture(target, GL_RGBA32F, "sets' sum");
+    if (gl_errors_take(0) > 0)
+        return error_set(error, "the GPU has no memory for sums of %d x %d pixels", target->width,
+                         target->height);
+    for (int side = 0; side < 2; side++)
         glNamedFramebufferTexture(average->framebuffer[side], GL_COLOR_ATTACHMENT0, average->sum[side], 0);
-    }
     glNamedFramebufferTexture(average->framebuffer[0], GL_COLOR_ATTACHMENT1, average->nearest, 0);
     glNamedFramebufferDrawBuffers(average->framebuffer[0], 2,
                                   (GLenum[]){GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1});
     average->target_number = target->number;
+    return true;
 }
 
 /* Where the fluid may be seen, at least a pixel; or the whole picture. */
@@ -176,9 +184,10 @@ static void fill_block(const Average *average, const Frame *frame, const Average
 bool average_begin(Average *average, const Frame *frame, const AverageLook looks[], bool whole, Error *error)
 {
     static const float nothing[4] = {0};
-    follow_target(average, frame->target);
-    follow_part(average, frame, whole);
     average->count = 0;
+    if (!follow_target(average, frame->target, error))
+        return false;
+    follow_part(average, frame, whole);
     average->split = frame->over_depth != 0;
     if (!follow_sets(average, error))
         return false;

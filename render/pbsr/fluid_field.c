@@ -78,10 +78,12 @@ static void read_positions(FluidField *fluid, const FluidFieldJob *job, float sc
     }
 }
 
-static void read_values(FluidField *fluid, const ParticleBuffers *particles, Scalar scalar)
+/* Whether all are numbers. */
+static bool read_values(FluidField *fluid, const ParticleBuffers *particles, Scalar scalar)
 {
     const ParticleAttribute *from = scalar == SCALAR_FLUID ? &particles->fluid : &particles->scalar[scalar];
     const size_t words = from->stride / sizeof(float);
+    bool all = true;
     if (from->buffer)
         read_raw(fluid, from, particles->count);
     for (size_t i = 0; i < fluid->count; i++) {
@@ -92,8 +94,10 @@ static void read_values(FluidField *fluid, const ParticleBuffers *particles, Sca
             memcpy(scalar == SCALAR_FLUID ? (void *)&number : (void *)&value, at, sizeof value);
         if (from->buffer && scalar == SCALAR_FLUID)
             value = (float)number;
-        fluid->value[i] = fabsf(value) < 1e30F ? value : 0;
+        fluid->value[i] = fabsf(value) < 1e30F ? value : NAN;
+        all = all && fabsf(value) < 1e30F;
     }
+    return all;
 }
 
 /* ---- the grid ---- */
@@ -142,32 +146,54 @@ static bool reserve_cells(FluidField *fluid, const FluidFieldJob *job)
 
 typedef struct Dividing {
     float *sums;
-    const float *field;
+    const float *known, *field;
 } Dividing;
 
 static void divide(void *context, size_t begin, size_t end)
 {
     const Dividing *dividing = context;
     for (size_t i = begin; i < end; i++)
-        dividing->sums[i] = dividing->field[i] > 0 ? dividing->sums[i] / dividing->field[i] : 0;
+        dividing->sums[i] = dividing->known[i] > 0   ? dividing->sums[i] / dividing->known[i]
+                            : dividing->field[i] > 0 ? NAN
+                                                     : 0;
+}
+
+/* F, or with `scalar` that of the particles that have a number, and the sum of those. */
+static bool sum_of(FluidField *fluid, const FluidFieldJob *job, bool scalar, float *field, float *weighted,
+                   Error *error)
+{
+    const FieldParticles some = {fluid->count, fluid->position, scalar ? fluid->value : NULL,
+                                 job->particles->support_radius};
+    return field_sum(&some, &fluid->grid, parallel_processors(), &fluid->slabs, field, weighted, error);
+}
+
+/* F comes with the first mean, where all have a number. */
+static bool sum_mean(FluidField *fluid, const FluidFieldJob *job, int m, Error *error)
+{
+    const size_t cells = volume_grid_cells(&fluid->grid);
+    const bool whole = read_values(fluid, job->particles, job->scalar[m]);
+    if (!whole && !room((void **)&fluid->known, &fluid->known_cells, cells, sizeof(float)))
+        return error_set(error, "no memory for the mean of particles without a number");
+    if (!whole && m == 0 && !sum_of(fluid, job, false, fluid->field, NULL, error))
+        return false;
+    if (!sum_of(fluid, job, true,
+                !whole   ? fluid->known
+                : m == 0 ? fluid->field
+                         : NULL,
+                fluid->mean[m], error))
+        return false;
+    Dividing dividing = {fluid->mean[m], whole ? fluid->field : fluid->known, fluid->field};
+    parallel_ranges(parallel_processors(), cells, PART, divide, &dividing);
+    return true;
 }
 
 static bool sum(FluidField *fluid, const FluidFieldJob *job, Error *error)
 {
-    const FieldParticles all = {fluid->count, fluid->position, fluid->value, job->particles->support_radius};
-    const int threads = parallel_processors();
     if (job->means == 0)
-        memset(fluid->value, 0, fluid->count * sizeof *fluid->value);
-    for (int m = 0; m < job->means || m == 0; m++) {
-        if (job->means > 0)
-            read_values(fluid, job->particles, job->scalar[m]);
-        if (!field_sum(&all, &fluid->grid, threads, &fluid->slabs, m == 0 ? fluid->field : NULL,
-                       job->means > 0 ? fluid->mean[m] : NULL, error))
+        return sum_of(fluid, job, false, fluid->field, NULL, error);
+    for (int m = 0; m < job->means; m++)
+        if (!sum_mean(fluid, job, m, error))
             return false;
-        Dividing dividing = {fluid->mean[m], fluid->field};
-        if (job->means > 0)
-            parallel_ranges(threads, volume_grid_cells(&fluid->grid), PART, divide, &dividing);
-    }
     return true;
 }
 
@@ -233,6 +259,7 @@ void fluid_field_free(FluidField *fluid)
     free(fluid->position);
     free(fluid->raw);
     free(fluid->value);
+    free(fluid->known);
     free(fluid->kept);
     free(fluid->field);
     for (int m = 0; m < FLUID_MEANS_MAX; m++)

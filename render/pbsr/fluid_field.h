@@ -17,13 +17,15 @@ typedef struct FluidField {
     float *field;    /* F */
     int means;
     Scalar scalar[FLUID_MEANS_MAX]; /* of which there are */
-    float *mean[FLUID_MEANS_MAX];   /* sum V W s / F; 0 where F is 0 */
+    float *mean[FLUID_MEANS_MAX];   /* sum V W s / F, of particles where s is a number; no number where only
+                                       others are, 0 where F is 0 */
     /* what it is made with */
     FieldSlabs slabs;
     size_t count;                  /* of the particles that count */
     float *position, *raw, *value; /* 4 of each of them; as they were read; the scalar of each */
+    float *known;                  /* F of the particles that have a number, where some have none */
     uint32_t *kept;                /* which of all they are */
-    size_t sizes[4], cells, mean_cells[FLUID_MEANS_MAX]; /* what there is room for */
+    size_t sizes[4], cells, known_cells, mean_cells[FLUID_MEANS_MAX]; /* what there is room for */
 } FluidField;
 
 typedef struct FluidFieldJob {

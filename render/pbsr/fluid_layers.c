@@ -19,6 +19,35 @@ typedef struct Making {
     bool failed[PBSR_LAYERS_MAX];
 } Making;
 
+/* Between the eight values around a place, given in values from the first, or those of them that are numbers.
+ */
+static float value_at(const FluidField *fluid, const float *values, const double index[3])
+{
+    const int *size = fluid->grid.size;
+    size_t first[3];
+    double part[3], sum = 0, known = 0;
+    bool all = true;
+    for (int k = 0; k < 3; k++) {
+        const double at = fmax(0, fmin(index[k], size[k] - 1.0)), low = fmin(floor(at), fmax(size[k] - 2, 0));
+        first[k] = (size_t)low;
+        part[k] = at - low;
+    }
+    for (unsigned c = 0; c < 8; c++) {
+        double weight = 1;
+        size_t at[3];
+        for (int k = 0; k < 3; k++) {
+            const bool next = c >> k & 1;
+            weight *= next ? part[k] : 1 - part[k];
+            at[k] = first[k] + (next && first[k] + 1 < (size_t)size[k]);
+        }
+        const double value = (double)values[at[0] + (size_t)size[0] * (at[1] + (size_t)size[1] * at[2])];
+        all = all && !isnan(value);
+        known += isnan(value) ? 0 : weight;
+        sum += isnan(value) ? 0 : weight * value;
+    }
+    return (float)(all ? sum : sum / known);
+}
+
 /* ---- where values cross a level ---- */
 
 static void set_vertex(const Making *making, const IsoMesh *mesh, size_t v, const float *values, bool ends,
@@ -34,6 +63,8 @@ static void set_vertex(const Making *making, const IsoMesh *mesh, size_t v, cons
         out->normal[k] /= (float)fluid->side[k];
     }
     out->value = making->color ? isosurface_value(mesh, v, making->color) : 0;
+    if (isnan(out->value))
+        out->value = value_at(fluid, making->color, index);
     out->inside = ends ? isosurface_value(mesh, v, fluid->field) - FLUID_LEAST : 1;
 }
 
@@ -55,30 +86,6 @@ static bool make_isosurface(const Making *making, const float *values, float lev
 }
 
 /* ---- slices ---- */
-
-/* Between the eight values around a place, given in values from the first. */
-static float value_at(const FluidField *fluid, const float *values, const double index[3])
-{
-    const int *size = fluid->grid.size;
-    size_t first[3];
-    double part[3], sum = 0;
-    for (int k = 0; k < 3; k++) {
-        const double at = fmax(0, fmin(index[k], size[k] - 1.0)), low = fmin(floor(at), fmax(size[k] - 2, 0));
-        first[k] = (size_t)low;
-        part[k] = at - low;
-    }
-    for (unsigned c = 0; c < 8; c++) {
-        double weight = 1;
-        size_t at[3];
-        for (int k = 0; k < 3; k++) {
-            const bool next = c >> k & 1;
-            weight *= next ? part[k] : 1 - part[k];
-            at[k] = first[k] + (next && first[k] + 1 < (size_t)size[k]);
-        }
-        sum += weight * (double)values[at[0] + (size_t)size[0] * (at[1] + (size_t)size[1] * at[2])];
-    }
-    return (float)sum;
-}
 
 /* Corners of squares on the plane, as far apart as values are. */
 static bool make_slice(const Making *making, int axis, double level, Layer *out)
@@ -230,11 +237,13 @@ float fluid_layers_value(const FluidLayers *layers, const float *values, const d
     return value_at(fluid, values, index);
 }
 
-float fluid_layers_color(const FluidLayers *layers, const double place[3])
+bool fluid_layers_color(const FluidLayers *layers, const double place[3], float *value)
 {
+    *value = NAN;
     if (!layers->color || !(fluid_layers_value(layers, layers->fluid.field, place) >= FLUID_LEAST))
-        return NAN;
-    return fluid_layers_value(layers, layers->color, place);
+        return false;
+    *value = fluid_layers_value(layers, layers->color, place);
+    return true;
 }
 
 void fluid_layers_free(FluidLayers *layers)

@@ -23,8 +23,9 @@ bool fluid_layers_make(FluidLayers *layers, const PbsrDef *def, const ParticleBu
 /* Between the values of the field or of a mean, at a place in the box, m. */
 float fluid_layers_value(const FluidLayers *layers, const float *values, const double place[3]);
 
-/* What colours go by there; no number where there is no fluid, or no layer needs it. */
-float fluid_layers_color(const FluidLayers *layers, const double place[3]);
+/* What colours go by there, no number where no particle has one; false where there is no fluid, or no layer
+   needs it. */
+bool fluid_layers_color(const FluidLayers *layers, const double place[3], float *value);
 
 void fluid_layers_free(FluidLayers *layers); /* a zeroed one is allowed */
 

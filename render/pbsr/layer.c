@@ -95,7 +95,9 @@ static LayerShare share_of(Sharing *sharing, float size, float low, float high)
     const float expected = (float)layer->density * size / (sight->pixel * nearest * nearest);
     if (expected > EXPECTED_MOST)
         note_beyond(sharing, expected / EXPECTED_MOST);
-    return (LayerShare){expected < EXPECTED_MOST ? expected : EXPECTED_MOST, nearest}; /* NaN: many, unseen */
+    if (!(expected > 0))
+        return (LayerShare){0, 1}; /* NaN too: a corner is nowhere, beside particles without a number */
+    return (LayerShare){fminf(expected, EXPECTED_MOST), nearest};
 }
 
 /* False where a point has none. */

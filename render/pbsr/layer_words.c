@@ -177,6 +177,11 @@ size_t layers_lack(const LayersDrawn *drawn, char *text, size_t size)
     if (drawn->sets < drawn->def->repeat)
         add(&words, "%s%d sets, not %d: more points of a layer are not kept (view.pbsr.points)",
             part_from(&words), drawn->sets, drawn->def->repeat);
+    if (drawn->uncounted)
+        add(&words, "%sno memory to count points", part_from(&words));
+    if (drawn->over_lacks)
+        add(&words, "%slines and arrows lie behind all layers: the GPU has no memory for their depths",
+            part_from(&words));
     if (drawn->layers->fluid.enlarged > 1)
         add(&words, "%scells of %.3g spacings, not %.3g, of which there would be too many", part_from(&words),
             drawn->layers->fluid.enlarged * drawn->def->cell, drawn->def->cell);

@@ -17,8 +17,9 @@ typedef struct LayersDrawn {
     const FluidWalk *walks;  /* PBSR_LAYERS_MAX of them */
     const StillLayer *still; /* the same */
     const SolidLayers *solids;
-    bool by_gpu; /* the GPU projects */
-    int sets;    /* of the picture once it is whole */
+    bool by_gpu;                /* the GPU projects */
+    int sets;                   /* of the picture once it is whole */
+    bool uncounted, over_lacks; /* no memory: to count points; for the depths of lines and arrows */
 } LayersDrawn;
 
 /* What of it is not as the def says, parts ended by "; " but for the last; returns the length, 0: all is. */

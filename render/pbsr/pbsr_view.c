@@ -32,6 +32,8 @@ typedef struct LayersFrom {
     unsigned buffer;
     size_t offset;
     Scalar color;
+    double box_size[3], spacing, support;
+    WorldDef world; /* another scene may have as many particles in the same buffer at the same time */
 } LayersFrom;
 
 /* And what a picture's sets are seen by: while it stays more of them are added to the mean. */
@@ -42,8 +44,7 @@ typedef struct PictureFrom {
     float box_to_world[16];
     double range[2];
     unsigned target;
-    SolidDef solids[SOLIDS_MAX]; /* where they are a layer */
-    bool plain, split;
+    bool plain, split, coarse;
 } PictureFrom;
 
 typedef struct PbsrView {
@@ -57,10 +58,11 @@ typedef struct PbsrView {
     Casting casting;
     LayersFrom made;
     PictureFrom drawn;
-    bool valid; /* `made` and `drawn` are of the last picture */
-    int wanted; /* sets of a picture at rest */
-    int there;  /* of them that layers that stay have points for */
-    int added;  /* sets of the last picture that was not counted */
+    bool valid;     /* `made` and `drawn` are of the last picture */
+    int wanted;     /* sets of a picture at rest */
+    int there;      /* of them that layers that stay have points for */
+    int added;      /* sets of the last picture that was not counted */
+    bool uncounted; /* points were asked for, and memory was short */
     char lack[1400], note[1500];
     size_t lacked; /* length of the former */
     Error trouble;
@@ -166,6 +168,10 @@ static void layers_from(LayersFrom *from, const ParticleBuffers *particles, cons
     from->buffer = particles->position.buffer;
     from->offset = particles->position.offset;
     from->color = frame->by_fluid ? SCALAR_FLUID : frame->def->color_by;
+    memcpy(from->box_size, particles->box_size, sizeof from->box_size);
+    from->spacing = particles->spacing;
+    from->support = particles->support_radius;
+    memcpy(&from->world, frame->world, sizeof from->world);
 }
 
 static void picture_from(PictureFrom *from, const LayersFrom *layers, const Frame *frame)
@@ -177,10 +183,9 @@ static void picture_from(PictureFrom *from, const LayersFrom *layers, const Fram
     memcpy(from->box_to_world, frame->box_to_world, sizeof from->box_to_world);
     memcpy(from->range, frame->range, sizeof from->range);
     from->target = frame->target->number;
-    if (solid_layers_number(pbsr_def(frame->def)) >= 0)
-        memcpy(from->solids, frame->world->solids, (size_t)frame->world->solid_count * sizeof *from->solids);
     from->plain = frame->plain;
     from->split = frame->over_depth != 0;
+    from->coarse = frame->over_coarse;
 }
 
 static void turn_of(const PbsrLayer *said, float turn[3][3])
@@ -435,15 +440,18 @@ static void add_wanted(PbsrView *view, double begun, const Frame *frame)
 }
 
 /* Found once a picture. */
-static void find_lacks(PbsrView *view, const PbsrDef *def)
+static void find_lacks(PbsrView *view, const Frame *frame)
 {
+    const PbsrDef *def = pbsr_def(frame->def);
     const LayersDrawn drawn = {.def = def,
                                .layers = &view->layers,
                                .walks = view->steps,
                                .still = view->still,
                                .solids = &view->solids,
                                .by_gpu = view->project.program != 0,
-                               .sets = view->wanted};
+                               .sets = view->wanted,
+                               .uncounted = view->uncounted,
+                               .over_lacks = frame->over_lacks};
     view->lacked = layers_lack(&drawn, view->lack, sizeof view->lack);
 }
 
@@ -460,13 +468,12 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     }
     const int before = view->average.count;
     add_wanted(view, begun, frame);
-    find_lacks(view, pbsr_def(frame->def));
-    average_show_back(&view->average, frame);
     if (!frame->counts)
         view->added = view->average.count - before;
-    else if (!points_count(&view->layers, view->steps, view->still, &view->solids, &view->average.sight,
-                           view->added, frame))
-        error_set(&view->trouble, "no memory to count points");
+    view->uncounted = frame->counts && !points_count(&view->layers, view->steps, view->still, &view->solids,
+                                                     &view->average.sight, view->added, frame);
+    find_lacks(view, frame);
+    average_show_back(&view->average, frame);
 }
 
 static void draw_front(void *state, const Frame *frame)

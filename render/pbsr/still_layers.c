@@ -286,8 +286,7 @@ static unsigned paint(const StillLayer *still, LayerPoint *point, unsigned numbe
         const double *row = still->to_box[i];
         place[i] = row[0] * (double)at[0] + row[1] * (double)at[1] + row[2] * (double)at[2] + row[3];
     }
-    point->value = fluid_layers_color(still->paint, place);
-    if (isfinite(point->value))
+    if (fluid_layers_color(still->paint, place, &point->value))
         return number;
     const float n[3] = {point->normal[0], point->normal[1], point->normal[2]};
     for (int i = 0; i < 3; i++)

@@ -170,7 +170,10 @@ class Tables(Case):
         pixel = (20 * math.tan(math.radians(2.5)) / 128) ** 2
         wanted = 8 * math.log(2) * 4 * math.pi * 0.3 ** 2 / pixel
         self.assertLess(abs(found['rendering']['points'] / wanted - 1), 0.03)
-        self.slosh_out('bench', '--table', 'paper001', '-o', 'c.svg', code=1)
+        self.slosh_out('bench', '--table', 'paper001', '-o', 'c.svg', code=2)
+        done = self.slosh_out('bench', '--table', 'paper001', '--particles', '2000', '--size', '64x64', '--frames', '1',
+                              '--set', 'view.pbsr.layers=[{of: sphere, level: 0.3, opacity: 0}]', code=1)
+        self.assertIn('no point of', done.stderr)
 
     def test_a_table_of_one_backend(self):
         done = self.slosh_out('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--frames', '1', '--size', '64x64')

@@ -793,6 +793,125 @@ static void a_cloud_in_pieces_is_the_same(void **unused)
     scenery_free(&scenery);
 }
 
+/* Of another world, drawn by the same renderer of the same state, it is that world's picture. */
+static void another_world_is_another_picture(void **unused)
+{
+    (void)unused;
+    static uint8_t drawn[BYTES], fresh[BYTES];
+    Scenery scenery = wave();
+    Error error;
+    for (int what = 0; what < 2; what++) {
+        ViewDef def = pbsr_view(2);
+        WorldDef world = bare_world();
+        add_layer(&def, what ? PBSR_SOLIDS : PBSR_SURFACE, 0.5, 0.9, 0);
+        def.color_by = SCALAR_FLUID;
+        world.solid_count = 1;
+        world.solids[0] =
+            (SolidDef){.kind = SOLID_SPHERE, .centre = {0.2, 0.5, 0}, .radius = 0.3, .axis = {0, 1, 0}};
+        Renderer *renderer = renderer_for(&def, &world);
+        renderer_draw(renderer, &scenery.buffers, NULL);
+        renderer_read(renderer, drawn);
+        for (int i = 0; i < FLUIDS_MAX; i++)
+            world.fluids[i].color[0] = what ? world.fluids[i].color[0] : 1;
+        world.solids[0].radius = what ? 0.2 : 0.3;
+        picture_of(&def, &world, &scenery, fresh);
+        assert_true(difference(drawn, fresh) > 1);
+        assert_true(renderer_set_def(renderer, &def, &world, &error));
+        renderer_draw(renderer, &scenery.buffers, NULL);
+        renderer_read(renderer, drawn);
+        assert_memory_equal(drawn, fresh, BYTES);
+        renderer_destroy(renderer);
+    }
+    scenery_free(&scenery);
+}
+
+/* As wave, without the speed of each particle but every n-th. */
+static Scenery nameless(size_t every)
+{
+    Particles *particles = particles_wave(SPACING);
+    for (size_t i = 0; i < particles->count; i++) {
+        particles->position[4 * i + 3] = (float)(SPACING * SPACING * SPACING);
+        particles->speed[i] = every == 0 || i % every ? NAN : 1;
+    }
+    const ParticleBuffers state = box_state(particles->count, SPACING);
+    return scenery_of(particles, &state);
+}
+
+/* Particles without a number are not in the mean of those that have one; where none has, it shows. */
+static void no_number_is_no_zero(void **unused)
+{
+    (void)unused;
+    static uint8_t all[BYTES], some[BYTES], none[BYTES];
+    Scenery scenery = nameless(1), third = nameless(3), no = nameless(0);
+    ViewDef def = pbsr_view(8);
+    def.color_by = SCALAR_SPEED;
+    def.range_auto = false;
+    def.range[0] = 0;
+    def.range[1] = 2;
+    add_layer(&def, PBSR_SLICE_Z, 0.1, 0.9, 0);
+    picture_of(&def, NULL, &scenery, all);
+    picture_of(&def, NULL, &third, some);
+    picture_of(&def, NULL, &no, none);
+    if (difference(all, some) > 0.1)
+        fail_msg("without some numbers the picture differs by %g", difference(all, some));
+    assert_int_equal(pixels_of(all, 255, 0, 203), 0);
+    assert_true(pixels_of(none, 255, 0, 203) > 100); /* average.frag */
+    pbsr_def(&def)->layers[0].of = PBSR_SCALARS + SCALAR_SPEED;
+    picture_of(&def, NULL, &no, none); /* no level anywhere */
+    assert_int_equal(pixels_of(none, 255, 0, 203), 0);
+    scenery_free(&scenery);
+    scenery_free(&third);
+    scenery_free(&no);
+}
+
+/* As a driver without memory for textures of one format. */
+static PFNGLTEXTURESTORAGE2DPROC texture_storage;
+static PFNGLGETERRORPROC get_error;
+static GLenum refused;
+static bool refusing;
+
+static void GLAPIENTRY refuse(GLuint texture, GLsizei levels, GLenum format, GLsizei width, GLsizei height)
+{
+    if (format != refused)
+        texture_storage(texture, levels, format, width, height);
+    refusing = refusing || format == refused;
+}
+
+static GLenum GLAPIENTRY say_refused(void)
+{
+    const bool now = refusing;
+    refusing = false;
+    return now ? GL_OUT_OF_MEMORY : get_error();
+}
+
+static void no_memory_for_textures_is_said(void **unused)
+{
+    (void)unused;
+    static const GLenum formats[] = {GL_RGBA32F, GL_DEPTH_COMPONENT32F};
+    static const char *const words[] = {
+        "the GPU has no memory for sums of 96 x 96 pixels",
+        "lines and arrows lie behind all layers: the GPU has no memory for their depths"};
+    Scenery scenery = wave();
+    for (int i = 0; i < 2; i++) {
+        ViewDef def = pbsr_view(2);
+        def.box = true;
+        Renderer *renderer = renderer_for(&def, NULL);
+        get_error = epoxy_glGetError;
+        texture_storage = epoxy_glTextureStorage2D;
+        epoxy_glGetError = say_refused;
+        epoxy_glTextureStorage2D = refuse;
+        refused = formats[i];
+        renderer_draw(renderer, &scenery.buffers, NULL);
+        epoxy_glGetError = get_error;
+        epoxy_glTextureStorage2D = texture_storage;
+        assert_string_equal(renderer_lacks(renderer), words[i]);
+        renderer_draw(renderer, &scenery.buffers, NULL); /* there is memory again */
+        assert_null(renderer_lacks(renderer));
+        renderer_destroy(renderer);
+    }
+    scenery_free(&scenery);
+}
+
 static void states_that_are_none(void **unused)
 {
     (void)unused;
@@ -841,6 +960,9 @@ int main(void)
         cmocka_unit_test_teardown(a_picture_by_bands_is_the_same, no_gl_errors),
         cmocka_unit_test_teardown(a_cloud_in_pieces_is_the_same, no_gl_errors),
         cmocka_unit_test_teardown(notes_are_whole_in_small_pictures, no_gl_errors),
+        cmocka_unit_test_teardown(another_world_is_another_picture, no_gl_errors),
+        cmocka_unit_test_teardown(no_number_is_no_zero, no_gl_errors),
+        cmocka_unit_test_teardown(no_memory_for_textures_is_said, no_gl_errors),
         cmocka_unit_test_teardown(states_that_are_none, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -2,6 +2,8 @@
    to picture is what would be drawn anew, to the bit. */
 #include "tests/render/trails_fixture.h"
 
+#include "render/pbsr/pbsr_def.h"
+
 enum { WIDE = 240, HIGH = 180, BYTES = 3 * WIDE * HIGH };
 
 typedef struct Show {
@@ -279,6 +281,45 @@ static void pieces_are_few_while_the_camera_moves(void **state)
     }
 }
 
+/* Layers that lie before and behind few pieces are seen anew with all of them. */
+static void layers_see_all_pieces(void **state)
+{
+    (void)state;
+    static uint8_t rgb[2][BYTES], first[BYTES];
+    for (int more = 0; more < 2; more++) {
+        Show show = open_show();
+        text_set(show.def.kind, "pbsr");
+        trails_def(&show.def)->every = 0.001;
+        trails_def(&show.def)->moving = 2000;
+        PbsrDef *own = pbsr_def(&show.def);
+        own->repeat = own->moving = 8;
+        own->layer_count = 1;
+        own->layers[0] = (PbsrLayer){.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.8, .color = {1, 0, 0}};
+        renderer_set_more(show.renderer, more);
+        follow(&show);
+        ParticleBuffers particles;
+        for (int i = 0; i <= 30; i++) {
+            wild(show.movers, 0.026 * i);
+            particles = movers_upload(show.movers, 0.026 * i);
+            renderer_take(show.renderer, &particles, NULL);
+        }
+        renderer_draw(show.renderer, &particles, NULL);
+        show.def.camera_auto = false;
+        show.def.camera = (CameraDef){{1, 1, 2}, {0, 0.4, 0}, 40};
+        follow(&show);
+        renderer_draw(show.renderer, &particles, NULL);
+        renderer_read(show.renderer, first);
+        assert_int_equal(renderer_unfinished(show.renderer), more);
+        for (int i = 0; i < 4 && renderer_unfinished(show.renderer); i++)
+            renderer_draw(show.renderer, &particles, NULL);
+        assert_false(renderer_unfinished(show.renderer));
+        renderer_read(show.renderer, rgb[more]);
+        close_show(&show);
+    }
+    assert_true(pixels_apart(rgb[0], first) > 100);
+    assert_int_equal(pixels_apart(rgb[0], rgb[1]), 0);
+}
+
 static int drawn_pixels(Show *show, const uint8_t *rgb)
 {
     static uint8_t bare[BYTES];
@@ -511,6 +552,7 @@ int main(void)
         TEST(solids_hide_what_is_behind),    TEST(colours_are_those_of_the_time),
         TEST(states_between_pictures_count), TEST(one_goes_and_the_others_stay),
         TEST(cpu_and_gpu_draw_the_same),     TEST(pieces_are_few_while_the_camera_moves),
+        TEST(layers_see_all_pieces),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
