@@ -20,6 +20,7 @@ enum {
     REPLAY = 1 << COMMAND_REPLAY,
     EXPORT = 1 << COMMAND_EXPORT,
     DEVICES = 1 << COMMAND_DEVICES,
+    SCENES = 1 << COMMAND_SCENES,
     INFO = 1 << COMMAND_INFO,
     ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | INFO
 };
@@ -52,6 +53,9 @@ const CommandRow command_rows[] = {
      "OUT.pvd, OUT.vtp, OUT.ply, or of a slice OUT.csv, OUT.vti or OUT.pvd", 256, 192},
     {COMMAND_DEVICES, "devices", "[--watch] [--record FILE] [OPTIONS]",
      "motion devices: which there are, what they say, and how to open them", 0, 0, NULL, 0, 0},
+    {COMMAND_SCENES, "scenes", "[FOLDER] [-o FOLDER] [OPTIONS]",
+     "lists the scenes that come with slosh, or those of a folder; with -o also as pictures", 0, 1, NULL, 0,
+     0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
     {COMMAND_HELP, "help", "[COMMAND|keys|window]", "says what a command does and takes", 0, 0, NULL, 0, 0},
@@ -73,6 +77,7 @@ const HelpTopic help_topics[] = {
 /* clang-format off */
 const OptionRow option_rows[] = {
     {"-o", "OUT", RENDER | RUN | REPLAY | EXPORT, OPTION_TEXT, AT(output), .help = "the file or folder to write"},
+    {"-o", "FOLDER", SCENES, OPTION_TEXT, AT(output), .help = "a folder for a small picture of each scene, and for index.html, which shows them all; a picture that is newer than its scene is kept"},
     {"-o", "OUT", BENCH, OPTION_TEXT, AT(output), .help = "the chart of --table: OUT.svg or OUT.png"},
     {"-o", "DIR", VALIDATE, OPTION_TEXT, AT(output), .help = "a folder for a plot a case, with the reference on it"},
     {"--full", NULL, VALIDATE, OPTION_FLAG, AT(full), .help = "finer, for as long as it takes"},
@@ -156,7 +161,7 @@ const OptionRow option_rows[] = {
     {"--view", "NAME", ALL & ~(VALIDATE | CHART | STABILITY | FIT), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how it is drawn"},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "of the CPU; 0: one a processor"},
     {"--simd", "NAME", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.simd", .help = "instructions of the CPU's sums"},
-    {"--gpu", "N", RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
+    {"--gpu", "N", SCENES | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
     {"--shaders", "DIR", PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | REPLAY, OPTION_TEXT, AT(shaders), .help = "read the shaders from there; play reads them again when they change"},
     {"--device", "file:PATH", PLAY | DEVICES, OPTION_DEVICE, AT(device),
      .help = "a recording of motion devices in place of those that are plugged in"},
@@ -171,9 +176,9 @@ const OptionRow option_rows[] = {
     {"--mapping", "FILE", DEVICES, OPTION_TEXT, AT(mapping), .help = "check such a file, and say in words what devices do by it"},
     {"--write-mapping", "FILE", DEVICES, OPTION_TEXT, AT(write_mapping), .help = "write what devices do into a new file, to be changed"},
     {"--watch", NULL, DEVICES, OPTION_FLAG, AT(watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
-    {"--json", "FILE", ALL | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too; -: on standard output"},
-    {"--quiet", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
-    {"--help", NULL, ALL | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
+    {"--json", "FILE", ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too; -: on standard output"},
+    {"--quiet", NULL, ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
     {0},
 };
 /* clang-format on */

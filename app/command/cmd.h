@@ -17,6 +17,7 @@ int cmd_fit(const Args *args);
 int cmd_replay(const Args *args);
 int cmd_export(const Args *args);
 int cmd_devices(const Args *args);
+int cmd_scenes(const Args *args);
 int cmd_info(const Args *args);
 
 #endif

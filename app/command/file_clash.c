@@ -118,7 +118,10 @@ static void add_outputs(Files *files, const Args *args)
     else if (args->command == COMMAND_FIT && args->scene_count > 0)
         add_fit(files, args);
     else
-        add(files, FILE_REPLACED, "-o", output, args->command == COMMAND_VALIDATE ? "*.svg" : NULL);
+        add(files, FILE_REPLACED, "-o", output,
+            args->command == COMMAND_VALIDATE ? "*.svg"
+            : args->command == COMMAND_SCENES ? "*.@(png|html)"
+                                              : NULL);
     if (args->json && !json_is_stream(args->json))
         add(files, FILE_REPLACED, "--json", args->json, NULL);
     add(files, FILE_REPLACED, "--forces", args->forces, NULL);
@@ -174,7 +177,7 @@ static void add_scenes(Files *files, const Args *args)
             add_recording(files, name);
         else if (args->command == COMMAND_EXPORT)
             add(files, FILE_READ, "the file of snapshots", name, NULL);
-        else if (args->command != COMMAND_VALIDATE)
+        else if (args->command != COMMAND_VALIDATE && args->command != COMMAND_SCENES)
             add_scene(files, args, name);
     }
     if (scene_path_find("scenes", path, NULL)) /* what is read without being named */

@@ -307,6 +307,7 @@ static const char *takes(const CommandRow *row)
            : row->command == COMMAND_EXPORT   ? "snapshot file"
            : row->command == COMMAND_VALIDATE ? "case"
            : row->command == COMMAND_CHART    ? "scene or case"
+           : row->command == COMMAND_SCENES   ? "folder"
                                               : "scene";
 }
 

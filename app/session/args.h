@@ -33,6 +33,7 @@ typedef enum Command {
     COMMAND_REPLAY, /* `scenes` holds the recording */
     COMMAND_EXPORT, /* `scenes` holds the snapshots */
     COMMAND_DEVICES,
+    COMMAND_SCENES, /* `scenes` holds the folder */
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;

@@ -67,6 +67,7 @@ APP = {
     "playback": "base yaml scene output session",
     "trace": "base yaml scene output",
     "beside": "base scene recording output session playback",
+    "shelf": "base yaml scene output session beside",
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",
     "stability": "base outcome scene session lab",
@@ -75,8 +76,8 @@ APP = {
     "gallery": "base scene session lab",
     "window": "",
     "panel": "probe scene term hand held session window",
-    "play": "base scene recording hand device held output session playback beside lab window panel",
-    "command": "base metric probe outcome yaml scene recording hand device held output session playback beside trace case lab stability fit ablate gallery play",
+    "play": "base scene recording hand device held output session playback beside shelf lab window panel",
+    "command": "base metric probe outcome yaml scene recording hand device held output session playback beside shelf trace case lab stability fit ablate gallery play",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

@@ -1,0 +1,54 @@
+"""The list of scenes: titles, ideas, small pictures and the page that shows them."""
+import json
+import os
+import re
+import subprocess
+
+import command
+from command import CommandTest
+
+SMALL = command.SCENE.replace('spacing: 0.1', 'spacing: 0.25')
+
+
+class Scenes(CommandTest):
+    def listed(self, *arguments):
+        return subprocess.run([command.PROGRAM, 'scenes', *arguments], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+
+    def test_each_scene_that_comes_with_slosh_has_a_title_and_an_idea(self):
+        text = self.listed()
+        self.assertRegex(text, r'(?m)^dam_break +Dam break\n +A column of water, twice as high as wide, whose dam is gone at once\.$')
+        rows = json.loads(self.listed('--json', '-'))
+        self.assertGreater(len(rows), 25)
+        for row in rows:
+            self.assertTrue(row['idea'].endswith('.') and row['title'] != row['name'], row)
+            self.assertTrue(os.path.isabs(row['path']) and os.path.exists(row['path']), row)
+
+    def test_pictures_and_a_page(self):
+        os.mkdir(self.path('own'))
+        self.write('own/one.yaml', '# One <idea>, over\n# two lines. Another sentence.\n' + SMALL)
+        self.write('own/broken.yaml', 'title: "Tools & more"\nbox: {size: 7}\n')
+        code, said = self.slosh('scenes', 'own', '-o', 'out')
+        self.assertEqual(code, 1)
+        self.assertRegex(said, r'(?m)^broken: no picture: own/broken.yaml:2:')
+        self.assertIn('out/index.html: 2 scenes, 1 picture made, 0 kept\n', said)
+        self.assertEqual(sorted(os.listdir(self.path('out'))), ['index.html', 'one.png'])
+        page = self.read('out/index.html').decode()
+        self.assertIn('<b>A small tank</b><br>One &lt;idea>, over two lines.<br><code>slosh one</code>', page)
+        self.assertIn('<b>Tools &amp; more</b>', page)
+        self.assertEqual(re.findall('src="(.*?)"', page), ['one.png'])
+        os.remove(self.path('own/broken.yaml'))
+        before = os.stat(self.path('out/one.png')).st_mtime_ns
+        code, said = self.slosh('scenes', 'own', '-o', 'out')
+        self.assertEqual((code, said.splitlines()[-1]), (0, 'out/index.html: 1 scene, 0 pictures made, 1 kept'))
+        self.assertEqual(os.stat(self.path('out/one.png')).st_mtime_ns, before)
+        os.utime(self.path('out/one.png'), (1e9, 1e9))  # older than its scene
+        self.assertIn('1 picture made, 0 kept', self.slosh('scenes', 'own', '-o', 'out')[1])
+
+    def test_what_is_no_folder_of_scenes(self):
+        os.mkdir(self.path('empty'))
+        for name, words in ('nosuch', 'nosuch: No such file or directory'), ('empty', 'empty: no scene (*.yaml) is there'):
+            self.assertEqual(self.slosh('scenes', name), (2, words + '\n'))
+
+
+if __name__ == '__main__':
+    command.main()
