@@ -23,6 +23,7 @@ typedef enum PlayCommand {
     PLAY_FASTER,
     PLAY_NEXT_SCENE,
     PLAY_PREVIOUS_SCENE,
+    PLAY_SCENES,
     PLAY_NEXT_SCALAR,
     PLAY_NEXT_COLORMAP,
     PLAY_VIEWS,

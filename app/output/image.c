@@ -83,3 +83,21 @@ bool image_write(const Image *image, const char *path, Error *error)
         unlink(path);
     return written;
 }
+
+bool image_read(const char *path, Image *image, Error *error)
+{
+    png_image png = {.version = PNG_IMAGE_VERSION};
+    if (!png_image_begin_read_from_file(&png, path))
+        return error_set(error, "%.300s: %s", path, png.message);
+    png.format = PNG_FORMAT_RGB;
+    const bool room =
+        png.width <= 16384 && png.height <= 16384 && image_create(image, (int)png.width, (int)png.height);
+    if (room && png_image_finish_read(&png, NULL, image->rgb, 0, NULL))
+        return true;
+    error_set(error, "%.300s: %s", path, room ? png.message : "no memory for the picture");
+    if (room)
+        image_destroy(image);
+    else
+        png_image_free(&png);
+    return false;
+}

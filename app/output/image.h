@@ -25,4 +25,7 @@ bool image_write_stream(const Image *image, FILE *stream, const char *name, Erro
 /* Writes the file `path`; on failure none is left. The caller renames if it must appear whole. */
 bool image_write(const Image *image, const char *path, Error *error);
 
+/* Reads a PNG file, of whatever kind its pixels are; false with the reason, and nothing to destroy. */
+bool image_read(const char *path, Image *image, Error *error);
+
 #endif

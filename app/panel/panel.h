@@ -8,6 +8,7 @@
 #include "app/held/hand_post.h"
 #include "app/scene/scene.h"
 #include "app/session/simulator.h"
+#include "app/shelf/cards.h"
 #include "render/ui/ui.h"
 #include "sim/base/stage.h"
 #include "sim/world/step_control.h"
@@ -77,5 +78,9 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
 
 /* All that a user can do, with its keys, in the middle of the picture. */
 void panel_help_draw(Ui *ui, int width, int height);
+
+/* The scenes to choose from, with their pictures, in the middle of the picture. The place of the one that was
+   pressed, or -1. */
+int panel_cards_draw(Ui *ui, int width, int height, const SceneCard *cards, int count);
 
 #endif

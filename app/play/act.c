@@ -114,10 +114,19 @@ static void choose_view(Play *play, const double at[2])
     view_changed(play);
 }
 
+static void show_scenes(Play *play)
+{
+    Error error = {{0}};
+    if (!overlay_toggle_scenes(&play->overlay, &play->model, &error))
+        notice_error(&play->notice, error.message);
+}
+
 static void quit_or_close(Play *play)
 {
     if (play->overlay.help)
         play->overlay.help = false;
+    else if (play->overlay.scenes)
+        show_scenes(play);
     else
         play->quit = true;
 }
@@ -216,6 +225,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_PREVIOUS_SCENE:
         open_neighbour(play, -1);
+        break;
+    case PLAY_SCENES:
+        show_scenes(play);
         break;
     case PLAY_NEXT_SCALAR:
         next_scalar(play);

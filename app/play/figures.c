@@ -135,6 +135,7 @@ void figures_of(const Play *play, PlayFigures *figures)
                              .fullscreen = window_is_fullscreen(play->window),
                              .panel = play->overlay.panel,
                              .help = play->overlay.help,
+                             .scenes = play->overlay.scenes,
                              .gl_errors = gl_debug_errors()};
     snprintf(figures->renderer, sizeof figures->renderer, "%s", window_renderer(play->window));
     add_model(&play->model, figures);

@@ -16,6 +16,7 @@ bool overlay_start(Overlay *overlay, float letters, Error *error)
 
 void overlay_end(Overlay *overlay)
 {
+    cards_close(&overlay->cards);
     panel_destroy(overlay->widgets);
     ui_destroy(overlay->ui);
 }
@@ -58,7 +59,7 @@ static bool shows_timeline(const Overlay *overlay, const Model *model)
 
 bool overlay_shown(const Overlay *overlay, const Model *model)
 {
-    return overlay->panel || overlay->help || shows_timeline(overlay, model);
+    return overlay->panel || overlay->help || overlay->scenes || shows_timeline(overlay, model);
 }
 
 float overlay_covered_below(const Overlay *overlay, const Model *model)
@@ -232,6 +233,39 @@ static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFac
         ask_command(asks, (PlayCommand)events.command);
 }
 
+/* One that is pressed opens, and the list has done its work. */
+static void draw_scenes(Overlay *overlay, const Model *model, const OverlayFacts *facts, AskQueue *asks)
+{
+    Ask ask = {.kind = ASK_OPEN};
+    SceneCard *cards = overlay->cards.cards;
+    for (int i = 0; i < overlay->cards.count; i++)
+        cards[i].lit = strcmp(cards[i].path, model->open.scene.path) == 0;
+    const int pressed =
+        panel_cards_draw(overlay->ui, facts->width, facts->height, cards, overlay->cards.count);
+    if (pressed < 0)
+        return;
+    snprintf(ask.text, sizeof ask.text, "%s", cards[pressed].path);
+    ask_add(asks, &ask);
+    ask_command(asks, PLAY_SCENES);
+}
+
+bool overlay_toggle_scenes(Overlay *overlay, const Model *model, Error *error)
+{
+    overlay->scenes = !overlay->scenes;
+    overlay->help &= !overlay->scenes;
+    if (overlay->scenes)
+        return cards_open(&overlay->cards, model->open.scene.path, error);
+    cards_close(&overlay->cards);
+    return true;
+}
+
+bool overlay_follow(Overlay *overlay)
+{
+    const bool more = overlay->scenes && cards_follow(&overlay->cards);
+    overlay->input.now.changed |= more;
+    return more;
+}
+
 /* The widgets, when any of them has changed. */
 static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
@@ -247,6 +281,8 @@ static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *fac
     overlay->watches_probes = events.watches_probes;
     if (overlay->help)
         panel_help_draw(overlay->ui, facts->width, facts->height);
+    if (overlay->scenes)
+        draw_scenes(overlay, model, facts, asks);
     queue_events(&events, asks);
     if (shows_timeline(overlay, model))
         draw_timeline(overlay, model, facts, asks);
@@ -257,7 +293,7 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
 {
     const double now = wall_ms();
     const bool timeline = shows_timeline(overlay, model);
-    const int shown = overlay->panel + 2 * overlay->help + 4 * timeline;
+    const int shown = overlay->panel + 2 * overlay->help + 4 * timeline + 8 * overlay->scenes;
     overlay->height = facts->height;
     if (model->open.simulator)
         simulator_watch(model->open.simulator, overlay->panel && overlay->watches,

@@ -9,11 +9,14 @@
 #include "app/play/ask.h"
 #include "app/play/meter.h"
 #include "app/play/model.h"
+#include "app/shelf/cards.h"
 #include "app/window/window.h"
 
 typedef struct Overlay {
     bool panel, help; /* shown */
-    bool timeline;    /* always shown, not only while paused or near the mouse */
+    bool scenes;      /* the list of scenes is */
+    SceneCards cards;
+    bool timeline; /* always shown, not only while paused or near the mouse */
     Ui *ui;
     Panel *widgets;
     WidgetInput input;
@@ -59,6 +62,13 @@ bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent
 
 /* Draws what is shown. Whether the next picture is to show more of what was done. */
 bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks);
+
+/* Opens or closes the list of scenes. False with the reason why it has no pictures; it is there nevertheless.
+ */
+bool overlay_toggle_scenes(Overlay *overlay, const Model *model, Error *error);
+
+/* Once in a while: whether there is more to show though nothing was done. */
+bool overlay_follow(Overlay *overlay);
 
 /* Whether anything is. */
 bool overlay_shown(const Overlay *overlay, const Model *model);

@@ -141,7 +141,7 @@ static bool run(Session *session, Error *error)
         follow_shaders(play);
         if (!picture_follow_size(&play->picture, play->window, error))
             return false;
-        play->picture.dirty |= notice_changed(&play->notice);
+        play->picture.dirty |= notice_changed(&play->notice) | overlay_follow(&play->overlay);
         if (!play->quit)
             pause_or_draw(play);
     }

@@ -684,6 +684,52 @@ bool ui_button(Ui *ui, const UiField *field, bool lit)
     return pressed;
 }
 
+// The words beside a card's picture.
+static void card_words(Ui *ui, const UiCard *card, const ImRect &box)
+{
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    const float width = box.GetWidth();
+    const ImVec2 title = ui->bold->CalcTextSizeA(ui->bold->FontSize, FLT_MAX, width, card->title);
+    list->AddText(ui->bold, ui->bold->FontSize, box.Min, ImGui::GetColorU32(ImGuiCol_Text), card->title,
+                  nullptr, width);
+    list->AddText(ui->font, ui->font->FontSize, ImVec2(box.Min.x, box.Min.y + title.y),
+                  ImGui::GetColorU32(ImGuiCol_TextDisabled), card->text, nullptr, width);
+}
+
+static float card_words_height(const Ui *ui, const UiCard *card, float width)
+{
+    return ui->bold->CalcTextSizeA(ui->bold->FontSize, FLT_MAX, width, card->title).y +
+           ui->font->CalcTextSizeA(ui->font->FontSize, FLT_MAX, width, card->text).y;
+}
+
+bool ui_card(Ui *ui, const UiCard *card, bool lit)
+{
+    Current current(ui->context);
+    const ImGuiStyle &style = ImGui::GetStyle();
+    const float high = std::floor(5.2F * ui->pixels), wide = std::floor(high * card->shape);
+    const float gap = style.FramePadding.x,
+                right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    if (ui->line_right > 0 && ui->line_right + style.ItemSpacing.x + card->width <= right)
+        ImGui::SameLine();
+    const float words = card_words_height(ui, card, card->width - wide - 3 * gap);
+    ImGui::PushStyleColor(ImGuiCol_Button, style.Colors[lit ? ImGuiCol_ButtonActive : ImGuiCol_WindowBg]);
+    ImGui::PushID(card->id);
+    const bool pressed = ImGui::Button("##card", ImVec2(card->width, std::max(high, words) + 2 * gap));
+    ImGui::PopID();
+    ImGui::PopStyleColor();
+    const ImRect box(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    const ImRect picture(box.Min.x + gap, box.Min.y + gap, box.Min.x + gap + wide, box.Min.y + gap + high);
+    ImDrawList *list = ImGui::GetWindowDrawList();
+    if (card->texture)
+        list->AddImage((ImTextureID)(intptr_t)card->texture, picture.Min, picture.Max);
+    else
+        list->AddRectFilled(picture.Min, picture.Max, ImGui::GetColorU32(ImGuiCol_FrameBg));
+    card_words(ui, card, ImRect(picture.Max.x + gap, picture.Min.y, box.Max.x - gap, picture.Max.y));
+    ui->line_right = box.Max.x;
+    watch(ui, card->id, box, wide + 2 * gap + widest_word(card->title));
+    return pressed;
+}
+
 // The label; the width that is left for the widget.
 static float begin_field(Ui *ui, const UiField *field)
 {

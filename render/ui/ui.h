@@ -105,6 +105,16 @@ typedef struct UiField {
 /* Buttons fill a line, then the next; ui_gap ends it. `lit`: it is in force now. True when pressed. */
 bool ui_button(Ui *ui, const UiField *field, bool lit);
 
+/* A picture with words beside it, as a button of that width: cards fill a line, then the next; ui_gap ends
+   it. True when pressed. */
+typedef struct UiCard {
+    const char *id, *title, *text;
+    unsigned texture; /* a GL texture with its first row at the top; 0: none yet, an empty frame */
+    float shape;      /* width of the picture over its height */
+    float width;      /* pixels, of all of it */
+} UiCard;
+bool ui_card(Ui *ui, const UiCard *card, bool lit);
+
 /* These return true when the user has changed the value. */
 bool ui_checkbox(Ui *ui, const UiField *field, bool *value);
 bool ui_choice(Ui *ui, const UiField *field, int *chosen, const char *const *names); /* NULL ends the names */

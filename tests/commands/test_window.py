@@ -1,4 +1,5 @@
 """The window under a virtual display, driven by real key and mouse events."""
+import glob
 import json
 import os
 import re
@@ -7,6 +8,7 @@ import shutil
 import signal
 import struct
 import subprocess
+import tempfile
 import time
 
 import Xlib.display
@@ -321,6 +323,26 @@ class Keys(Window):
         time.sleep(0.7)
         self.quit()
         self.assertGreater(video_frames(self.path(self.files('mp4')[0])), 10)
+
+    def test_list_of_scenes(self):
+        """A card opens its scene; pictures come from the user's cache, which another process fills."""
+        cache = tempfile.mkdtemp(prefix='slosh-test-')
+        self.addCleanup(shutil.rmtree, cache, ignore_errors=True)
+        drivers = os.environ.get('XDG_CACHE_HOME') or os.path.expanduser('~/.cache')  # its shaders need not be compiled anew
+        self.environment |= {'XDG_CACHE_HOME': cache, 'MESA_SHADER_CACHE_DIR': drivers}
+        self.open('still.yaml')
+        self.keys('space', 'F3')  # nothing else draws
+        before = self.display.colors(self.window)
+        self.wait_for(lambda: self.display.colors(self.window) > before + 50, self.process)  # a picture has come
+        self.assertTrue(glob.glob(os.path.join(cache, 'slosh/scenes-*/scene.png')))
+        self.keys('Escape')
+        self.assertIsNone(self.process.poll())
+        self.keys('ctrl+o')
+        self.at(200, 80)  # the first one: scene.yaml
+        self.xdo('click', 1)
+        self.filled()
+        out = self.quit()
+        self.assertEqual((out['scene'], out['scenes_opened'], out['scenes']), ('./scene.yaml', 2, False))
 
     def test_scenes(self):
         self.write('zz.yaml', STILL.replace('0.4, 0.5', '0.3, 0.5'))

@@ -75,7 +75,7 @@ APP = {
     "ablate": "base metric outcome scene term lab",
     "gallery": "base scene session lab",
     "window": "",
-    "panel": "probe scene term hand held session window",
+    "panel": "probe scene term hand held session shelf window",
     "play": "base scene recording hand device held output session playback beside shelf lab window panel",
     "command": "base metric probe outcome yaml scene recording hand device held output session playback beside shelf trace case lab stability fit ablate gallery play",
 }
