@@ -21,6 +21,7 @@ enum {
     EXPORT = 1 << COMMAND_EXPORT,
     DEVICES = 1 << COMMAND_DEVICES,
     SCENES = 1 << COMMAND_SCENES,
+    NEW = 1 << COMMAND_NEW,
     INFO = 1 << COMMAND_INFO,
     ALL = PLAY | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | INFO
 };
@@ -56,6 +57,8 @@ const CommandRow command_rows[] = {
     {COMMAND_SCENES, "scenes", "[FOLDER] [-o FOLDER] [OPTIONS]",
      "lists the scenes that come with slosh, or those of a folder; with -o also as pictures", 0, 1, NULL, 0,
      0},
+    {COMMAND_NEW, "new", "FILE.yaml [OPTIONS]",
+     "writes the smallest scene, with a comment on each line, to begin with", 1, 1, NULL, 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
     {COMMAND_HELP, "help", "[COMMAND|keys|window]", "says what a command does and takes", 0, 0, NULL, 0, 0},
@@ -177,8 +180,8 @@ const OptionRow option_rows[] = {
     {"--write-mapping", "FILE", DEVICES, OPTION_TEXT, AT(write_mapping), .help = "write what devices do into a new file, to be changed"},
     {"--watch", NULL, DEVICES, OPTION_FLAG, AT(watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
     {"--json", "FILE", ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "write the figures there too; -: on standard output"},
-    {"--quiet", NULL, ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
-    {"--help", NULL, ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
+    {"--quiet", NULL, ALL | SCENES | NEW | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
+    {"--help", NULL, ALL | SCENES | NEW | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},
     {0},
 };
 /* clang-format on */

@@ -18,6 +18,7 @@ int cmd_replay(const Args *args);
 int cmd_export(const Args *args);
 int cmd_devices(const Args *args);
 int cmd_scenes(const Args *args);
+int cmd_new(const Args *args);
 int cmd_info(const Args *args);
 
 #endif

@@ -177,7 +177,8 @@ static void add_scenes(Files *files, const Args *args)
             add_recording(files, name);
         else if (args->command == COMMAND_EXPORT)
             add(files, FILE_READ, "the file of snapshots", name, NULL);
-        else if (args->command != COMMAND_VALIDATE && args->command != COMMAND_SCENES)
+        else if (args->command != COMMAND_VALIDATE && args->command != COMMAND_SCENES &&
+                 args->command != COMMAND_NEW)
             add_scene(files, args, name);
     }
     if (scene_path_find("scenes", path, NULL)) /* what is read without being named */

@@ -49,6 +49,8 @@ static int run_command(const Args *args)
         return cmd_devices(args);
     case COMMAND_SCENES:
         return cmd_scenes(args);
+    case COMMAND_NEW:
+        return cmd_new(args);
     case COMMAND_INFO:
         return cmd_info(args);
     case COMMAND_VERSION:

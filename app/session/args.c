@@ -308,6 +308,7 @@ static const char *takes(const CommandRow *row)
            : row->command == COMMAND_VALIDATE ? "case"
            : row->command == COMMAND_CHART    ? "scene or case"
            : row->command == COMMAND_SCENES   ? "folder"
+           : row->command == COMMAND_NEW      ? "new scene"
                                               : "scene";
 }
 

@@ -34,6 +34,7 @@ typedef enum Command {
     COMMAND_EXPORT, /* `scenes` holds the snapshots */
     COMMAND_DEVICES,
     COMMAND_SCENES, /* `scenes` holds the folder */
+    COMMAND_NEW,    /* `scenes` holds the file that is written */
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;

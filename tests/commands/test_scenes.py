@@ -50,5 +50,25 @@ class Scenes(CommandTest):
             self.assertEqual(self.slosh('scenes', name), (2, words + '\n'))
 
 
+class New(CommandTest):
+    def test_the_smallest_scene_runs_and_says_what_each_line_is(self):
+        self.assertEqual(self.slosh('new', 'my.yaml'),
+                         (0, 'my.yaml: a scene with a comment on each line; change it, and open it by: slosh my.yaml\n'))
+        lines = self.read('my.yaml').decode().splitlines()
+        self.assertLess(len(lines), 25)
+        self.assertEqual([line for line in lines if '#' not in line], [])
+        code, said = self.slosh('run', 'my.yaml', '-o', 'out.h5part', '--time', '0.1', '--quiet')
+        self.assertEqual((code, said), (0, ''))  # nothing is to be said of it
+        listed = subprocess.run([command.PROGRAM, 'scenes', '.'], cwd=self.folder, capture_output=True, text=True, check=True).stdout
+        self.assertRegex(listed, r'my +My scene\n +A block of water falls apart: the smallest scene\.\n')
+
+    def test_what_is_there_stays(self):
+        self.write('my.yaml', 'mine')
+        self.assertEqual(self.slosh('new', 'my.yaml'), (1, 'my.yaml: is there already; name a new file\n'))
+        self.assertEqual(self.read('my.yaml'), b'mine')
+        self.assertEqual(self.slosh('new', 'my.yml'), (2, 'my.yml: the name of a scene ends in .yaml\n'))
+        self.assertEqual(self.entries(), ['my.yaml'])
+
+
 if __name__ == '__main__':
     command.main()

@@ -84,8 +84,8 @@ FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", 
 DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "volume", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
-# What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`.
-METHOD_LISTS = ["sim/world/method.c", "app/scene/preset.c", "app/command/info.c"]
+# What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
+METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/preset.c", "app/command/info.c"]
 
 # What names views beside their folders and app/case: lists.
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
