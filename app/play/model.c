@@ -276,15 +276,58 @@ void model_reset(Model *model)
     post_open(model);
 }
 
+/* The view that the open scene would have if nobody had chosen one. */
+static void file_view(const Model *model, char kind[NAME_SIZE])
+{
+    const Recording *file = &model->open.recording;
+    SceneSettings none = {.purpose = SCENE_FOR_WINDOW};
+    Scene scene;
+    Error error;
+    const bool parsed =
+        file->text && scene_parse(file->path, file->text, file->size, &none, &scene, NULL, &error);
+    snprintf(kind, NAME_SIZE, "%s", parsed ? scene.view.kind : model->file_scene.view.kind);
+}
+
+/* A view that is not the file's was chosen, and stays so where a file happens to have it too. */
+static void keep_view(Model *model)
+{
+    char own[NAME_SIZE];
+    const char *shown = model->open.scene.view.kind;
+    file_view(model, own);
+    if (strcmp(shown, own) != 0)
+        snprintf(model->kept_view, sizeof model->kept_view, "%s", shown);
+    else if (strcmp(shown, model->kept_view) != 0)
+        *model->kept_view = 0;
+}
+
+/* With the view that the user chose, and what the command line said of that view; without both where the
+   scene cannot have it. */
+static bool open_kept(Model *model, const char *path, Error *error)
+{
+    char kind[16 + NAME_SIZE], own[16 + NAME_SIZE];
+    const SceneSettings *said = &model->open.recording.settings;
+    SceneSettings settings = {.count = 0};
+    if (!*model->kept_view)
+        return model_open(model, path, NULL, error);
+    snprintf(kind, sizeof kind, "view.kind=%s", model->kept_view);
+    snprintf(own, sizeof own, "view.%s.", model->kept_view);
+    settings.set[settings.count++] = kind;
+    for (int i = 0; i < said->count && settings.count < SCENE_SETTINGS_MAX; i++)
+        if (strncmp(said->set[i], own, strlen(own)) == 0)
+            settings.set[settings.count++] = said->set[i];
+    return model_open(model, path, &settings, error) || model_open(model, path, NULL, error);
+}
+
 bool model_open_neighbour(Model *model, int by)
 {
     char path[1024], present[1024];
     bool opened = false;
+    keep_view(model);
     snprintf(present, sizeof present, "%s", model->open.scene.path);
     for (int way = by; !opened && play_scene_neighbour(present, way, path) && strcmp(path, present) != 0;
          way += by) {
         Error error = {{0}};
-        opened = model_open(model, path, NULL, &error);
+        opened = open_kept(model, path, &error);
         if (!opened)
             notice_error(model->notice, error.message);
     }

@@ -28,7 +28,8 @@ typedef struct Model {
     bool has_particles;
     SimulatorStatus status;
     bool paused;
-    double simulated_s; /* of the scenes before, less what was simulated before the first picture */
+    double simulated_s;        /* of the scenes before, less what was simulated before the first picture */
+    char kept_view[NAME_SIZE]; /* that the user chose, and the next scene is to have; "": as its file says */
     size_t scenes_opened;
     unsigned saves, messages; /* that were told */
     unsigned travels;         /* SimulatorPast.travels that were followed */
@@ -40,7 +41,8 @@ typedef struct Model {
 /* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
 bool model_open(Model *model, const char *scene, const SceneSettings *settings, Error *error);
 
-/* The scene before or after it in its folder; one that is broken is told and left out. False: there is none.
+/* The scene before or after it in its folder, by the view that the user chose, if there is one; one that is
+ * broken is told and left out. False: there is none.
  */
 bool model_open_neighbour(Model *model, int by);
 

@@ -362,6 +362,22 @@ class Keys(Window):
         self.assertEqual((os.path.basename(out['scene']), out['particles']), ('zz.yaml', 300))
         self.assertEqual(out['scenes_opened'], 6)
 
+    def test_the_next_scene_keeps_the_view_that_was_chosen(self):
+        self.write('t.yaml', STILL + 'view: {kind: splat}\n')  # has it too
+        self.write('u.yaml', STILL)
+        self.open('still.yaml', '--view', 'splat', '--set', 'view.splat.weights=w1')
+        self.keys('Tab')
+        self.filled()
+        self.keys('Tab')
+        self.filled()
+        out = self.quit()
+        self.assertEqual((os.path.basename(out['scene']), out['view'], out['view_settings']['view.splat.weights']['value']),
+                         ('u.yaml', 'splat', 'w1'))
+        self.open('t.yaml')  # what a file says is no choice
+        self.keys('Tab')
+        self.filled()
+        self.assertEqual(self.quit()['view'], 'spheres')
+
     def test_the_users_layout(self):
         def layout(name):
             subprocess.run(['setxkbmap', name], env=self.environment, check=True, timeout=30, stderr=subprocess.DEVNULL)
