@@ -173,7 +173,7 @@ static void add_scenes(Files *files, const Args *args)
     char path[SCENE_PATH_SIZE];
     for (int i = 0; i < args->scene_count; i++) {
         const char *name = args->scenes[i];
-        if (args->command == COMMAND_REPLAY)
+        if (args->command == COMMAND_REPLAY || (args->command == COMMAND_RENDER && recording_is_file(name)))
             add_recording(files, name);
         else if (args->command == COMMAND_EXPORT)
             add(files, FILE_READ, "the file of snapshots", name, NULL);

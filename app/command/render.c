@@ -9,6 +9,7 @@
 #include "app/command/render_report.h"
 #include "app/output/pictures.h"
 #include "app/playback/recorded.h"
+#include "app/recording/recording.h"
 #include "sim/base/stage.h"
 
 #include <math.h>
@@ -313,6 +314,8 @@ int cmd_render(const Args *args)
 {
     if (recorded_is_file(args->scenes[0]))
         return render_file(args);
+    if (recording_is_file(args->scenes[0]))
+        return render_session(args);
     Render *render = calloc(1, sizeof *render);
     Error error = {{0}};
     PicturesKind kind;

@@ -36,14 +36,6 @@ static int fail_run(const Args *args, int code, const Error *error)
     return fail(code, error);
 }
 
-/* A session that blew up was recorded up to that step, in the middle of a frame or at its end. */
-static bool broke_as_recorded(const Replay *replay)
-{
-    const Recording *recording = &replay->recording;
-    return !recording->cut && replay->play.next == recording->count &&
-           replay->session.info.step == recording->steps;
-}
-
 /* 0, or the exit code with the reason. */
 static int simulate(Replay *replay, Progress *progress, Error *error)
 {
@@ -57,7 +49,7 @@ static int simulate(Replay *replay, Progress *progress, Error *error)
         if (replay->ended || interrupted())
             return 0;
         if (!session_substep(session, error)) {
-            replay->broke = replay->ended = broke_as_recorded(replay);
+            replay->broke = replay->ended = recording_play_broke(&replay->play, session);
             return replay->broke ? 0 : EXIT_FAILED;
         }
         progress_update(progress, (double)session->info.step / (double)replay->recording.steps);
@@ -66,45 +58,7 @@ static int simulate(Replay *replay, Progress *progress, Error *error)
 
 static bool same_bits(const Replay *replay)
 {
-    return replay->ended && !replay->recording.cut && replay->hash == replay->recording.hash;
-}
-
-static void advise(const WorldDef *def)
-{
-    if (strcmp(def->backend, "compute") == 0 && !def->reproducible)
-        fprintf(stderr,
-                "backend compute gives the same bits only with solver.reproducible: true in the scene\n");
-}
-
-/* What came of it, in words and as exit code. */
-static int judge(const Replay *replay)
-{
-    const Recording *recording = &replay->recording;
-    const uint64_t step = replay->session.info.step;
-    if (!replay->ended) {
-        fprintf(stderr, "stopped at step %" PRIu64 " of %" PRIu64 "; nothing was compared\n", step,
-                recording->steps);
-        return EXIT_INTERRUPTED;
-    }
-    if (recording->cut) {
-        fprintf(stderr,
-                "%s:%zu: the recording was cut here, its last line 'end STEPS HASH' is missing; %" PRIu64
-                " step%s replayed, hash %016" PRIx64 ", and nothing is proven\n",
-                replay->path, recording_line(recording, recording->count), step,
-                step == 1 ? " was" : "s were", replay->hash);
-        return EXIT_FAILED;
-    }
-    if (!same_bits(replay)) {
-        fprintf(stderr,
-                "different after %" PRIu64 " steps: hash %016" PRIx64 ", and %016" PRIx64 " was recorded%s\n",
-                step, replay->hash, recording->hash,
-                strcmp(recording->program, SLOSH_VERSION) == 0 ? "" : " by another version");
-        advise(&replay->session.scene.world);
-        return EXIT_FAILED;
-    }
-    if (!replay->args->quiet)
-        fprintf(stderr, "the same bits: %" PRIu64 " steps, hash %016" PRIx64 "\n", step, replay->hash);
-    return 0;
+    return replay->ended && recording_play_same(&replay->play, replay->hash);
 }
 
 static bool write_json(const Replay *replay, Error *error)
@@ -138,7 +92,8 @@ static int finish(Replay *replay, Error *error)
                 plural(snapshot_steps(replay->series.file)));
     if (replay->broke)
         fprintf(stderr, "%s\n", error->message);
-    const int code = judge(replay);
+    const int code = recording_play_judge(&replay->play, &replay->session, replay->ended, replay->hash,
+                                          replay->args->quiet);
     return write_json(replay, error) ? code : fail(EXIT_FAILED, error);
 }
 
@@ -170,11 +125,9 @@ static int open_recording(Replay *replay, Error *error)
     if ((args->output && !snapshot_series_name(args->output, error)) ||
         !recording_read(replay->path, &replay->recording, error))
         return EXIT_USAGE;
-    if (strcmp(replay->recording.program, SLOSH_VERSION) != 0)
-        fprintf(stderr, "%s: recorded by slosh %s; this is %s, whose bits may differ\n", replay->path,
-                replay->recording.program, SLOSH_VERSION);
+    recording_play_tell_version(replay->path, &replay->recording);
     replay->play = (RecordingPlay){.path = replay->path, .recording = &replay->recording};
-    return recording_play_open(&replay->play, &args->settings, args->gpu, &replay->session, error);
+    return recording_play_open(&replay->play, &args->settings, args->gpu, false, &replay->session, error);
 }
 
 int cmd_replay(const Args *args)

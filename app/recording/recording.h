@@ -69,6 +69,9 @@ bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, 
 bool recording_parse(const char *path, const char *bytes, size_t size, Recording *out, Error *error);
 bool recording_read(const char *path, Recording *out, Error *error);
 
+/* Whether the file begins as a recording does. */
+bool recording_is_file(const char *path);
+
 /* The line of the file on which the command at `index` stands (index == count: the end). */
 size_t recording_line(const Recording *recording, size_t index);
 

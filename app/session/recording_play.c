@@ -1,5 +1,10 @@
 #include "app/session/recording_play.h"
 #include "app/base/exit_code.h"
+#include "app/base/interrupt.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
 
 static bool load_scene(const RecordingPlay *play, const SceneSettings *more, Scene *scene, Error *error)
 {
@@ -23,13 +28,14 @@ static bool moves_to_gpu(const Recording *recording)
     return moves;
 }
 
-int recording_play_open(const RecordingPlay *play, const SceneSettings *more, int gpu, Session *session,
-                        Error *error)
+int recording_play_open(const RecordingPlay *play, const SceneSettings *more, int gpu, bool draws,
+                        Session *session, Error *error)
 {
     Error why = {""};
     *session = (Session){.began_ms = wall_ms()};
     const bool loaded = load_scene(play, more, &session->scene, &why);
-    const int code = loaded ? session_start(session, gpu, moves_to_gpu(play->recording), &why) : EXIT_USAGE;
+    const int code =
+        loaded ? session_start(session, gpu, draws || moves_to_gpu(play->recording), &why) : EXIT_USAGE;
     if (code != 0)
         error_set(error, "%.300s: its scene: %.600s", play->path, why.message);
     return code;
@@ -54,4 +60,60 @@ bool recording_play_apply(RecordingPlay *play, Session *session, Error *error)
 bool recording_play_ended(const RecordingPlay *play, const Session *session)
 {
     return play->next == play->recording->count && session->info.step >= play->recording->steps;
+}
+
+bool recording_play_broke(const RecordingPlay *play, const Session *session)
+{
+    const Recording *recording = play->recording;
+    return !recording->cut && play->next == recording->count && session->info.step == recording->steps;
+}
+
+bool recording_play_same(const RecordingPlay *play, uint64_t hash)
+{
+    return !play->recording->cut && hash == play->recording->hash;
+}
+
+void recording_play_tell_version(const char *path, const Recording *recording)
+{
+    if (strcmp(recording->program, SLOSH_VERSION) != 0)
+        fprintf(stderr, "%s: recorded by slosh %s; this is %s, whose bits may differ\n", path,
+                recording->program, SLOSH_VERSION);
+}
+
+static void advise(const WorldDef *def)
+{
+    if (strcmp(def->backend, "compute") == 0 && !def->reproducible)
+        fprintf(stderr,
+                "backend compute gives the same bits only with solver.reproducible: true in the scene\n");
+}
+
+int recording_play_judge(const RecordingPlay *play, const Session *session, bool ended, uint64_t hash,
+                         bool quiet)
+{
+    const Recording *recording = play->recording;
+    const uint64_t step = session->info.step;
+    if (!ended) {
+        fprintf(stderr, "stopped at step %" PRIu64 " of %" PRIu64 "; nothing was compared\n", step,
+                recording->steps);
+        return EXIT_INTERRUPTED;
+    }
+    if (recording->cut) {
+        fprintf(stderr,
+                "%s:%zu: the recording was cut here, its last line 'end STEPS HASH' is missing; %" PRIu64
+                " step%s replayed, hash %016" PRIx64 ", and nothing is proven\n",
+                play->path, recording_line(recording, recording->count), step, step == 1 ? " was" : "s were",
+                hash);
+        return EXIT_FAILED;
+    }
+    if (!recording_play_same(play, hash)) {
+        fprintf(stderr,
+                "different after %" PRIu64 " steps: hash %016" PRIx64 ", and %016" PRIx64 " was recorded%s\n",
+                step, hash, recording->hash,
+                strcmp(recording->program, SLOSH_VERSION) == 0 ? "" : " by another version");
+        advise(&session->scene.world);
+        return EXIT_FAILED;
+    }
+    if (!quiet)
+        fprintf(stderr, "the same bits: %" PRIu64 " steps, hash %016" PRIx64 "\n", step, hash);
+    return 0;
 }

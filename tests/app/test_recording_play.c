@@ -110,7 +110,7 @@ static bool play(const Recording *recording, const SceneSettings *more, uint64_t
 {
     static Session session;
     RecordingPlay play = {.path = "a.rec", .recording = recording};
-    bool ok = recording_play_open(&play, more, HEADLESS_GPU_AUTO, &session, &error) == 0;
+    bool ok = recording_play_open(&play, more, HEADLESS_GPU_AUTO, false, &session, &error) == 0;
     while (ok && (ok = recording_play_apply(&play, &session, &error)) &&
            !recording_play_ended(&play, &session))
         ok = session_substep(&session, &error);
@@ -193,7 +193,7 @@ static void slips_are_named(void **state)
     const SceneSettings bad = {.count = 1, .set = {"solver.threads=-1"}};
     RecordingPlay play = {.path = "a.rec", .recording = &recording};
     static Session session;
-    assert_int_equal(recording_play_open(&play, &bad, HEADLESS_GPU_AUTO, &session, &error), 2);
+    assert_int_equal(recording_play_open(&play, &bad, HEADLESS_GPU_AUTO, false, &session, &error), 2);
     assert_contains(error.message, "a.rec: its scene: --set solver.threads=-1: solver.threads must be ");
     recording_destroy(&recording);
 }

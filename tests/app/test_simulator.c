@@ -319,7 +319,7 @@ static void a_saved_session_gives_the_same_bits(void **state)
     assert_true(recording.count > 10 && recording.steps > 3000 && !recording.cut);
     assert_int_equal(recording.commands[0].kind, SIM_SET);
     RecordingPlay play = {.path = "a.rec", .recording = &recording};
-    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, false, &session, &error) == 0);
     bool within_a_frame = false;
     while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session)) {
         within_a_frame |= play.next > 0 && recording.commands[play.next - 1].step % 5 != 0;

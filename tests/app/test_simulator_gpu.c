@@ -192,7 +192,7 @@ static void the_backend_changes_while_it_runs(void **state)
     assert_true(recording.commands[0].step == 5 && recording.commands[1].step == 10);
     RecordingPlay play = {.path = "moved.rec", .recording = &recording};
     headless_destroy(context); /* the session makes its own */
-    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, false, &session, &error) == 0);
     while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session))
         must(session_substep(&session, &error));
     assert_true(world_hash(session.world) == recording.hash);
@@ -260,7 +260,7 @@ static void a_failed_start_goes_on_elsewhere(void **state)
     rig_close(&rig);
     must(recording_read("cpu.rec", &recording, &error));
     RecordingPlay play = {.path = "cpu.rec", .recording = &recording};
-    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, false, &session, &error) == 0);
     session_close(&session);
     recording_destroy(&recording);
 }

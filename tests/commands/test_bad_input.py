@@ -89,7 +89,7 @@ class BadInput(CommandTest):
         self.assertEqual(code, 0, said)
 
     def test_files_of_other_commands(self):
-        for text, takes in (('slosh recording 1\nprogram 0.1\n', 'slosh replay takes it'),
+        for text, takes in (('slosh recording 1\nprogram 0.1\n', 'slosh replay and slosh render take it'),
                             ('\x89HDF\r\n\x1a\n', 'slosh play, slosh render and slosh export take it'),
                             ('slosh device recording 1\n', '--device file:PATH takes it')):
             self.write('other', text.encode('latin-1'))

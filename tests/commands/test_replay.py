@@ -7,7 +7,7 @@ import signal
 import subprocess
 
 import command
-from command import SCENE, CommandTest, obey_interrupts, whole_steps
+from command import SCENE, CommandTest, obey_interrupts, video_frames, whole_steps
 
 COMMANDS = ['0 target 0x1.999999999999ap-4 0 0 0 0 0 1',
             '20 set gravity=[0, -3, 0]',
@@ -55,6 +55,46 @@ class Replay(CommandTest):
                              (True, value, value, int(threads)))
             self.assertEqual((found['steps'], found['commands'], found['particles']), (100, 5, 500))
         self.assertEqual(self.slosh('replay', 'a.rec', '--quiet'), (0, ''))
+
+    def film(self, *arguments):
+        code, said = self.slosh('render', 'a.rec', '--size', '64x48', '--json', 'a.json', *arguments)
+        return code, said, json.loads(self.read('a.json'))
+
+    def test_a_session_is_filmed(self):
+        """By any view, and with the bits of the session; a frame is 0.004 s, two steps."""
+        value = self.record()
+        code, said, found = self.film('-o', 'a.mp4', '--fps', '100', '--view', 'splat', '--set', 'view.color_by=density')
+        self.assertEqual(code, 0, said)
+        self.assertIn(f'the same bits: 100 steps, hash {value}\n', said)
+        self.assertIn('render: 100 %', said)
+        self.assertIn(' left\n', said)  # an estimate
+        self.assertEqual((found['same'], found['hash'], found['steps'], found['pictures']), (True, value, 100, 21))
+        self.assertEqual(video_frames(self.path('a.mp4')), 21)
+        code, said, found = self.film('-o', 'a.png')  # the end
+        self.assertEqual((code, found['same'], found['pictures']), (0, True, 1), said)
+        code, said, found = self.film('-o', 'a', '--time', '0.1', '--fps', '100')
+        self.assertEqual((code, found['same'], found['pictures'], len(os.listdir(self.path('a')))), (0, False, 10, 10), said)
+        self.assertIn('the session goes on to step 100; its end was not compared\n', said)
+
+    def test_the_film_of_a_session_shows_what_was_done(self):
+        """Its last picture is that of the state which replay leaves."""
+        self.record()
+        self.slosh('replay', 'a.rec', '-o', 'a.h5part', '--every', '0.2', '--quiet')
+        for name in 'a.rec', 'a.h5part':
+            self.assertEqual(self.slosh('render', name, '-o', name[2:] + '.png', '--size', '64x48', '--quiet')[0], 0)
+        self.assertEqual(self.read('rec.png'), self.read('h5part.png'))
+
+    def test_a_film_that_is_another_one(self):
+        value = self.record()
+        self.recording(COMMANDS[1:], [f'end 100 {value}'])
+        code, said, found = self.film('-o', 'a.mp4', '--quiet')
+        self.assertEqual((code, found['same']), (1, False))
+        self.assertIn('different after 100 steps', said)
+        self.assertGreater(video_frames(self.path('a.mp4')), 5)
+        for option, words in (('--particles', '100'), ('--backend', 'compute'), ('--set', 'gravity=[0, 0, 0]'), ('--device', 'file:x')):
+            code, said = self.slosh('render', 'a.rec', '-o', 'b.mp4', option, words)
+            self.assertEqual(code, 2)
+            self.assertRegex(said, f'^{option}.* makes no sense for a.rec: .*\n$')
 
     def test_different(self):
         value = self.record()

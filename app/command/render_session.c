@@ -1,0 +1,268 @@
+#include "app/base/interrupt.h"
+#include "app/base/json_file.h"
+#include "app/base/progress.h"
+#include "app/beside/beside.h"
+#include "app/beside/shoot.h"
+#include "app/command/cmd.h"
+#include "app/command/render_file.h"
+#include "app/command/render_report.h"
+#include "app/output/pictures.h"
+#include "app/session/recording_play.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* A recorded session, filmed: simulated as slosh replay does, with pictures of the states on the way. */
+typedef struct Film {
+    const Args *args;
+    PicturesKind kind;
+    Recording recording;
+    RecordingPlay play;
+    Session session;
+    const World *world; /* that the shoot reads: the session may move to another backend */
+    Shoot shoot;
+    Pictures *pictures;
+    Progress progress;
+    double until;         /* s: of the last picture; INFINITY: the end of the session */
+    size_t taken, wanted; /* pictures; wanted 0: to the end */
+    bool ended;           /* the session is over */
+    uint64_t hash;        /* at the end */
+} Film;
+
+static bool refuse(const Args *args, const char *option, const char *why, Error *error)
+{
+    return error_set(error, "%s makes no sense for %s: %s", option, args->scenes[0], why);
+}
+
+/* What changes no bit: how the fluid is drawn, and how many processors compute. */
+static bool is_allowed(const char *setting)
+{
+    static const char *const keys[] = {"view.", "view=", "solver.threads=", "solver.simd="};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strncmp(setting, keys[i], strlen(keys[i])) == 0)
+            return true;
+    return false;
+}
+
+static bool check_options(const Args *args, Error *error)
+{
+    static const char OWN[] = "the session has its own; how it is drawn (view.*) may change";
+    if (args->device)
+        return refuse(args, "--device", "all that moved the box is in the session", error);
+    if (args->sweep_count > 0)
+        return refuse(args, "--compare", "the session has one setting", error);
+    if (args->interpolate)
+        return refuse(args, "--interpolate", "pictures are of the states that the session had", error);
+    if (args->settings.particles > 0)
+        return refuse(args, "--particles", OWN, error);
+    for (int i = 0; i < args->settings.count; i++)
+        if (!is_allowed(args->settings.set[i]))
+            return error_set(error, "%s%.100s makes no sense for %.300s: %s",
+                             args->settings.said[i] ? "" : "--set ",
+                             args->settings.said[i] ? args->settings.said[i] : args->settings.set[i],
+                             args->scenes[0], OWN);
+    return true;
+}
+
+static bool choose_times(Film *film, Error *error)
+{
+    const Args *args = film->args;
+    if (!pictures_kind(args->output, &film->kind, error))
+        return false;
+    if (film->kind == PICTURES_PNG && args->frames > 0)
+        return error_set(error, "--frames makes no sense for one picture, %s", args->output);
+    film->until = args->time_given ? args->time : INFINITY;
+    film->wanted = film->kind == PICTURES_PNG ? 1 : (size_t)args->frames;
+    if (film->wanted == 0 && args->time_given)
+        film->wanted = (size_t)fmax(ceil(args->time * args->fps - 1e-6), 1);
+    return true;
+}
+
+/* When the next picture is due, s. */
+static double next_time(const Film *film)
+{
+    return film->kind == PICTURES_PNG ? film->until : (double)film->taken / film->args->fps;
+}
+
+/* Panels of what is beside the scene are left out: nobody recorded it. */
+static bool open_shoot(Film *film, Error *error)
+{
+    const Scene *scene = &film->session.scene;
+    ShootPanel panels[PANELS_MAX];
+    int count = 0;
+    shoot_close(&film->shoot);
+    for (int i = 0; i < scene_view_count(scene); i++)
+        if (!beside_is(scene_view(scene, i)))
+            panels[count++] = (ShootPanel){.session = &film->session, .view = scene_view(scene, i)};
+    film->world = film->session.world;
+    return count > 0
+               ? shoot_open(&film->shoot, panels, count, false, film->args->width, film->args->height, error)
+               : error_set(error, "%s: no view shows the session itself", film->args->scenes[0]);
+}
+
+static bool take_picture(Film *film, Error *error)
+{
+    if ((film->world != film->session.world && !open_shoot(film, error)) ||
+        !shoot_take(&film->shoot, film->session.info.time, error) || !shoot_draw(&film->shoot, error))
+        return false;
+    do {
+        if (!pictures_add(film->pictures, &film->shoot.image, error))
+            return false;
+        film->taken++;
+    } while (film->kind != PICTURES_PNG && session_reached(&film->session, next_time(film)) &&
+             (film->wanted == 0 || film->taken < film->wanted));
+    return true;
+}
+
+static bool is_full(const Film *film)
+{
+    return film->wanted > 0 && film->taken == film->wanted;
+}
+
+/* One state: its commands, and its picture if one is due. */
+static bool look(Film *film, Error *error)
+{
+    const double due = next_time(film);
+    return recording_play_apply(&film->play, &film->session, error) &&
+           (is_full(film) || !session_reached(&film->session, due) || take_picture(film, error));
+}
+
+/* Whether the film is as long as it is to be: by the end of the session, or before. */
+static bool is_over(Film *film)
+{
+    film->ended = recording_play_ended(&film->play, &film->session);
+    return film->ended || is_full(film) || interrupted();
+}
+
+/* The state of the end too, where it is the one that was asked for. */
+static bool take_last(Film *film, Error *error)
+{
+    film->hash = world_hash(film->session.world);
+    return film->taken > 0 || take_picture(film, error);
+}
+
+static bool simulate(Film *film, Error *error)
+{
+    Session *session = &film->session;
+    const double steps = (double)film->recording.steps;
+    for (;;) {
+        if (!look(film, error))
+            return false;
+        if (is_over(film))
+            return take_last(film, error);
+        if (film->world == session->world && !shoot_watch(&film->shoot, session, next_time(film), error))
+            return false;
+        if (!session_substep(session, error)) {
+            if (!recording_play_broke(&film->play, session))
+                return false;
+            progress_end(&film->progress);
+            fprintf(stderr, "%s\n", error->message);
+            film->ended = true;
+            return take_last(film, error);
+        }
+        const double whole = film->wanted > 0 ? (double)film->taken / (double)film->wanted : 0;
+        progress_update(&film->progress, fmax((double)session->info.step / steps, whole));
+    }
+}
+
+static int judge(const Film *film)
+{
+    if (film->ended || interrupted())
+        return recording_play_judge(&film->play, &film->session, film->ended, film->hash, film->args->quiet);
+    if (!film->args->quiet)
+        fprintf(stderr, "the session goes on to step %" PRIu64 "; its end was not compared\n",
+                film->recording.steps);
+    return 0;
+}
+
+static bool write_json(const Film *film, Error *error)
+{
+    const Session *session = &film->session;
+    char hash[17];
+    if (!film->args->json)
+        return true;
+    snprintf(hash, sizeof hash, "%016" PRIx64, film->hash);
+    json_t *json = json_pack("{s:s, s:s, s:s, s:I, s:I, s:I, s:f, s:f, s:s, s:b, s:b, s:s}", "command",
+                             "render", "recording", film->play.path, "output", film->args->output, "pictures",
+                             (json_int_t)film->taken, "particles", (json_int_t)session->info.count, "steps",
+                             (json_int_t)session->info.step, "simulated_seconds", session->info.time,
+                             "wall_seconds", 1e-3 * (wall_ms() - session->began_ms), "hash", hash, "same",
+                             film->ended && recording_play_same(&film->play, film->hash), "stopped",
+                             interrupted(), "renderer", headless_renderer(session->context));
+    const bool written = json_file_write(json, film->args->json, error);
+    json_decref(json);
+    return written;
+}
+
+static int fail(const Film *film, int code, const Error *error)
+{
+    const Args *args = film->args;
+    fprintf(stderr, "%s\n", error->message);
+    if (code == EXIT_FAILED)
+        failure_json_write(failure_json("render", "recording", args->scenes[0], args->output, error),
+                           args->json);
+    return code;
+}
+
+static int finish(Film *film, Error *error)
+{
+    const Args *args = film->args;
+    Pictures *pictures = film->pictures;
+    char older[1088];
+    lacks_print(&film->shoot.lacks, args->output, stderr);
+    if (pictures_has_older(pictures, older))
+        fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", older);
+    film->pictures = NULL;
+    if (!pictures_finish(pictures, error))
+        return fail(film, EXIT_FAILED, error);
+    if (!args->quiet)
+        fprintf(stderr, "%s: %zu picture%s up to t = %.4g s, %zu particle%s, from %s\n", args->output,
+                film->taken, plural(film->taken), film->session.info.time, film->session.info.count,
+                plural(film->session.info.count), args->scenes[0]);
+    const int code = judge(film);
+    return write_json(film, error) ? code : fail(film, EXIT_FAILED, error);
+}
+
+static int shoot_film(Film *film, Error *error)
+{
+    const Args *args = film->args;
+    if ((args->json && !json_file_check(args->json, error)) || !open_shoot(film, error) ||
+        !(film->pictures = pictures_create(args->output, args->width, args->height, args->fps, error)))
+        return fail(film, EXIT_FAILED, error);
+    progress_begin(&film->progress, stderr, "render", args->quiet);
+    const bool done = simulate(film, error);
+    progress_end(&film->progress);
+    if (done)
+        return finish(film, error);
+    fail(film, EXIT_FAILED, error);
+    render_tell_staying(args, pictures_staying(film->pictures));
+    return EXIT_FAILED;
+}
+
+static int open_recording(Film *film, Error *error)
+{
+    const Args *args = film->args;
+    if (!check_options(args, error) || !choose_times(film, error) ||
+        !recording_read(args->scenes[0], &film->recording, error))
+        return EXIT_USAGE;
+    recording_play_tell_version(args->scenes[0], &film->recording);
+    film->play = (RecordingPlay){.path = args->scenes[0], .recording = &film->recording};
+    return recording_play_open(&film->play, &args->settings, args->gpu, true, &film->session, error);
+}
+
+int render_session(const Args *args)
+{
+    static Film film;
+    Error error = {{0}};
+    film = (Film){.args = args};
+    interrupt_install();
+    int code = open_recording(&film, &error);
+    code = code == 0 ? shoot_film(&film, &error) : fail(&film, code, &error);
+    pictures_discard(film.pictures);
+    shoot_close(&film.shoot);
+    session_close(&film.session);
+    recording_destroy(&film.recording);
+    return code;
+}
