@@ -1,5 +1,6 @@
 """The list of scenes: titles, ideas, small pictures and the page that shows them."""
 import json
+import math
 import os
 import re
 import subprocess
@@ -68,6 +69,21 @@ class New(CommandTest):
         self.assertEqual(self.read('my.yaml'), b'mine')
         self.assertEqual(self.slosh('new', 'my.yml'), (2, 'my.yml: the name of a scene ends in .yaml\n'))
         self.assertEqual(self.entries(), ['my.yaml'])
+
+
+class Sample(CommandTest):
+    def test_the_recording_of_a_motion_device_holds_the_tray_level(self):
+        import h5py
+        sample = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), 'scenes/tilt.rec')
+        leans = []
+        for more in ([], ['--device', 'file:' + sample]):
+            code, said = self.slosh('run', 'level', '-o', 'out.h5part', '--particles', '700', '--time', '6.4', '--every', '0.4', '--quiet', *more)
+            self.assertEqual(code, 0, said)
+            with h5py.File(self.path('out.h5part')) as file:
+                poses = [file[f'Step#{k}'].attrs['box_orientation'] for k in range(4, 17)]
+            leans.append(max(2 * math.degrees(math.asin(math.hypot(x, z))) for x, _, z, _ in poses))
+        self.assertGreater(leans[0], 7)
+        self.assertLess(leans[1], 3)
 
 
 if __name__ == '__main__':
