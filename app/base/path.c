@@ -1,5 +1,6 @@
 #include "app/base/path.h"
 
+#include "app/base/place.h"
 #include "app/base/suggest.h"
 
 #include <dirent.h>
@@ -10,19 +11,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define SCENES SLOSH_SOURCE_DIR "/scenes"
-
 int scene_path_is_yaml(const struct dirent *entry)
 {
     const char *dot = strrchr(entry->d_name, '.');
     return dot && dot != entry->d_name && strcmp(dot, ".yaml") == 0;
 }
 
-void scene_path_names(SceneNames *names)
+/* Adds those of a folder. */
+static void add_names(SceneNames *names, const char *folder)
 {
     struct dirent **entries;
-    const int count = scandir(SCENES, &entries, scene_path_is_yaml, alphasort);
-    names->count = 0;
+    const int count = scandir(folder, &entries, scene_path_is_yaml, alphasort);
     for (int i = 0; i < count; i++) {
         const char *name = entries[i]->d_name;
         const size_t length = strlen(name) - strlen(".yaml");
@@ -34,6 +33,16 @@ void scene_path_names(SceneNames *names)
         free(entries);
 }
 
+void scene_path_names(SceneNames *names)
+{
+    char folder[PLACE_SIZE], scenes[PLACE_SIZE + 8];
+    names->count = 0;
+    if (!place_shipped(folder))
+        return;
+    snprintf(scenes, sizeof scenes, "%s/scenes", folder);
+    add_names(names, scenes);
+}
+
 /* Whether the path is there, and as a folder only if that is asked for. */
 static bool try_path(char path[SCENE_PATH_SIZE], const char *folder, const char *name, const char *ending)
 {
@@ -42,20 +51,45 @@ static bool try_path(char path[SCENE_PATH_SIZE], const char *folder, const char 
     return length < SCENE_PATH_SIZE && stat(path, &status) == 0 && !S_ISDIR(status.st_mode);
 }
 
+/* What may be meant by a name: scenes that come with slosh, the user's, those here. */
+static void all_names(SceneNames *names)
+{
+    char folder[PLACE_SIZE], scenes[PLACE_SIZE + 8];
+    scene_path_names(names);
+    if (place_own(folder)) {
+        snprintf(scenes, sizeof scenes, "%s/scenes", folder);
+        add_names(names, scenes);
+        add_names(names, folder);
+    }
+    add_names(names, ".");
+}
+
 static bool no_file(const char *name, Error *error)
 {
     SceneNames names;
     Suggestion near = suggest_for(name);
-    char hint[96] = "name a scene file";
-    scene_path_names(&names);
+    char hint[96] = "name a scene file", shipped[PLACE_SIZE], own[PLACE_SIZE];
+    all_names(&names);
     for (int i = 0; i < names.count; i++)
         suggest_offer(&near, names.name[i]);
     if (near.best)
         snprintf(hint, sizeof hint, "did you mean '%.60s'?", near.best);
     if (*name == '/')
         return error_set(error, "%.300s: no such file; %s", name, hint);
-    return error_set(error, "%.300s: no such file, neither here nor in %s nor in %s; %s", name,
-                     SLOSH_SOURCE_DIR, SCENES, hint);
+    const bool has_shipped = place_shipped(shipped), has_own = place_own(own);
+    return error_set(error, "%.300s: no such file, neither here%s%.300s%s%s%.300s; %s", name,
+                     has_shipped ? " nor in " : "", has_shipped ? shipped : "", has_shipped ? "/scenes" : "",
+                     has_own ? " nor in " : "", has_own ? own : "", hint);
+}
+
+/* In a folder that has scenes: beside them, among them. */
+static bool try_folder(char path[SCENE_PATH_SIZE], const char *folder, const char *name)
+{
+    char beside[PLACE_SIZE + 2], among[PLACE_SIZE + 16];
+    snprintf(beside, sizeof beside, "%s/", folder);
+    snprintf(among, sizeof among, "%s/scenes/", folder);
+    return try_path(path, beside, name, "") || try_path(path, among, name, "") ||
+           try_path(path, among, name, ".yaml") || try_path(path, beside, name, ".yaml");
 }
 
 bool scene_path_find(const char *name, char path[SCENE_PATH_SIZE], Error *error)
@@ -64,9 +98,10 @@ bool scene_path_find(const char *name, char path[SCENE_PATH_SIZE], Error *error)
         return error_set(error, "the scene's name is empty; name a file such as scenes/box_slosh.yaml");
     if (try_path(path, "", name, ""))
         return true;
+    char folder[PLACE_SIZE];
     if (*name != '/' &&
-        (try_path(path, SLOSH_SOURCE_DIR "/", name, "") || try_path(path, SCENES "/", name, "") ||
-         try_path(path, SCENES "/", name, ".yaml") || try_path(path, SLOSH_SOURCE_DIR "/", name, ".yaml")))
+        ((place_shipped(folder) && try_folder(path, folder, name)) ||
+         (place_own(folder) && try_folder(path, folder, name)) || try_path(path, "", name, ".yaml")))
         return true;
     const int length = snprintf(path, SCENE_PATH_SIZE, "%s", name);
     return (length < SCENE_PATH_SIZE && access(path, F_OK) == 0) || no_file(name, error);

@@ -20,9 +20,10 @@ void scene_path_names(SceneNames *names);
 /* For scandir: whether the entry is named like a scene file. */
 int scene_path_is_yaml(const struct dirent *entry);
 
-/* The file that `name` means: a path, else a path or a bare name (with or without .yaml) beside the sources
-   that the program was built from. A folder is meant only where there is nothing else: outputs have the names
-   of scenes too. False, saying where was looked and which scene may be meant, when there is none. */
+/* The file that `name` means: a path, else a path or a bare name (with or without .yaml) among what comes
+   with slosh, then in the user's own folder (app/base/place.h), then a bare name here. A folder is meant only
+   where there is nothing else: outputs have the names of scenes too. False, saying where was looked and which
+   scene may be meant, when there is none. */
 bool scene_path_find(const char *name, char path[SCENE_PATH_SIZE], Error *error);
 
 /* The file's bytes (the caller frees them), or NULL: a directory, unreadable, larger than SCENE_BYTES_MAX, or

@@ -1,14 +1,36 @@
 #include "app/device/device_trouble.h"
 
+#include "app/base/place.h"
+
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-const char *device_rules_command(void)
+/* Whether udev reads the rules of that folder by itself: udev(7). */
+static bool read_by_udev(const char *rule)
 {
-    return SLOSH_SOURCE_DIR "/tools/setup --devices";
+    static const char *const prefixes[] = {"/usr/lib/udev/", "/usr/local/lib/udev/", "/lib/udev/"};
+    for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++)
+        if (strncmp(rule, prefixes[i], strlen(prefixes[i])) == 0)
+            return true;
+    return false;
+}
+
+bool device_rules_command(char command[DEVICE_COMMAND_SIZE])
+{
+    static const char again[] = "sudo udevadm trigger --subsystem-match=hidraw";
+    char rule[PLACE_SIZE];
+    if (place_sources())
+        snprintf(command, DEVICE_COMMAND_SIZE, "%s/tools/setup --devices", place_sources());
+    else if (!place_rule(rule))
+        return false;
+    else if (read_by_udev(rule))
+        snprintf(command, DEVICE_COMMAND_SIZE, "%s", again);
+    else
+        snprintf(command, DEVICE_COMMAND_SIZE, "sudo cp '%.200s' /etc/udev/rules.d && %s", rule, again);
+    return true;
 }
 
 const DeviceRow *device_match(const HidInfo *info)
@@ -69,10 +91,15 @@ static void busy(const DeviceRow *row, char problem[DEVICE_PROBLEM_SIZE])
 void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
                     char problem[DEVICE_PROBLEM_SIZE])
 {
+    char command[DEVICE_COMMAND_SIZE];
     switch (why) {
     case HID_DENIED:
-        snprintf(problem, DEVICE_PROBLEM_SIZE, "this user may not open it; `%s` allows it for good",
-                 device_rules_command());
+        if (device_rules_command(command))
+            snprintf(problem, DEVICE_PROBLEM_SIZE, "this user may not open it; `%s` allows it for good",
+                     command);
+        else
+            snprintf(problem, DEVICE_PROBLEM_SIZE,
+                     "this user may not open it; the rule 70-slosh.rules that comes with slosh allows it");
         return;
     case HID_BUSY:
         busy(row, problem);

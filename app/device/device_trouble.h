@@ -5,10 +5,11 @@
 #include "app/device/device_table.h"
 #include "app/device/hid_port.h"
 
-enum { DEVICE_PROBLEM_SIZE = 512 };
+enum { DEVICE_PROBLEM_SIZE = 512, DEVICE_COMMAND_SIZE = 384 };
 
-/* The one command that lets the users of this machine open the devices: it installs tools/70-slosh.rules. */
-const char *device_rules_command(void);
+/* The one command that lets the users of this machine open the devices: it installs tools/70-slosh.rules, or
+   applies it to what is plugged in where it is installed. False: the rule did not come with the program. */
+bool device_rules_command(char command[DEVICE_COMMAND_SIZE]);
 
 /* The row of what was found; NULL where it is no motion device. A controller may have several places where
    reports come from: a mouse or a keyboard in it is none. */

@@ -1,4 +1,5 @@
 /* From a mapping file to what devices do. */
+#include "app/base/place.h"
 #include "app/base/read_file.h"
 #include "app/base/suggest.h"
 #include "app/device/device_table.h"
@@ -260,13 +261,8 @@ bool mapping_parse(const char *path, const char *bytes, size_t size, Mapping *ma
 
 bool mapping_user_path(char path[1024])
 {
-    const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
-    int length = -1;
-    if (config && *config == '/') /* the XDG base directory specification: others are to be ignored */
-        length = snprintf(path, 1024, "%s/slosh/mapping.yaml", config);
-    else if (home && *home)
-        length = snprintf(path, 1024, "%s/.config/slosh/mapping.yaml", home);
-    return length > 0 && length < 1024;
+    char folder[PLACE_SIZE];
+    return place_own(folder) && snprintf(path, 1024, "%s/mapping.yaml", folder) < 1024;
 }
 
 static bool read_mapping(const char *path, Mapping *mapping, Error *error)

@@ -38,7 +38,7 @@ void chart_quote(FILE *gnuplot, const char *text)
 
 static bool not_installed(const char *path, Error *error)
 {
-    return error_set(error, "%s: gnuplot, which draws charts, is not installed; tools/setup does that", path);
+    return error_set(error, "%s: gnuplot, which draws charts, is not installed; install gnuplot-nox", path);
 }
 
 bool chart_check(const char *path, Error *error)
@@ -53,7 +53,7 @@ bool chart_begin(Chart *chart, const char *path, int width, int height, Error *e
     chart->gnuplot = popen("gnuplot", "w");
     if (!chart->gnuplot) {
         output_discard(&chart->output);
-        return error_set(error, "%s: gnuplot cannot be started; tools/setup installs it", path);
+        return error_set(error, "%s: gnuplot cannot be started; install gnuplot-nox", path);
     }
     fprintf(chart->gnuplot, "set terminal %s size %d,%d font 'DejaVu Sans,11' background '#ffffff'\n",
             has_ending(path, ".svg") ? "svg" : "pngcairo", width, height);

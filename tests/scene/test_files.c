@@ -146,9 +146,14 @@ static void a_file_here_goes_first(void **state)
 static void what_is_no_file_is_refused(void **state)
 {
     (void)state;
+    setenv("XDG_CONFIG_HOME", folder, 1);
     assert_false(load("no_such_scene", 0));
-    assert_string_equal(error.message, "no_such_scene: no such file, neither here nor in " SLOSH_SOURCE_DIR
-                                       " nor in " SLOSH_SOURCE_DIR "/scenes; name a scene file");
+    char said[512];
+    snprintf(said, sizeof said,
+             "no_such_scene: no such file, neither here nor in %s/scenes nor in %s/slosh; name a scene file",
+             SLOSH_SOURCE_DIR, folder);
+    assert_string_equal(error.message, said);
+    unsetenv("XDG_CONFIG_HOME");
     assert_false(load("/no/such.yaml", 0));
     assert_string_equal(error.message, "/no/such.yaml: no such file; name a scene file");
     assert_false(load(folder, 0));

@@ -1,0 +1,101 @@
+"""The installed program: all that belongs to it is under the prefix, wherever that lies, and nothing beside the sources is needed."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import xml.etree.ElementTree
+
+import command
+from command import CommandTest
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+
+INSTALLED = ['bin/slosh', 'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
+             'share/icons/hicolor/256x256/apps/slosh.png', 'share/mime/packages/slosh.xml',
+             'share/slosh/scenes/dam_break.yaml', 'share/slosh/scenes/cases/couette.yaml',
+             'share/slosh/scenes/reference/paper003-spheres.csv']
+
+
+def install(component, to, prefix='/usr'):
+    """What is installed lies under the folder `to` with that prefix, and then elsewhere: (exit code, what was said)."""
+    done = subprocess.run(['cmake', '--install', os.path.dirname(command.PROGRAM), '--prefix', prefix, '--component', component],
+                          env={**os.environ, 'DESTDIR': to}, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    return done.returncode, done.stdout
+
+
+class Installed(CommandTest):
+    """Installed once for all tests, to DESTDIR, and moved then."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.top = tempfile.mkdtemp(prefix='slosh-test-')
+        cls.addClassCleanup(shutil.rmtree, cls.top)
+        code, said = install('program', f'{cls.top}/there')
+        assert code == 0, said
+        cls.prefix = f'{cls.top}/moved'
+        os.rename(f'{cls.top}/there/usr', cls.prefix)
+        hides = subprocess.run(['unshare', '-rm', 'mount', '-t', 'tmpfs', 'none', ROOT], stderr=subprocess.DEVNULL, check=False)
+        cls.hides = hides.returncode == 0  # a kernel that lets users mount
+
+    def run_installed(self, *arguments, **env):
+        """Where the sources are gone: (exit code, standard output, standard error)."""
+        program = [f'{self.prefix}/bin/slosh', *arguments]
+        if self.hides:
+            program = ['unshare', '-rm', 'sh', '-c', f'mount -t tmpfs none "{ROOT}" && exec "$@"', 'sh', *program]
+        done = subprocess.run(program, cwd=self.folder, env={**os.environ, 'XDG_CONFIG_HOME': self.path('config'), **env},
+                              capture_output=True, text=True, timeout=120, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def said(self, *arguments, **env):
+        code, out, said = self.run_installed(*arguments, **env)
+        self.assertEqual(code, 0, said)
+        return out
+
+    def test_what_is_installed(self):
+        self.assertEqual([name for name in INSTALLED if not os.path.isfile(f'{self.prefix}/{name}')], [])
+        names = {name.removesuffix('.yaml') for name in os.listdir(f'{ROOT}/scenes') if name.endswith('.yaml')}
+        listed = re.split(r'[,\s]+', self.said('help').split('comes with slosh:\n')[1].strip())
+        self.assertEqual(set(listed), names)
+
+    def test_it_draws_and_measures(self):
+        self.said('render', 'dam_break', '-o', 'a.png', '--time', '0', '--size', '16x16', '--quiet')
+        self.said('run', 'cases/couette', '-o', 'a.h5part', '--time', '0', '--quiet')
+        self.said('bench', '--table', 'paper003-spheres', '--backend', 'cpu', '--view', 'spheres', '--size', '16x16', '--threads', '1',
+                  '--frames', '1')  # its figures lie in scenes/reference
+
+    def test_scenes_of_ones_own(self):
+        os.makedirs(self.path('config/slosh/scenes'))
+        for name in ('config/slosh/scenes/among.yaml', 'config/slosh/beside.yaml', 'here.yaml', 'config/slosh/here.yaml'):
+            self.write(name, command.SCENE.replace('A small tank', name))
+        for name, path in [('among', 'config/slosh/scenes/among.yaml'), ('beside', 'config/slosh/beside.yaml'),
+                           ('here', 'config/slosh/here.yaml'), ('here.yaml', 'here.yaml')]:
+            self.assertIn(path, self.said('info', name))
+        os.remove(self.path('config/slosh/here.yaml'))
+        self.assertIn('here.yaml', self.said('info', 'here'))
+        code, _, said = self.run_installed('info', 'amon')
+        self.assertEqual((code, said), (2, f'amon: no such file, neither here nor in {self.prefix}/share/slosh/scenes nor in '
+                                           f'{self.path("config/slosh")}; did you mean \'among\'?\n'))
+
+    def test_what_allows_a_device(self):
+        self.write('plugged', '046d c626 usb /dev/stand-in1 denied 00\n')
+        module = shutil.copy(f'{os.path.dirname(command.PROGRAM)}/tests/hidapi_stand_in.so', self.folder)
+        out = self.said('devices', LD_PRELOAD=module, SLOSH_TEST_HID=self.path('plugged'))
+        self.assertIn(f'`sudo cp \'{self.prefix}/lib/udev/rules.d/70-slosh.rules\' /etc/udev/rules.d && sudo udevadm', out)
+
+    def test_the_desktop_knows_its_files(self):
+        """What the entries of the menu open are types that are there, named as the program writes them."""
+        types = {node.get('type'): [glob.get('pattern') for glob in node if glob.tag.endswith('glob')] for node in
+                 xml.etree.ElementTree.parse(f'{self.prefix}/share/mime/packages/slosh.xml').getroot()}
+        self.assertIn('*.h5part', types['application/x-slosh-snapshots'])
+        opened = []
+        for name in ('slosh', 'slosh-replay'):
+            with open(f'{self.prefix}/share/applications/{name}.desktop') as file:
+                entry = dict(re.findall(r'^(\w+)=(.*)$', file.read(), re.M))
+            opened += entry['MimeType'].strip(';').split(';')
+            self.assertIn(entry['Exec'].split()[1], self.said('help'))
+        self.assertEqual([name for name in opened if name not in types], [])
+
+
+if __name__ == '__main__':
+    command.main()
