@@ -31,12 +31,12 @@ static bool beside_program(const char *name, char path[PLACE_SIZE])
 
 const char *place_sources(void)
 {
-    static const char build[] = SLOSH_BINARY_DIR "/";
-    char folder[PLACE_SIZE + 1];
-    if (!program_folder(folder))
-        return NULL;
-    strcat(folder, "/");
-    return strncmp(folder, build, strlen(build)) == 0 ? SLOSH_SOURCE_DIR : NULL;
+    static const char build[] = SLOSH_BINARY_DIR;
+    const size_t length = strlen(build);
+    char folder[PLACE_SIZE];
+    const bool within = program_folder(folder) && strncmp(folder, build, length) == 0 &&
+                        (folder[length] == 0 || folder[length] == '/');
+    return within ? SLOSH_SOURCE_DIR : NULL;
 }
 
 bool place_shipped(char folder[PLACE_SIZE])

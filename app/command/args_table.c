@@ -2,6 +2,7 @@
 
 #include "app/base/path.h"
 #include "app/command/export_parts.h"
+#include "app/command/manual.h"
 #include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
 #include "app/scene/keys.h"
@@ -68,6 +69,8 @@ const CommandRow command_rows[] = {
 const HelpTopic help_topics[] = {
     {"keys", "every key of a scene", scene_keys_print},
     {"window", "what keys, mouse and gamepad do in the window", play_commands_print},
+    {"man", NULL, manual_print},
+    {"bash", NULL, completion_print},
     {0},
 };
 
@@ -203,7 +206,8 @@ static void help_program(FILE *file)
     fprintf(file, "  slosh %-54s %s\n", "--version", "says which slosh this is");
     fprintf(file, "\n");
     for (const HelpTopic *topic = help_topics; topic->name; topic++)
-        fprintf(file, "`slosh help %s`: %s.\n", topic->name, topic->help);
+        if (topic->help)
+            fprintf(file, "`slosh help %s`: %s.\n", topic->name, topic->help);
     fprintf(
         file,
         "`slosh help COMMAND` lists its options. SCENE is a file, or the name of one that comes with slosh:\n");
@@ -217,6 +221,22 @@ static void help_program(FILE *file)
     }
 }
 
+bool option_listed(const OptionRow *option, Command command)
+{
+    return option->commands & 1u << command && option->kind != OPTION_REFUSED;
+}
+
+void option_words(const CommandRow *row, const OptionRow *option, char *text, size_t size)
+{
+    const Key *key = option->path ? scene_key_find(option->path) : NULL;
+    const Key named = {.choice = option->names}, *names = key ? key : &named;
+    size_t at = (size_t)snprintf(text, size, "%s", option->help);
+    for (int i = 0; key_choice(names, i) && at < size; i++)
+        at += (size_t)snprintf(text + at, size - at, "%s%s", i ? ", " : ": ", key_choice(names, i));
+    if (option->kind == OPTION_SIZE && row->width > 0 && at < size)
+        snprintf(text + at, size - at, " (%dx%d)", row->width, row->height);
+}
+
 void args_help(Command command, FILE *file)
 {
     const CommandRow *row = command_row(command);
@@ -226,17 +246,11 @@ void args_help(Command command, FILE *file)
     }
     fprintf(file, "slosh %s %s\n%s\n\n", row->name, row->usage, row->help);
     for (const OptionRow *option = option_rows; option->name; option++) {
-        char left[64];
-        if (!(option->commands & 1u << command) || option->kind == OPTION_REFUSED)
+        char left[64], words[OPTION_WORDS_SIZE];
+        if (!option_listed(option, command))
             continue;
         snprintf(left, sizeof left, "%s %s", option->name, option->value ? option->value : "");
-        fprintf(file, "  %-22s %s", left, option->help);
-        const Key *key = option->path ? scene_key_find(option->path) : NULL;
-        const Key named = {.choice = option->names}, *names = key ? key : &named;
-        for (int i = 0; key_choice(names, i); i++)
-            fprintf(file, "%s%s", i ? ", " : ": ", key_choice(names, i));
-        if (option->kind == OPTION_SIZE && row->width > 0)
-            fprintf(file, " (%dx%d)", row->width, row->height);
-        fputc('\n', file);
+        option_words(row, option, words, sizeof words);
+        fprintf(file, "  %-22s %s\n", left, words);
     }
 }

@@ -43,7 +43,8 @@ typedef struct OptionRow {
     const char *(*names)(int index); /* what the value may be, for the help: NULL after the last */
 } OptionRow;
 
-/* What `slosh help NAME` prints besides commands: a table as Markdown, which docs/ holds too. */
+/* What `slosh help NAME` prints besides commands: a table as Markdown, which docs/ holds too, or, without a
+   help of its own, what is installed for other programs. */
 typedef struct HelpTopic {
     const char *name, *help;
     void (*print)(FILE *file);
@@ -55,5 +56,12 @@ extern const OptionRow option_rows[];
 extern const HelpTopic help_topics[];
 
 const CommandRow *command_row(Command command);
+
+/* Whether the command takes the option, and its help lists it. */
+bool option_listed(const OptionRow *option, Command command);
+
+/* The option's help, with what it may be. */
+enum { OPTION_WORDS_SIZE = 1024 };
+void option_words(const CommandRow *row, const OptionRow *option, char *text, size_t size);
 
 #endif

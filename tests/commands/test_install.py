@@ -1,4 +1,5 @@
 """The installed program: all that belongs to it is under the prefix, wherever that lies, and nothing beside the sources is needed."""
+import gzip
 import os
 import re
 import shutil
@@ -11,7 +12,8 @@ from command import CommandTest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
-INSTALLED = ['bin/slosh', 'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
+INSTALLED = ['bin/slosh', 'share/man/man1/slosh.1.gz', 'share/bash-completion/completions/slosh',
+             'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
              'share/icons/hicolor/256x256/apps/slosh.png', 'share/mime/packages/slosh.xml',
              'share/slosh/scenes/dam_break.yaml', 'share/slosh/scenes/cases/couette.yaml',
              'share/slosh/scenes/reference/paper003-spheres.csv']
@@ -24,7 +26,7 @@ def install(component, to, prefix='/usr'):
     return done.returncode, done.stdout
 
 
-class Installed(CommandTest):
+class InstalledTest(CommandTest):
     """Installed once for all tests, to DESTDIR, and moved then."""
 
     @classmethod
@@ -52,6 +54,8 @@ class Installed(CommandTest):
         self.assertEqual(code, 0, said)
         return out
 
+
+class Installed(InstalledTest):
     def test_what_is_installed(self):
         self.assertEqual([name for name in INSTALLED if not os.path.isfile(f'{self.prefix}/{name}')], [])
         names = {name.removesuffix('.yaml') for name in os.listdir(f'{ROOT}/scenes') if name.endswith('.yaml')}
@@ -95,6 +99,57 @@ class Installed(CommandTest):
             opened += entry['MimeType'].strip(';').split(';')
             self.assertIn(entry['Exec'].split()[1], self.said('help'))
         self.assertEqual([name for name in opened if name not in types], [])
+
+
+class Listed(InstalledTest):
+    """The manual page and the completion of bash have each option that help lists, and what it may be."""
+
+    def setUp(self):
+        super().setUp()
+        self.commands = re.findall(r'^  slosh (\w+)', self.said('help'), re.M)
+        self.help = {name: dict(re.findall(r'^  (--?[a-z-]+) +(.*)$', self.said('help', name), re.M)) for name in self.commands
+                     if name != 'help'}
+        self.assertIn('--size', self.help['render'])
+
+    def complete(self, *words):
+        """What bash offers for the last word."""
+        script = 'source "$0"; COMP_WORDS=(slosh "$@"); COMP_CWORD=$#; _slosh; printf "%s\\n" "${COMPREPLY[@]}"'
+        done = subprocess.run(['bash', '-c', script, f'{self.prefix}/share/bash-completion/completions/slosh', *words],
+                              capture_output=True, text=True, check=True)
+        self.assertEqual(done.stderr, '')
+        return set(done.stdout.split())
+
+    def test_the_manual_page(self):
+        with gzip.open(f'{self.prefix}/share/man/man1/slosh.1.gz', 'rt') as file:
+            page = re.sub(r'\\&|\\f[BIR]', '', file.read()).replace('\\-', '-')
+        found = {}
+        for part in page.split('\n.SH COMMANDS\n')[1].split('\n.SH ')[0].split('.SS slosh ')[1:]:
+            found[part.split()[0]] = dict(re.findall(r'^\.TP\n(--?[a-z-]+).*\n(.*)$', part, re.M))
+        self.assertEqual(set(found), set(self.commands))
+        for name, options in self.help.items():
+            self.assertEqual(set(found[name]), set(options), name)
+            for option, words in options.items():
+                self.assertIn(found[name][option], words)
+
+    def test_the_manual_page_is_sound(self):
+        if not shutil.which('groff'):
+            self.skipTest('groff is not installed')
+        done = subprocess.run(['groff', '-man', '-Tutf8', '-ww', '-rLL=2000n'], input=self.said('help', 'man'), capture_output=True,
+                              text=True, check=True)
+        self.assertEqual(done.stderr, '')
+
+    def test_completion(self):
+        self.assertGreaterEqual(self.complete(''), {*self.commands, 'dam_break', '--version'})
+        for name, options in self.help.items():
+            self.assertEqual(self.complete(name, '-'), set(options), name)
+        self.assertEqual(self.complete('dam_break', '-'), set(self.help['play']))
+        self.assertEqual(self.complete('render', 'dam_b'), {'dam_break', 'dam_break_2d'})
+        self.assertEqual(self.complete('run', 'drop', '--backend', ''), {'cpu', 'compute', 'fragment'})
+        self.assertEqual(self.complete('bench', '--clock', 'f'), {'finish'})
+        self.assertEqual(self.complete('run', 'drop', '--set', 'solver.step.d'), {'solver.step.dt='})
+        self.assertEqual(self.complete('run', 'drop', '--set', 'solver.step.dt', '=', ''), set())
+        self.assertEqual(self.complete('render', 'drop', '-o', ''), set())  # bash then offers files
+        self.assertEqual(self.complete('help', 'k'), {'keys'})
 
 
 if __name__ == '__main__':

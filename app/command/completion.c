@@ -1,0 +1,118 @@
+#include "app/base/path.h"
+#include "app/command/manual.h"
+#include "app/scene/keys.h"
+#include "app/session/args_table.h"
+
+#include <string.h>
+
+/* The one of the option's values that has that place: of its list, or of "a|b|c"; false behind the last. */
+static bool value_at(const OptionRow *option, int index, char value[64])
+{
+    const Key *key = option->path ? scene_key_find(option->path) : NULL;
+    const Key named = {.choice = option->names};
+    const char *name = key_choice(key ? key : &named, index);
+    if (option->kind == OPTION_CHOICE) {
+        name = option->value;
+        for (int i = 0; name && i < index; i++)
+            name = strchr(name, '|') ? strchr(name, '|') + 1 : NULL;
+    }
+    if (!name)
+        return false;
+    snprintf(value, 64, "%.*s", (int)strcspn(name, "|"), name);
+    return true;
+}
+
+static bool takes_setting(const OptionRow *option)
+{
+    return option->kind == OPTION_SWEEP || option->kind == OPTION_AXIS ||
+           (option->kind == OPTION_SETTING && !option->path);
+}
+
+/* What may follow the option: a line of the `case` over the word before. */
+static void put_values(FILE *file, const OptionRow *option)
+{
+    char value[64];
+    if (!option->value)
+        return;
+    fprintf(file, "        %s) options='' scenes=''", option->name);
+    for (int i = 0; value_at(option, i, value); i++)
+        fprintf(file, "%s%s", i ? " " : " values='", value);
+    fprintf(file, "%s ;;\n",
+            takes_setting(option)        ? " values=$keys end=''"
+            : value_at(option, 0, value) ? "'"
+                                         : "");
+}
+
+static void put_command(FILE *file, const CommandRow *row, const char *pattern)
+{
+    fprintf(file, "    %s)\n        options='", pattern);
+    for (const OptionRow *option = option_rows; option->name; option++)
+        if (option_listed(option, row->command))
+            fprintf(file, "%s ", option->name);
+    fputs("'\n        case $before in\n", file);
+    for (const OptionRow *option = option_rows; option->name; option++)
+        if (option_listed(option, row->command))
+            put_values(file, option);
+    fputs("        esac\n        ;;\n", file);
+}
+
+/* Paths that --set takes as they are: those of lists have an index in them. */
+static void put_keys(FILE *file)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    for (int i = 0; i < count; i++)
+        if (!strstr(keys[i].path, "[]") && keys[i].type != KEY_MAPPING && keys[i].type != KEY_LIST)
+            fprintf(file, "%s= ", keys[i].path);
+}
+
+static void put_lists(FILE *file)
+{
+    SceneNames scenes;
+    scene_path_names(&scenes);
+    fputs("    local commands='", file);
+    for (const CommandRow *row = command_rows; row->name; row++)
+        fprintf(file, "%s ", row->name);
+    fputs("' topics='", file);
+    for (const HelpTopic *topic = help_topics; topic->name; topic++)
+        fprintf(file, "%s ", topic->name);
+    fputs("'\n    local scenes='", file);
+    for (int i = 0; i < scenes.count; i++)
+        fprintf(file, "%s ", scenes.name[i]);
+    fputs("'\n    local keys='", file);
+    put_keys(file);
+    fputs("'\n", file);
+}
+
+static const char head[] = "# Completion for bash: made by `slosh help bash`.\n"
+                           "_slosh()\n{\n"
+                           "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
+                           "    local options='' values='' end=' '\n";
+
+/* Without words to offer bash offers files: `-o default` below. */
+static const char tail[] = "    esac\n"
+                           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+                           "        values=\"$commands --version --help\"\n"
+                           "    elif [ \"${COMP_WORDS[1]}\" = help ]; then\n"
+                           "        values=\"$commands $topics\" options='' scenes=''\n"
+                           "    fi\n"
+                           "    [ \"$before\" = = ] && options='' values='' scenes=''\n"
+                           "    [ \"$end\" ] || compopt -o nospace 2>/dev/null\n"
+                           "    case $word in\n"
+                           "    -*) COMPREPLY=($(compgen -W \"$options $values\" -- \"$word\")) ;;\n"
+                           "    *) COMPREPLY=($(compgen -W \"$values $scenes\" -- \"$word\")) ;;\n"
+                           "    esac\n"
+                           "}\n"
+                           "complete -o default -F _slosh slosh\n";
+
+void completion_print(FILE *file)
+{
+    fputs(head, file);
+    put_lists(file);
+    fputs("    case ${COMP_WORDS[1]} in\n", file);
+    for (const CommandRow *row = command_rows; row->name; row++)
+        if (row->command != COMMAND_PLAY)
+            put_command(file, row, row->name);
+    put_command(file, command_row(COMMAND_PLAY), "*");
+    fputs(tail, file);
+}
