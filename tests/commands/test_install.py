@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import tempfile
+import unittest
 import xml.etree.ElementTree
 
 import command
@@ -150,6 +151,68 @@ class Listed(InstalledTest):
         self.assertEqual(self.complete('run', 'drop', '--set', 'solver.step.dt', '=', ''), set())
         self.assertEqual(self.complete('render', 'drop', '-o', ''), set())  # bash then offers files
         self.assertEqual(self.complete('help', 'k'), {'keys'})
+
+
+class Library(CommandTest):
+    """The solver without the program: an example compiles against the installed tree alone, and its dam breaks."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.top = tempfile.mkdtemp(prefix='slosh-test-')
+        cls.addClassCleanup(shutil.rmtree, cls.top)
+        code, said = install('library', f'{cls.top}/there')
+        assert code == 0, said
+        cls.prefix = f'{cls.top}/moved'
+        os.rename(f'{cls.top}/there/usr', cls.prefix)
+        cls.example = f'{cls.prefix}/share/doc/libslosh-dev/examples'
+        symbols = cls.output('nm', '--defined-only', f'{cls.prefix}/lib/libslosh.a')
+        if re.search(' (__)?[at]san', symbols):
+            raise unittest.SkipTest('the library has a sanitizer in it, which its user would need too')
+
+    @staticmethod
+    def output(*words, **env):
+        done = subprocess.run(words, env={**os.environ, **env}, capture_output=True, text=True, check=False, timeout=120)
+        assert done.returncode == 0, f'{words}: {done.stdout}{done.stderr}'
+        return done.stdout
+
+    def compile(self, source, *arguments):
+        flags = self.output('pkg-config', '--cflags', '--libs', 'slosh', PKG_CONFIG_PATH=f'{self.prefix}/lib/pkgconfig').split()
+        self.output('cc', '-Wall', '-Wextra', '-Werror', '-std=c17', *arguments, source, '-o', self.path('front'), *flags)
+
+    def check(self, program):
+        """The front runs, no faster than twice sqrt(g H) allows, and reaches the wall 1.6 m off."""
+        rows = re.findall(r'^(\S+) s: (\S+) m$', self.output(program, OMP_WAIT_POLICY='passive', OMP_NUM_THREADS='1'), re.M)
+        times, fronts = [float(t) for t, _ in rows], [float(x) for _, x in rows]
+        self.assertEqual(times, [0.1, 0.2, 0.3, 0.4, 0.5])
+        self.assertEqual(fronts, sorted(fronts))
+        self.assertTrue(all(0.4 < x < 0.4 + 2 * (9.81 * 0.4) ** 0.5 * t + 0.02 for t, x in zip(times, fronts)), fronts)
+        self.assertGreater(fronts[-1], 1.3)
+
+    def test_by_pkg_config(self):
+        self.compile(f'{self.example}/front.c')
+        self.check(self.path('front'))
+
+    def test_by_cmake(self):
+        self.output('cmake', '-S', self.example, '-B', self.path('build'), f'-DCMAKE_PREFIX_PATH={self.prefix}')
+        self.output('cmake', '--build', self.path('build'))
+        self.check(self.path('build/front'))
+
+    def test_headers_stand_alone(self):
+        """Each as the first; and none of the rooms that only the solver itself uses."""
+        names = [os.path.relpath(os.path.join(folder, name), f'{self.prefix}/include/slosh')
+                 for folder, _, files in os.walk(f'{self.prefix}/include/slosh') for name in files]
+        self.assertIn('sim/world/world_state.h', names)
+        self.assertEqual([name for name in names if re.match('sim/(gl|cpu|incompressible|mueller|wcsph|dfsph|pbf)/', name)], [])
+        for name in names:
+            self.write('alone.c', f'#include "{name}"\n')
+            self.compile(self.path('alone.c'), '-fsyntax-only')
+
+    def test_no_other_names(self):
+        """What the library exports stands in its headers: a program's own functions meet nothing else."""
+        text = self.output('cat', *(os.path.join(folder, name) for folder, _, files in os.walk(f'{self.prefix}/include') for name in files))
+        symbols = self.output('nm', '--defined-only', '--extern-only', '--format=just-symbols', f'{self.prefix}/lib/libslosh.a').split()
+        self.assertIn('world_create', symbols)
+        self.assertEqual([name for name in symbols if name != 'slosh.o:' and not re.search(rf'\b{name}\b', text)], [])
 
 
 if __name__ == '__main__':

@@ -1,0 +1,46 @@
+# What `cmake --install` runs for the component `library`: the solver as libslosh.a, and its headers. The caller has set
+# SOURCES, ARCHIVE, WORK, NM, LINKER, OBJCOPY, AR, INCLUDES and LIBRARIES (CMakeLists.txt).
+cmake_policy(VERSION 3.25)
+
+# Public are the headers that a user begins with, and what these include.
+set(todo sim/world/world.h sim/world/world_state.h sim/mesh/field.h sim/mesh/isosurface.h)
+set(headers)
+set(text)
+while(todo)
+  list(POP_FRONT todo header)
+  if(NOT header IN_LIST headers)
+    list(APPEND headers ${header})
+    file(READ ${SOURCES}/${header} content)
+    string(APPEND text "${content}")
+    string(REGEX MATCHALL "\n#include \"[^\"]+" included "${content}")
+    list(TRANSFORM included REPLACE "\n#include \"" "")
+    list(APPEND todo ${included})
+  endif()
+endwhile()
+foreach(header ${headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  file(INSTALL ${SOURCES}/${header} DESTINATION "${INCLUDES}/${folder}")
+endforeach()
+
+# Names that only the solver itself uses would meet those of a user's program: they
+# are made local. What a public header names stays.
+function(run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+execute_process(COMMAND ${NM} --defined-only --extern-only --format=just-symbols ${ARCHIVE} OUTPUT_VARIABLE symbols
+                COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[A-Za-z_][A-Za-z_0-9]*" words "${text}")
+list(REMOVE_DUPLICATES words)
+string(REGEX MATCHALL "[^\n]+" symbols "${symbols}")
+set(kept)
+foreach(symbol ${symbols})
+  if(symbol IN_LIST words)
+    string(APPEND kept "${symbol}\n")
+  endif()
+endforeach()
+file(WRITE ${WORK}/public_symbols "${kept}")
+file(REMOVE ${WORK}/libslosh.a)
+run(${LINKER} -r -o ${WORK}/slosh.o --whole-archive ${ARCHIVE})
+run(${OBJCOPY} --strip-debug --keep-global-symbols=${WORK}/public_symbols ${WORK}/slosh.o)
+run(${AR} rcs ${WORK}/libslosh.a ${WORK}/slosh.o)
+file(INSTALL ${WORK}/libslosh.a DESTINATION "${LIBRARIES}")
