@@ -16,7 +16,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)
 INSTALLED = ['bin/slosh', 'share/man/man1/slosh.1.gz', 'share/bash-completion/completions/slosh',
              'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
              'share/icons/hicolor/256x256/apps/slosh.png', 'share/mime/packages/slosh.xml',
-             'share/slosh/scenes/dam_break.yaml', 'share/slosh/scenes/cases/couette.yaml',
+             'share/doc/slosh/copyright', 'share/doc/slosh/docs/guide.md', 'share/slosh/scenes/dam_break.yaml',
+             'share/slosh/scenes/cases/couette.yaml',
              'share/slosh/scenes/reference/paper003-spheres.csv']
 
 
@@ -62,6 +63,14 @@ class Installed(InstalledTest):
         names = {name.removesuffix('.yaml') for name in os.listdir(f'{ROOT}/scenes') if name.endswith('.yaml')}
         listed = re.split(r'[,\s]+', self.said('help').split('comes with slosh:\n')[1].strip())
         self.assertEqual(set(listed), names)
+
+    def test_what_the_package_asks_for(self):
+        """What the program runs or opens by name is also what tools/setup installs."""
+        with open(f'{ROOT}/tools/package/deb.cmake') as package, open(f'{ROOT}/tools/packages.txt') as packages:
+            asked = re.search(r'PROGRAM_PACKAGE_DEPENDS\s+"([^"]+)"', package.read())[1]
+            there = packages.read().split('\n[tests]')[0].split()
+        self.assertIn('ffmpeg', asked)
+        self.assertEqual([name for name in asked.split(', ') if name.split(' | ')[0] not in there], [])
 
     def test_it_draws_and_measures(self):
         self.said('render', 'dam_break', '-o', 'a.png', '--time', '0', '--size', '16x16', '--quiet')
