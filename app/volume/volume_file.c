@@ -104,7 +104,10 @@ bool volume_header_parse(const char *path, const char *bytes, size_t size, Volum
 
 bool volume_header_load(const char *path, VolumeHeader *header, Error *error)
 {
+    struct stat status;
     size_t size;
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
+        return error_set(error, "%s: no regular file; a header is read more than once", path);
     char *text = read_file(path, HEADER_BYTES_MAX, "volume's header", &size, error);
     const bool parsed = text && volume_header_parse(path, text, size, header, error);
     free(text);

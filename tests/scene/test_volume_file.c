@@ -159,6 +159,10 @@ static void a_raw_file_that_cannot_be_read_whole_is_refused(void **state)
     check_raw_refused(folder, "/dev/zero", "[2, 2, 2]", "/dev/zero: no regular file; ");
     check_raw_refused(folder, "pipe", "[2, 2, 2]", "pipe: no regular file; ");
     check_raw_refused(folder, ".", "[2, 2, 2]", ".: no regular file; ");
+    VolumeHeader header;
+    Error error = {{0}};
+    assert_false(volume_header_load(pipe, &header, &error));
+    assert_non_null(strstr(error.message, "pipe: no regular file; a header is read more than once"));
     write_file(large, "", 0);
     if (physical_bytes() < 0x1p34 && truncate(large, (off_t)1 << 32) == 0) /* of holes */
         check_raw_refused(folder, "large", "[65536, 32768, 2]", "no memory for 4294967296 values, 17.2 GB; ");
