@@ -13,7 +13,9 @@
 
 enum { A_RANGE = 4096 };
 
-static const double values_most = 0x1p28; /* 1 GB */
+static const double values_most = 0x1p28;   /* 1 GB */
+static const double enlarged_most = 8;      /* a formula still has four cells in its width */
+static const double vertices_most = 0x1p24; /* 3 GB, with their triangles */
 
 /* The field at points of a grid: one layer more on each side than the bounds need, since the mesh is closed
  * there. */
@@ -22,6 +24,7 @@ typedef struct Grid {
     int size[3];     /* points */
     double cell[3];  /* m: point i at low + (i - 1) cell */
     double enlarged; /* so many times the cells that the field asks for */
+    size_t vertices; /* of its mesh, but for what closes it */
     float *value;
 } Grid;
 
@@ -74,31 +77,71 @@ static double size_grid(const SurfaceRequest *request, double times, int size[3]
     return values;
 }
 
-double triangles_grid(const SurfaceRequest *request, int size[3], double cell[3])
+double triangles_grid(const SurfaceRequest *request, double times, int size[3], double cell[3])
 {
-    double times = 1;
     while (size_grid(request, times, size, cell) > values_most && !(request->cell > 0))
         times *= 1.1;
     return times;
 }
 
-static bool grid_fill(Grid *grid, const SurfaceRequest *request, Error *error)
+/* Cells at least as large as they are said to be. */
+static bool fill_grid(Grid *grid, const SurfaceRequest *request, Error *error)
 {
-    grid->enlarged = triangles_grid(request, grid->size, grid->cell);
+    grid->enlarged = triangles_grid(request, grid->enlarged, grid->size, grid->cell);
     const double values = (double)grid->size[0] * grid->size[1] * grid->size[2];
-    if (values > values_most) {
-        error_set(error, "cells of %.3g m make a grid of %d x %d x %d values; take larger ones",
-                  request->cell, grid->size[0], grid->size[1], grid->size[2]);
-        return false;
-    }
+    if (values > values_most)
+        return error_set(error, "cells of %.3g m make a grid of %d x %d x %d values; take larger ones",
+                         request->cell, grid->size[0], grid->size[1], grid->size[2]);
+    if (grid->enlarged > enlarged_most)
+        return error_set(error,
+                         "triangles that fit into memory are %.3g times as wide as those of its field, and "
+                         "would miss it; take the sampler walk",
+                         grid->enlarged);
+    free(grid->value);
     grid->value = malloc((size_t)values * sizeof *grid->value);
-    if (!grid->value) {
-        error_set(error, "no memory for a grid of %d x %d x %d values", grid->size[0], grid->size[1],
-                  grid->size[2]);
-        return false;
-    }
+    if (!grid->value)
+        return error_set(error, "no memory for a grid of %d x %d x %d values", grid->size[0], grid->size[1],
+                         grid->size[2]);
     parallel_ranges(grid->search->threads, (size_t)grid->size[1] * (size_t)grid->size[2], 1, fill_rows, grid);
     return true;
+}
+
+/* Edges from the values of some rows that cross the level: each is a vertex. */
+static void count_rows(void *context, size_t begin, size_t end)
+{
+    Grid *grid = context;
+    const float level = (float)grid->search->level;
+    const size_t width = (size_t)grid->size[0], height = (size_t)grid->size[1], depth = (size_t)grid->size[2];
+    size_t found = 0;
+    for (size_t row = begin; row < end; row++) {
+        const float *v = grid->value + row * width;
+        const bool next_y = row % height + 1 < height, next_z = row / height + 1 < depth;
+        for (size_t i = 0; i < width; i++) {
+            const bool inside = v[i] >= level;
+            found += i + 1 < width && (v[i + 1] >= level) != inside;
+            found += next_y && (v[i + width] >= level) != inside;
+            found += next_z && (v[i + width * height] >= level) != inside;
+        }
+    }
+    __atomic_fetch_add(&grid->vertices, found, __ATOMIC_RELAXED); /* whole numbers: in any order */
+}
+
+/* Until the mesh fits too: its vertices are as many as cells that the surface goes through. */
+static bool grid_fill(Grid *grid, const SurfaceRequest *request, Error *error)
+{
+    grid->enlarged = 1;
+    while (fill_grid(grid, request, error)) {
+        grid->vertices = 0;
+        parallel_ranges(grid->search->threads, (size_t)grid->size[1] * (size_t)grid->size[2], 16, count_rows,
+                        grid);
+        if ((double)grid->vertices <= vertices_most)
+            return true;
+        if (request->cell > 0)
+            return error_set(error, "cells of %.3g m make a mesh of %zu vertices; take larger ones",
+                             request->cell, grid->vertices);
+        grid->enlarged *= fmax(1.1, sqrt((double)grid->vertices / vertices_most));
+    }
+    return false;
 }
 
 static bool grid_sound(const Grid *grid, double level, Error *error)

@@ -11,9 +11,9 @@ typedef struct LineSearch LineSearch; /* sim/surface/lines.h */
 bool triangles_sample(const SurfaceRequest *request, const LineSearch *search, SurfacePoints *points,
                       SurfaceResult *result, Error *error);
 
-/* The grid that marches: its values along each axis, and its cells, m. Returns how many times larger they are
-   than the field's own march, of which there would be too many for memory; those that the request names stay.
- */
-double triangles_grid(const SurfaceRequest *request, int size[3], double cell[3]);
+/* The grid that marches: its values along each axis, and its cells, m, of at least so many `times` the
+   field's own march. Returns how many times they are where there would be too many for memory; cells that the
+   request names stay. */
+double triangles_grid(const SurfaceRequest *request, double times, int size[3], double cell[3]);
 
 #endif

@@ -84,16 +84,33 @@ static void cells_are_as_fine_as_memory_allows(void **state)
     LevelField flat;
     int size[3];
     double cell[3];
-    assert_true(triangles_grid(&request, size, cell) == 1 && size[0] == 32 + 3);
+    assert_true(triangles_grid(&request, 1, size, cell) == 1 && size[0] == 32 + 3);
     request.field = &fine;
-    const double times = triangles_grid(&request, size, cell), values = (double)size[0] * size[1] * size[2];
+    const double times = triangles_grid(&request, 1, size, cell),
+                 values = (double)size[0] * size[1] * size[2];
     assert_true(times > 40 && values <= 0x1p28 && values > 0x1p28 / 1.4);
     check_near(cell[2] / (times * fine.march[2]), 1, 2e-3, "larger cells");
     request.cell = 1e-4; /* stays: who named it is told */
-    assert_true(triangles_grid(&request, size, cell) == 1 && size[0] == 10003);
+    assert_true(triangles_grid(&request, 1, size, cell) == 1 && size[0] == 10003);
     assert_true(level_volume(&volume, VOLUME_TRILINEAR, &flat, NULL));
     request = on_triangles(&flat, 1, 1);
-    assert_true(triangles_grid(&request, size, cell) == 1 && size[0] == 5 && size[1] == 5);
+    assert_true(triangles_grid(&request, 1, size, cell) == 1 && size[0] == 5 && size[1] == 5);
+    assert_true(triangles_grid(&request, 2, size, cell) == 2 && size[0] == 5);
+}
+
+/* A grid that fits, most edges of which cross the level. */
+static void a_mesh_too_large_is_refused(void **state)
+{
+    (void)state;
+    const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
+    const LevelField gyroid = level_gyroid(low, high, 0.01);
+    SurfaceRequest request = on_triangles(&gyroid, 1, 1000);
+    Error error;
+    request.cell = 0.0042;
+    assert_non_null(strstr(refusal(&request, &error), " vertices; take larger ones"));
+    const LevelField finest = level_gyroid(low, high, 1e-3);
+    request = on_triangles(&finest, 1, 1000);
+    assert_non_null(strstr(refusal(&request, &error), "would miss it; take the sampler walk"));
 }
 
 /* So thin that there is no point: said, and nothing is touched. */
@@ -179,6 +196,7 @@ int main(void)
         cmocka_unit_test(an_open_surface_stays_open),
         cmocka_unit_test(threads_make_no_difference),
         cmocka_unit_test(cells_are_as_fine_as_memory_allows),
+        cmocka_unit_test(a_mesh_too_large_is_refused),
         cmocka_unit_test(too_thin_for_a_point),
         cmocka_unit_test(polygons_are_even_whatever_their_triangles),
     };
