@@ -4,6 +4,7 @@
 
 #include "app/session/studio.h"
 #include "render/glyphs/glyphs_def.h"
+#include "render/pbsr/pbsr_def.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/compute/compute.h"
 #include "sim/world/world_struct.h"
@@ -158,10 +159,11 @@ typedef struct Viewed {
     bool glyphs; /* arrows beside it, of a length of their own */
     int crossings;
     bool software; /* crossings on a software driver only */
+    int waits;     /* on a software driver, for what the CPU writes next */
 } Viewed;
 
 /* Bounds that follow the fluid make textures, whose size this side must know; `slabs` sums on the CPU, and so
-   does `slice` on a software driver. */
+   does `slice` on a software driver; `pbsr` makes its layers there, of positions and what colours go by. */
 static const Viewed views[] = {
     {.kind = "none"},
     {.kind = "spheres"},
@@ -178,6 +180,8 @@ static const Viewed views[] = {
     {.kind = "volume", .method = VOLUME_SLABS, .crossings = 2},
     {.kind = "slice", .crossings = 2, .software = true},
     {.kind = "slice", .fluid = true, .crossings = 1, .software = true},
+    {.kind = "pbsr", .crossings = 2, .waits = 1},
+    {.kind = "pbsr", .fluid = true, .crossings = 2, .waits = 1},
 };
 
 static ViewDef view_of(const Viewed *viewed)
@@ -189,6 +193,7 @@ static ViewDef view_of(const Viewed *viewed)
     volume_def(&view)->bounds = viewed->bounds;
     volume_def(&view)->show = viewed->show;
     splat_def(&view)->level = viewed->level;
+    pbsr_def(&view)->repeat = 1;
     view.color_by = viewed->fluid ? SCALAR_FLUID : SCALAR_SPEED;
     glyphs_def(&view)->show = viewed->glyphs;
     view.range_auto = true;
@@ -216,8 +221,10 @@ static void count_frames(const char *backend, const Viewed *viewed, bool late, S
             fail_msg("%s, view %td, frame %d: %s", backend, viewed - views, frame, error.message);
     }
     counting(false);
-    const int wanted = (1 + (!late ? !viewed->fluid + viewed->glyphs : 0)) * FRAMES;
-    const int reads = viewed->software && !gl_renderer_is_software() ? 0 : FRAMES * viewed->crossings;
+    const bool software = gl_renderer_is_software();
+    const int wanted =
+        (1 + (!late ? !viewed->fluid + viewed->glyphs : 0) + (software ? viewed->waits : 0)) * FRAMES;
+    const int reads = viewed->software && !software ? 0 : FRAMES * viewed->crossings;
     if (crossings != reads || waits != wanted || queries)
         fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d and %d are known",
                  backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES, reads, wanted);
