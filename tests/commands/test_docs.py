@@ -60,6 +60,17 @@ class Docs(CommandTest):
             self.write('mine.yaml', scene)
             self.assertEqual(self.slosh('run', 'mine.yaml', '-o', 'out.h5part', '--time', '0', '--quiet'), (0, ''))
 
+    def test_lines_that_one_changes_are_there(self):
+        """What a page of docs/add takes from a file is a line of it."""
+        taken = []
+        for page in ROOT.glob('docs/add/*.md'):
+            for block in re.findall(r'```diff\n(.*?)```', page.read_text(), re.S):
+                for name, lines in re.findall(r'^--- a/(.*)\n((?:(?!---).*\n)*)', block, re.M):
+                    taken += [(name, line[1:]) for line in lines.splitlines() if line.startswith('-')]
+        self.assertGreater(len(taken), 4)
+        for name, line in taken:
+            self.assertIn(line, (ROOT / name).read_text().splitlines(), name)
+
     def test_every_case_is_in_the_table(self):
         """All that run by themselves: cavity_1000 needs --full."""
         code, said = self.slosh('validate', 'nosuch')
