@@ -149,6 +149,7 @@ void fluid_walk_sets(FluidWalk *walk, const PbsrLayer *said, const FluidLayers *
         return;
     }
     still->density = result.density;
+    memcpy(still->note, result.note, sizeof still->note);
     still->count = still->points.count;
     color_points(&still->points, layers);
 }

@@ -79,6 +79,13 @@ static void add_part(Words *words, int number, const char *name, double opacity,
             name, 1 - pow(1 - fmin(opacity, OPACITY_MOST), part), opacity);
 }
 
+/* What the sampler says of its points. */
+static void add_note(Words *words, int number, const char *name, const StillLayer *still)
+{
+    if (still->sets > 0 && still->note[0])
+        add(words, "%slayer %d, %s: %s", part_from(words), number, name, still->note);
+}
+
 /* Of a layer of the fluid that was asked to be walked on. */
 static void add_walk(Words *words, int number, const PbsrLayer *said, const FluidWalk *walk)
 {
@@ -88,6 +95,7 @@ static void add_walk(Words *words, int number, const PbsrLayer *said, const Flui
         add(words, "%slayer %d, %s, is of triangles: %s", part_from(words), number, name, walk->why);
     else if (walk->walks)
         add_part(words, number, name, said->opacity, still_layer_part(&walk->still));
+    add_note(words, number, name, &walk->still);
 }
 
 /* All solids have one layer: the one that falls shortest speaks for it. */
@@ -102,6 +110,7 @@ static void add_solids(Words *words, int number, const PbsrLayer *said, const So
             add(words, "%ssolid %d is not in layer %d: %s", part_from(words), i + 1, number,
                 still->trouble.message);
         part = fmin(part, still_layer_part(still));
+        add_note(words, number, "solids", still);
     }
     add_part(words, number, "solids", said->opacity, part);
 }
@@ -120,6 +129,7 @@ static void add_layer(Words *words, int number, const PbsrLayer *said, const Lay
         add(words, "%snothing of layer %d, %s", part_from(words), number, name);
     else
         add_part(words, number, name, said->opacity, part);
+    add_note(words, number, name, still);
 }
 
 /* Keys that were said and change nothing. */

@@ -48,8 +48,9 @@ void set_image_clear(const SetImage *image, const SetSight *sight);
    order. Points that are not before the near plane, and no numbers, are left out. */
 void set_image_add(const SetImage *image, const SetSight *sight, const LayerPoint *point, unsigned layer);
 
-/* What a pixel keeps of a point beside its depth, word_of in shaders/pbsr/project.comp: its normal on an octahedron, 10
-   bits for each of two coordinates; its value in the range shown, 0 to 254, 255 for no number; its layer. */
+/* What a pixel keeps of a point beside its depth, word_of in shaders/pbsr/project.comp: its normal on an
+   octahedron, 10 bits for each of two coordinates; its value in the range shown, 0 to 254, 255 for no number;
+   its layer. */
 uint32_t set_word(const LayerPoint *point, const SetSight *sight, unsigned layer);
 
 /* The same of a point that stays, whose normal is on an octahedron already: by the last bit of it may that

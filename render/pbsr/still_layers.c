@@ -105,8 +105,10 @@ static bool make_sets(StillLayer *still, unsigned number, double density, double
     still->points.count = 0;
     still->sets = 0;
     still->made++;
+    still->note[0] = '\0';
     if (!make(still, &request, result))
         return false;
+    memcpy(still->note, result->note, sizeof still->note);
     still->density = result->reached ? density : fmin(result->density, density);
     still->sets = request.sets;
     return true;

@@ -39,6 +39,7 @@ typedef struct StillLayer {
     double wanted;  /* points of a set on as much surface as a pixel shows */
     bool few;       /* no more sets than `moving` were made: there may be more */
     uint64_t made;  /* raised with each change of the points */
+    char note[256]; /* SurfaceResult.note of the points that there are */
     Error trouble;  /* why there are none */
     /* what they were made for */
     bool followed, begun; /* there is what follows; and it has a field */

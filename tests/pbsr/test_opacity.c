@@ -685,8 +685,12 @@ static void still_layers_that_fall_short(void **state)
     LayersDrawn other = drawn;
     too_large.layers[0].beyond = 2;
     other.layers = &too_large;
+    strcpy(still.note, "the sampler's words");
     assert_true(layers_lack(&other, words, sizeof words) > 0);
-    assert_string_equal(words, "layer 1, sphere 0.4 m, is 0.16 opaque where it is nearest, not 0.3");
+    assert_string_equal(
+        words,
+        "layer 1, sphere 0.4 m, is 0.16 opaque where it is nearest, not 0.3; layer 1, sphere 0.4 m: the sampler's words");
+    still.note[0] = '\0';
     PbsrLayer *idle = &shown.layers[0];
     still.density = still.needed;
     idle->angle_deg = 30;
