@@ -78,7 +78,10 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
     *shoot = (Shoot){.panels = NULL};
     for (int i = 0; i < count; i++) {
         const ShootPanel *panel = &panels[i];
+        const int known = shoot->source_count;
         shoot->source_of[i] = source_find(shoot, panel->session, panel->recorded);
+        if (shoot->source_of[i] == known)
+            shoot->sources[known].scene = panel->scene;
         source_serve(&shoot->sources[shoot->source_of[i]], panel->view);
         subjects[i] = (Subject){panel->view, panel->session ? &panel->session->scene.world
                                                             : &panel->recorded->scene.world};
@@ -208,7 +211,7 @@ static bool take(const Shoot *shoot, ShootSource *source, double time, bool *fre
 {
     const Session *session = source->session;
     if (!session)
-        return take_recorded(shoot, source, time, fresh, error);
+        return take_recorded(shoot, source, source->scene ? source->scene->info.time : time, fresh, error);
     const bool between = source->interpolates && source->before.state.count > 0 &&
                          session->info.time > time + 1e-6 * session->scene.world.dt;
     if (!between && source->taken && !source->is_between && source->state.step == session->info.step)

@@ -14,7 +14,8 @@
 /* What a panel shows, and how; all outlives the shoot. */
 typedef struct ShootPanel {
     const Session *session;
-    Recorded *recorded; /* in place of a session; what reads it is taken over, the rest stays */
+    Recorded *recorded;   /* in place of a session; what reads it is taken over, the rest stays */
+    const Session *scene; /* at the time of whose state a run is shown; NULL: at the picture's */
     const ViewDef *view;
 } ShootPanel;
 
@@ -22,6 +23,7 @@ typedef struct ShootPanel {
 typedef struct ShootSource {
     const Session *session; /* NULL: a run's */
     Recorded *recorded;
+    const Session *scene; /* of a run: as of ShootPanel */
     Reel *reel;
     ReelStatus at; /* in the last picture */
     ReelWatch reel_watch;

@@ -43,6 +43,16 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
     return (Schedule){0, 1 / args->fps, (size_t)count};
 }
 
+/* What stands beside a scene is shown at the time of the scene's state, as in the window: that time once the
+   scene is there, else the picture's. Pictures between two states are all of one time. */
+static double shown_at(const Render *render, int panel, double time)
+{
+    const int leader = render->plan.leader_of[panel];
+    const bool follows = leader >= 0 && leader != render->plan.world_of[panel] && !render->args->interpolate;
+    return follows && session_reached(&render->sessions[leader], time) ? render->sessions[leader].info.time
+                                                                       : time;
+}
+
 /* Of what a panel shows; of a run what is known of it before its first picture. */
 static PanelFacts facts_of(const Render *render, int panel, double time)
 {
@@ -61,7 +71,7 @@ static PanelFacts facts_of(const Render *render, int panel, double time)
                         .recorded = true,
                         .first = run->first,
                         .last = source->taken ? source->at.last : run->last,
-                        .wanted = time};
+                        .wanted = shown_at(render, panel, time)};
 }
 
 /* What each panel's name says: the values of --compare, and the view's own. */
@@ -100,8 +110,10 @@ static bool open_shoot(Render *render, Error *error)
     RenderPlan *plan = &render->plan;
     for (int i = 0; i < plan->panel_count; i++) {
         const int world = plan->world_of[i], file = plan->file_of[i];
+        const bool follows = plan->leader_of[i] >= 0 && !render->args->interpolate;
         panels[i] = (ShootPanel){.session = world >= 0 ? &render->sessions[world] : NULL,
                                  .recorded = file >= 0 ? &plan->files[file] : NULL,
+                                 .scene = follows ? &render->sessions[plan->leader_of[i]] : NULL,
                                  .view = plan->views[i]};
     }
     return shoot_open(&render->shoot, panels, plan->panel_count, render->args->interpolate,
@@ -143,12 +155,21 @@ static bool step(Render *render, int world, double time, Error *error)
     return true;
 }
 
+/* When a world is to be there. */
+static double due_at(const Render *render, int world, double time)
+{
+    int panel = 0;
+    while (render->plan.world_of[panel] != world)
+        panel++;
+    return shown_at(render, panel, time);
+}
+
 /* The world that is furthest behind of those that are not there yet; -1: all are. */
 static int find_next(const Render *render, double time)
 {
     int next = -1;
     for (int i = 0; i < render->plan.world_count; i++)
-        if (!session_reached(&render->sessions[i], time) &&
+        if (!session_reached(&render->sessions[i], due_at(render, i, time)) &&
             (next < 0 || render->sessions[i].info.time < render->sessions[next].info.time))
             next = i;
     return next;
@@ -158,11 +179,12 @@ static int find_next(const Render *render, double time)
 static bool advance(Render *render, double time, Error *error)
 {
     int next;
-    for (int i = 0; i < render->plan.world_count; i++)
-        world_stop_at(render->sessions[i].world, time);
-    while ((next = find_next(render, time)) >= 0 && !interrupted())
-        if (!step(render, next, time, error))
+    while ((next = find_next(render, time)) >= 0 && !interrupted()) {
+        const double due = due_at(render, next, time);
+        world_stop_at(render->sessions[next].world, due);
+        if (!step(render, next, due, error))
             return false;
+    }
     return true;
 }
 

@@ -165,6 +165,14 @@ static bool share(RenderPlan *plan, int panel, int first, Error *error)
     return world_can(def, error) || blame(plan, plan->setting_of[panel], error);
 }
 
+static int find_leader(const RenderPlan *plan, int panel)
+{
+    for (int i = 0; i < plan->panel_count; i++)
+        if (plan->setting_of[i] == plan->setting_of[panel] && !beside_is(plan->views[i]))
+            return plan->world_of[i];
+    return -1;
+}
+
 /* What each panel shows; what is new to be said goes into `notes`. */
 static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
 {
@@ -176,6 +184,8 @@ static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
                       : !(*plan->views[i]->file ? add_file : add_world)(plan, i, &notes[i], error))
             return false;
     }
+    for (int i = 0; i < plan->panel_count; i++)
+        plan->leader_of[i] = find_leader(plan, i);
     return true;
 }
 

@@ -22,6 +22,8 @@ typedef struct RenderPlan {
     Scene *scene_of[PANELS_MAX]; /* of each world, among those */
     char worlds[PANELS_MAX][TITLE_SIZE]; /* of each world: its settings' name without keys of the view */
     int file_of[PANELS_MAX];             /* of each panel; -1: simulated */
+    int leader_of[PANELS_MAX]; /* of each panel: the world of its setting's scene itself; -1: nobody shows it
+                                */
     int file_count;
     Recorded files[PANELS_MAX]; /* recorded runs; the shoot takes over what it reads of them */
 } RenderPlan;

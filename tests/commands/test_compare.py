@@ -195,6 +195,14 @@ class Beside(CompareTest):
         self.slosh('render', 'run.h5part', '-o', 'one.png', '--time', '0.2', '--size', '249x400', '--view', 'none', *self.PLAIN)
         self.assertTrue((trailed != self.picture('one.png')).any())
 
+    def test_what_stands_beside_follows_the_scenes_state(self):
+        """Its time is that of the scene's state, not of the picture; --interpolate shows all at the picture's."""
+        self.record('--set', 'solver.step.dt=0.01')
+        views = '[{set: {solver.step.dt: 0.003}}, {}, {file: run.h5part}]'
+        for more, times in ((), (0.054, 0.052, 0.1)), (['--interpolate'], (0.0495, 0.0495, 0.05)):
+            _, result = self.shoot(views, *more, time='0.0495')
+            numpy.testing.assert_allclose([p['time'] for p in result['panels']], times, rtol=1e-6)
+
     def test_an_entrys_own_setting_is_not_compared(self):
         """Its value holds in each setting: one world, one name, the same picture."""
         said, result = self.compare('--compare', 'gravity=[0, -9, 0],[0, -3, 0]', '--set',
