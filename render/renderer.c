@@ -531,8 +531,8 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         if (renderer->def.legend) /* which waits for what it tells */
             frame.note = view_note(renderer->view, frame.behind);
     }
-    if (!frame.note)
-        frame.note = note_of(renderer, particles);
+    const char *own = note_of(renderer, particles);
+    frame.note = frame.note ? frame.note : own;
     draw_overlays(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
     draw_over(renderer, particles, &frame);
@@ -639,7 +639,8 @@ bool renderer_unfinished(const Renderer *renderer)
 
 const char *renderer_lacks(const Renderer *renderer)
 {
-    return renderer->view ? view_lacks(renderer->view) : NULL;
+    const char *words = renderer->view ? view_lacks(renderer->view) : NULL;
+    return words || !renderer->derived.lacks ? words : renderer->note;
 }
 
 /* Pixels drawn for a pixel shown. */
