@@ -13,7 +13,7 @@ static void draw_overlay(Play *play)
     const double began = meter_thread_cpu_ms();
     panels_range(play->picture.panels, play->picture.chosen, facts.range);
     panels_curve_ranges(play->picture.panels, play->picture.chosen, facts.opacity_range, facts.size_range);
-    play->picture.dirty |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
+    play->picture.over |= overlay_draw(&play->overlay, &play->model, &facts, &play->asks);
     if (overlay_shown(&play->overlay, &play->model))
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
 }
@@ -26,8 +26,8 @@ static void draw_marks(Play *play)
         const Look look = play_look(play, i);
         grip_draw(&play->grip, &look, picture->text);
     }
-    picture->dirty |= readout_draw(&play->readout, picture->panels, picture->width, picture->height,
-                                   picture->text, &play->notice);
+    picture->over |= readout_draw(&play->readout, picture->panels, picture->width, picture->height,
+                                  picture->text, &play->notice);
 }
 
 static void draw_fluid(Play *play)
@@ -45,8 +45,15 @@ static void draw_fluid(Play *play)
     model_titles(model, views, count, titles);
     picture_draw(picture, states, titles, overlay_covered_left(&play->overlay, picture->width));
     events_follow_hand(play);
+}
+
+/* The fluid as it was drawn last, and what lies over it. */
+static void present_fluid(Play *play, bool fresh)
+{
+    Picture *picture = &play->picture;
     picture_present(picture);
-    files_take(&play->files, picture->panels, picture->width, picture->height, &play->notice);
+    if (fresh)
+        files_take(&play->files, picture->panels, picture->width, picture->height, &play->notice);
     draw_marks(play);
     draw_overlay(play);
 }
@@ -74,17 +81,28 @@ static void count_picture(Play *play, double began)
                   model->open.simulator ? simulator_obeyed(model->open.simulator, model->particles.step) : 0);
 }
 
+bool draw_needs_fluid(const Play *play)
+{
+    return play->picture.dirty || picture_unsettled(&play->picture) || model_fresh(&play->model) ||
+           files_due(&play->files);
+}
+
 void draw_picture(Play *play)
 {
     Picture *picture = &play->picture;
     const double began = wall_ms();
+    const bool whole =
+        draw_needs_fluid(play) || !play->model.paused || !play->model.has_particles || play->files.shoot;
     if (!picture_visible(picture))
         return;
-    model_take(&play->model);
-    picture->dirty = false;
+    if (whole)
+        model_take(&play->model);
+    picture->dirty = picture->over = false;
     picture->begun_ms = began;
-    if (play->model.has_particles)
+    if (play->model.has_particles && whole)
         draw_fluid(play);
+    if (play->model.has_particles)
+        present_fluid(play, whole);
     else
         picture_clear(picture, &play->model.open.scene.view);
     picture_words(picture, words_of(play), overlay_covered_below(&play->overlay, &play->model));
@@ -93,5 +111,6 @@ void draw_picture(Play *play)
         events_follow_hand(play);
     while (!picture_done(picture));
     window_present(play->window);
-    count_picture(play, began);
+    if (whole)
+        count_picture(play, began);
 }

@@ -30,7 +30,7 @@ static bool grip_has(Play *play, const WindowEvent *event, bool free)
         return false;
     const Look look = play_look(play, panel_of_mouse(play));
     const bool has = grip_event(&play->grip, &look, event, free && play->input.drag == PLAY_NONE);
-    play->picture.dirty |= play->grip.over != before.over || play->grip.panel != before.panel;
+    play->picture.over |= play->grip.over != before.over || play->grip.panel != before.panel;
     return has;
 }
 
@@ -49,9 +49,10 @@ static void take_event(Play *play, const WindowEvent *event)
     const bool held = play->grip.taken;
     overlay_event(&play->overlay, event);
     grip_follow(&play->grip, event);
-    play->picture.dirty |= redraw || overlay_shown(&play->overlay, &play->model);
+    play->picture.dirty |= redraw;
+    play->picture.over |= overlay_shown(&play->overlay, &play->model);
     const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
-    play->picture.dirty |=
+    play->picture.over |=
         readout_event(&play->readout, play->picture.panels, event, !covered && !play->grip.taken);
     if (too_early(play, event->kind) || covered)
         return;

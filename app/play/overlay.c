@@ -312,5 +312,5 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
     widget_input_next(&overlay->input);
     draw_widgets(overlay, model, facts, asks);
     ui_end(overlay->ui);
-    return overlay->input.count > 0;
+    return overlay->input.count > 0 || ui_unsettled(overlay->ui);
 }

@@ -60,7 +60,8 @@ void overlay_set_letters(Overlay *overlay, float letters); /* where they cannot 
 void overlay_event(Overlay *overlay, const WindowEvent *event);
 bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent *event);
 
-/* Draws what is shown. Whether the next picture is to show more of what was done. */
+/* Draws what is shown. Whether the next picture is to show more of what was done, or windows in their place.
+ */
 bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks);
 
 /* Opens or closes the list of scenes. False with the reason why it has no pictures; it is there nevertheless.

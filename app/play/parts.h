@@ -86,7 +86,10 @@ void act_all(Play *play);
 /* Opens a scene: what it was before stays where it cannot be opened. */
 bool act_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
 
-/* draw.c: one picture of the newest state on the screen. */
+/* draw.c: one picture of the newest state on the screen. While time is paused what lies over the fluid may be
+   drawn anew without it: on a software driver a fluid takes a while, and the mouse asks all the time. Whether
+   one with the fluid is due. */
 void draw_picture(Play *play);
+bool draw_needs_fluid(const Play *play);
 
 #endif

@@ -19,7 +19,8 @@ typedef struct Picture {
     Text *text;
     int width, height;      /* of the framebuffer; 0 while the window is minimised */
     double refresh;         /* pictures a second that the display shows */
-    bool dirty;             /* a picture is due though no new state is there */
+    bool dirty;             /* a picture is due though no new state is there; */
+    bool over;              /* of what lies over the fluid alone */
     double begun_ms;        /* wall time at which the last one was begun */
     void *asked;            /* a GLsync: behind all that the GPU was asked to draw; NULL: not asked for yet */
     uint64_t shaders_stamp; /* of the files of --shaders when they were read */

@@ -118,8 +118,7 @@ static void pause_or_draw(Play *play)
     PlayScene *open = &play->model.open;
     const double work = open->source->work(open, WORK_MS);
     const double now = wall_ms(), due = picture->begun_ms + 900 / picture->refresh;
-    const bool wanted = picture_visible(picture) && (picture->dirty || picture_unsettled(picture) ||
-                                                     model_fresh(&play->model) || files_due(&play->files));
+    const bool wanted = picture_visible(picture) && (picture->over || draw_needs_fluid(play));
     if (wanted && now >= due)
         draw_picture(play);
     else if (wanted)

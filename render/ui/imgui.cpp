@@ -481,6 +481,11 @@ static void clear(const Ui *ui)
     }
 }
 
+bool ui_unsettled(const Ui *ui)
+{
+    return ui->settle > 0;
+}
+
 void ui_end(Ui *ui)
 {
     GLint target;

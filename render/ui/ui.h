@@ -65,6 +65,9 @@ bool ui_begin(Ui *ui, int width, int height, const UiInput *input);
 /* Draws the windows over the framebuffer that is bound for drawing. */
 void ui_end(Ui *ui);
 
+/* Whether windows do not have their size and place yet, one that is new not even a look: it takes frames. */
+bool ui_unsettled(const Ui *ui);
+
 /* As of the last frame: whether the mouse, or the keys, are the windows' own; and whether a window lies at a
    place, so that a press there is its own. */
 bool ui_wants_mouse(const Ui *ui);

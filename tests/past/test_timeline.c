@@ -40,6 +40,30 @@ static void close_line(Desk *desk)
     free(desk);
 }
 
+/* A window that is new takes frames for its size; who draws no more than it asks for has it in place. */
+static void it_asks_for_frames_until_it_is_in_place(void **state)
+{
+    (void)state;
+    Line line = {.data = {.from = 2, .to = 12, .now = 4.5}, .command = PLAY_NONE};
+    Desk *desk = calloc(1, sizeof *desk);
+    assert_non_null(desk);
+    desk_open(desk, 800, 300, 13);
+    desk->draw = draw_line;
+    desk->user = &line;
+    int frames = 0;
+    do
+        desk_frames(desk, 1);
+    while (ui_unsettled(desk->ui) && ++frames < 10);
+    assert_in_range(frames, 1, 9);
+    const Seen *bar = desk_find(desk, "time");
+    assert_non_null(bar);
+    const Seen before = *bar;
+    desk->input.changed = true;
+    desk_frames(desk, 5);
+    assert_memory_equal(desk_find(desk, "time")->rect, before.rect, sizeof before.rect);
+    close_line(desk);
+}
+
 static void the_bar_gives_the_time_under_the_mouse(void **state)
 {
     (void)state;
@@ -123,6 +147,7 @@ static void a_stretch_without_length_works(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(it_asks_for_frames_until_it_is_in_place, no_gl_errors),
         cmocka_unit_test_teardown(the_bar_gives_the_time_under_the_mouse, no_gl_errors),
         cmocka_unit_test_teardown(buttons_give_their_commands, no_gl_errors),
         cmocka_unit_test_teardown(all_stands_in_the_window, no_gl_errors),
