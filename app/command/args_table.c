@@ -2,9 +2,9 @@
 
 #include "app/base/path.h"
 #include "app/command/export_parts.h"
-#include "app/command/manual.h"
 #include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
+#include "app/manual/manual.h"
 #include "app/scene/keys.h"
 
 #include <stddef.h>

@@ -1,5 +1,5 @@
 #include "app/base/path.h"
-#include "app/command/manual.h"
+#include "app/manual/manual.h"
 #include "app/scene/keys.h"
 #include "app/session/args_table.h"
 

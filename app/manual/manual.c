@@ -1,4 +1,4 @@
-#include "app/command/manual.h"
+#include "app/manual/manual.h"
 
 #include "app/session/args_table.h"
 
