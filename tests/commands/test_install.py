@@ -125,12 +125,17 @@ class Installed(InstalledTest):
 class Listed(InstalledTest):
     """The manual page and the completion of bash have each option that help lists, and what it may be."""
 
-    def setUp(self):
-        super().setUp()
-        self.commands = re.findall(r'^  slosh (\w+)', self.said('help'), re.M)
-        self.help = {name: dict(re.findall(r'^  (--?[a-z-]+) +(.*)$', self.said('help', name), re.M)) for name in self.commands
-                     if name != 'help'}
-        self.assertIn('--size', self.help['render'])
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.commands = re.findall(r'^  slosh (\w+)', cls.printed(), re.M)
+        cls.help = {name: dict(re.findall(r'^  (--?[a-z-]+) +(.*)$', cls.printed(name), re.M)) for name in cls.commands
+                    if name != 'help'}
+        assert '--size' in cls.help['render']
+
+    @classmethod
+    def printed(cls, *topic):
+        return subprocess.run([f'{cls.prefix}/bin/slosh', 'help', *topic], capture_output=True, text=True, check=True).stdout
 
     def complete(self, *words):
         """What bash offers for the last word."""
@@ -155,7 +160,7 @@ class Listed(InstalledTest):
     def test_the_manual_page_is_sound(self):
         if not shutil.which('groff'):
             self.skipTest('groff is not installed')
-        done = subprocess.run(['groff', '-man', '-Tutf8', '-ww', '-rLL=2000n'], input=self.said('help', 'man'), capture_output=True,
+        done = subprocess.run(['groff', '-man', '-Tutf8', '-ww', '-rLL=2000n'], input=self.printed('man'), capture_output=True,
                               text=True, check=True)
         self.assertEqual(done.stderr, '')
 
@@ -223,9 +228,9 @@ class Library(CommandTest):
                  for folder, _, files in os.walk(f'{self.prefix}/include/slosh') for name in files]
         self.assertIn('sim/world/world_state.h', names)
         self.assertEqual([name for name in names if re.match('sim/(gl|cpu|incompressible|mueller|wcsph|dfsph|pbf)/', name)], [])
-        for name in names:
-            self.write('alone.c', f'#include "{name}"\n')
-            self.compile(self.path('alone.c'), '-fsyntax-only')
+        for name in [*names, None]:
+            self.write(f'{names.index(name) if name else "all"}.c', ''.join(f'#include "{n}"\n' for n in ([name] if name else names)))
+        self.compile(self.path('all.c'), '-fsyntax-only', *(self.path(f'{k}.c') for k in range(len(names))))
 
     def test_no_other_names(self):
         """What the library exports stands in its headers: a program's own functions meet nothing else."""
