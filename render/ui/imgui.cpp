@@ -315,15 +315,46 @@ bool ui_set_pixels(Ui *ui, float pixels, Error *error)
     return true;
 }
 
+static const ImGuiKey own_keys[] = {
+    ImGuiKey_Enter,      ImGuiKey_Escape, ImGuiKey_Backspace, ImGuiKey_Delete, ImGuiKey_LeftArrow,
+    ImGuiKey_RightArrow, ImGuiKey_Home,   ImGuiKey_End,       ImGuiKey_Tab,    ImGuiKey_A,
+    ImGuiKey_C,          ImGuiKey_V,      ImGuiKey_X}; // in the order of UI_KEY_*
+
+#if IMGUI_VERSION_NUM >=                                                                                     \
+    18900 // Debian 13 has 1.90: keys are events; a modifier that is set otherwise is lost
+
 static void map_keys()
 {
-    static const ImGuiKey keys[] = {
-        ImGuiKey_Enter,      ImGuiKey_Escape, ImGuiKey_Backspace, ImGuiKey_Delete, ImGuiKey_LeftArrow,
-        ImGuiKey_RightArrow, ImGuiKey_Home,   ImGuiKey_End,       ImGuiKey_Tab,    ImGuiKey_A,
-        ImGuiKey_C,          ImGuiKey_V,      ImGuiKey_X}; // in the order of UI_KEY_*
-    for (int bit = 0; bit < IM_ARRAYSIZE(keys); bit++)
-        ImGui::GetIO().KeyMap[keys[bit]] = bit;
+    ImGui::GetIO().ConfigInputTrickleEventQueue = false; // a frame takes all that happened before it
 }
+
+static void feed_keys(unsigned down)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    for (int bit = 0; bit < IM_ARRAYSIZE(own_keys); bit++)
+        io.AddKeyEvent(own_keys[bit], down >> bit & 1);
+    io.AddKeyEvent(ImGuiMod_Ctrl, down & UI_KEY_CTRL);
+    io.AddKeyEvent(ImGuiMod_Shift, down & UI_KEY_SHIFT);
+}
+
+#else // Debian 12 has 1.86: an array, and a map into it
+
+static void map_keys()
+{
+    for (int bit = 0; bit < IM_ARRAYSIZE(own_keys); bit++)
+        ImGui::GetIO().KeyMap[own_keys[bit]] = bit;
+}
+
+static void feed_keys(unsigned down)
+{
+    ImGuiIO &io = ImGui::GetIO();
+    for (int bit = 0; bit < IM_ARRAYSIZE(own_keys); bit++)
+        io.KeysDown[bit] = down >> bit & 1;
+    io.KeyCtrl = down & UI_KEY_CTRL;
+    io.KeyShift = down & UI_KEY_SHIFT;
+}
+
+#endif
 
 Ui *ui_create(float pixels, Error *error)
 {
@@ -416,10 +447,7 @@ static void feed(const Ui *ui)
     io.MousePos = ImVec2(input->mouse[0], input->mouse[1]);
     std::copy(input->button, input->button + 3, io.MouseDown);
     io.MouseWheel = input->wheel;
-    for (int bit = 0; bit < 13; bit++)
-        io.KeysDown[bit] = input->keys >> bit & 1;
-    io.KeyCtrl = input->keys & UI_KEY_CTRL;
-    io.KeyShift = input->keys & UI_KEY_SHIFT;
+    feed_keys(input->keys);
     io.AddInputCharactersUTF8(input->text);
 }
 
