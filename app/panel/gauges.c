@@ -67,7 +67,7 @@ static PanelPlot gauges_of(const PanelData *data, const char *name)
 
 bool panel_gauges(Ui *ui, const PanelData *data)
 {
-    if (!ui_section(ui, "Accuracy", true))
+    if (!ui_section(ui, "Accuracy", false))
         return false;
     const bool total = data->gauge_count > 0 && data->gauges[data->gauge_count - 1].gauge.total_known;
     PanelPlot density = gauges_of(data, "density error"), energy = gauges_of(data, "energy"),

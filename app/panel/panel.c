@@ -134,6 +134,14 @@ static void draw_buttons(Ui *ui, const PanelData *data, PanelEvents *events)
     ui_gap(ui);
 }
 
+static void list_warnings(Ui *ui, const PanelData *data)
+{
+    if (data->warning_count > 0)
+        ui_gap(ui);
+    for (int i = 0; i < data->warning_count; i++)
+        ui_warning(ui, data->warnings[i]);
+}
+
 static void draw_end(Ui *ui, const PanelData *data)
 {
     char keys[64], text[160];
@@ -143,15 +151,28 @@ static void draw_end(Ui *ui, const PanelData *data)
     ui_faint(ui, text);
     snprintf(text, sizeof text, "this panel: %.2f ms a picture · hide it: %s", data->panel_ms, keys);
     ui_faint(ui, text);
+    list_warnings(ui, data);
 }
 
 /* What only a simulation has. */
-static void draw_simulation(Ui *ui, const PanelData *data, PanelEvents *events)
+static void draw_measures(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
 {
-    panel_devices(ui, data, events);
+    panel_terms(ui, data->scene, start, events);
     panel_stages(ui, data);
     events->watches = panel_gauges(ui, data);
     events->watches_probes = panel_probes(ui, data);
+}
+
+/* Warnings come and go: they have a place of always the same height, so that nothing below it moves. What has
+   no room there is below all else, and in the help. */
+static void draw_warnings(Ui *ui, const PanelData *data)
+{
+    static const float LINES = 2;
+    char all[1024] = "";
+    for (int i = 0, used = 0; i < data->warning_count && used < (int)sizeof all; i++)
+        used += snprintf(all + used, sizeof all - (size_t)used, "%s%s", i > 0 ? "\n" : "", data->warnings[i]);
+    ui_notice(ui, LINES, data->warning_count > 0 ? data->warnings[0] : "",
+              data->warning_count > 0 ? all : NULL);
 }
 
 void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *data, PanelEvents *events)
@@ -166,18 +187,17 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
     follow_scene(panel, data->scene);
     ui_window_begin(ui, &window);
     if (ui_title(ui, data->scene->title)) {
-        for (int i = 0; i < data->warning_count; i++)
-            ui_warning(ui, data->warnings[i]);
         draw_figures(ui, data);
-        ui_gap(ui);
+        draw_warnings(ui, data);
         draw_buttons(ui, data, events);
-        if (!data->recorded)
-            draw_simulation(ui, data, events);
-        panel_history(ui, data);
+        panel_view(ui, data, &panel->start, events);
         panel_colors(ui, data, &panel->start, events);
         if (!data->recorded)
-            panel_terms(ui, data->scene, &panel->start, events);
+            panel_devices(ui, data, events);
         panel_scene(ui, data, &panel->start, events);
+        if (!data->recorded)
+            draw_measures(ui, data, &panel->start, events);
+        panel_history(ui, data);
         draw_end(ui, data);
     }
     ui_window_end(ui);

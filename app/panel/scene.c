@@ -2,6 +2,7 @@
 #include "app/panel/panel_parts.h"
 #include "app/scene/keys.h"
 #include "render/frame/legend.h"
+#include "render/frame/view.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -43,22 +44,54 @@ static bool is_elsewhere(const Key *key)
     return false;
 }
 
-/* The first part of a path, as a heading: "solver.step.dt" is in "Solver", "gravity" in "World". */
+/* What follows "view." in a key such as view.splat.level or view.trails.show, up to the dot: its length; 0:
+   the key is of every view. */
+static size_t part_of_view(const Key *key, const char **part)
+{
+    static const char VIEW[] = "view.";
+    *part = key->path + strlen(VIEW);
+    return strncmp(key->path, VIEW, strlen(VIEW)) == 0 && strchr(*part, '.') ? strcspn(*part, ".") : 0;
+}
+
+static bool is_a_view(const char *name, size_t length)
+{
+    for (int i = 0; view_at(i); i++)
+        if (strlen(view_at(i)->name) == length && strncmp(view_at(i)->name, name, length) == 0)
+            return true;
+    return false;
+}
+
+/* A key that another view than the shown one reads. */
+static bool is_of_another_view(const Key *key, const Scene *scene)
+{
+    const char *part;
+    const size_t length = part_of_view(key, &part);
+    const char *shown = scene->view.kind;
+    return length > 0 && is_a_view(part, length) &&
+           !(strlen(shown) == length && strncmp(shown, part, length) == 0);
+}
+
+/* The heading that a key stands under: "solver.step.dt" is in "Solver", "gravity" in "World", the shown
+   view's own in "View", "view.trails.show" in "Trails". */
 static void group_of(const Key *key, char name[NAME_LENGTH])
 {
-    const size_t length = strcspn(key->path, ".[");
-    if (!key->path[length]) {
+    const char *part;
+    const size_t length = strcspn(key->path, ".["), own = part_of_view(key, &part);
+    if (!key->path[length])
         snprintf(name, NAME_LENGTH, "World");
-        return;
-    }
-    snprintf(name, NAME_LENGTH, "%.*s", (int)length, key->path);
+    else if (own > 0 && !is_a_view(part, own))
+        snprintf(name, NAME_LENGTH, "%.*s", (int)own, part);
+    else
+        snprintf(name, NAME_LENGTH, "%.*s", (int)length, key->path);
     name[0] = (char)toupper((unsigned char)name[0]);
 }
 
-/* What follows the first part, or its list, in words: "step dt". */
+/* What follows the heading's part of the path, or its list, in words: "step dt". */
 static void label_of(const Key *key, char label[NAME_LENGTH])
 {
-    const char *list = strstr(key->path, "[]"), *dot = strchr(list ? list : key->path, '.');
+    const char *part;
+    const size_t own = part_of_view(key, &part);
+    const char *list = strstr(key->path, "[]"), *dot = strchr(list ? list : own ? part : key->path, '.');
     char unit[32];
     legend_unit(key->type == KEY_VEC3 ? key->unit : "", unit);
     snprintf(label, NAME_LENGTH, "%.30s%s%.14s", dot ? dot + 1 : key->path, *unit ? ", " : "", unit);
@@ -126,35 +159,78 @@ static void draw_key(Ui *ui, const Key *key, const Scene *scene, const Scene *st
         events);
 }
 
-/* Of a recorded run the view's alone. */
-static bool is_shown(const Key *key, bool recorded)
+/* Of a recorded run the view's alone; of the views' own keys those of the shown one. */
+static bool is_shown(const Key *key, const PanelData *data)
 {
-    return (key->flags & KEY_LIVE) && !is_elsewhere(key) &&
-           (!recorded || strncmp(key->path, "view.", strlen("view.")) == 0);
+    return (key->flags & KEY_LIVE) && !is_elsewhere(key) && !is_of_another_view(key, data->scene) &&
+           (!data->recorded || strncmp(key->path, "view.", strlen("view.")) == 0);
+}
+
+static bool is_in(const Key *key, const char *group, const PanelData *data)
+{
+    char own[NAME_LENGTH];
+    group_of(key, own);
+    return strcmp(own, group) == 0 && is_shown(key, data);
+}
+
+static void draw_group(Ui *ui, const char *group, const PanelData *data, const Scene *start,
+                       PanelEvents *events)
+{
+    int count;
+    const Key *keys = scene_keys(&count);
+    const Key *last_list = NULL;
+    for (int i = 0; i < count; i++) {
+        const Key *list = key_list(&keys[i]);
+        if (!is_in(&keys[i], group, data))
+            continue;
+        if (list && list != last_list)
+            for (int e = 0; e < key_list_count(list, data->scene); e++)
+                draw_element(ui, list, e, data->scene, start, events);
+        else if (!list)
+            draw_key(ui, &keys[i], data->scene, start, NULL, events);
+        last_list = list;
+    }
+}
+
+static const char VIEW_GROUP[] = "View";
+
+void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
+{
+    if (ui_section(ui, VIEW_GROUP, true))
+        draw_group(ui, VIEW_GROUP, data, start, events);
+}
+
+/* The headings that stand already. */
+typedef struct Groups {
+    int count;
+    char name[24][NAME_LENGTH];
+} Groups;
+
+/* Whether it is a new one; with more than there is room for the last ones have none. */
+static bool groups_add(Groups *groups, const char *name)
+{
+    for (int i = 0; i < groups->count; i++)
+        if (strcmp(groups->name[i], name) == 0)
+            return false;
+    if (groups->count == (int)(sizeof groups->name / sizeof *groups->name))
+        return false;
+    snprintf(groups->name[groups->count++], NAME_LENGTH, "%s", name);
+    return true;
 }
 
 void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
 {
-    const Scene *scene = data->scene;
     int count;
     const Key *keys = scene_keys(&count);
-    const Key *last_list = NULL;
-    char last[NAME_LENGTH] = "", group[NAME_LENGTH];
-    bool open = false;
+    Groups groups = {.count = 0};
+    char group[NAME_LENGTH];
+    groups_add(&groups, VIEW_GROUP);
     for (int i = 0; i < count; i++) {
-        const Key *list = key_list(&keys[i]);
-        if (!is_shown(&keys[i], data->recorded))
+        if (!is_shown(&keys[i], data))
             continue;
         group_of(&keys[i], group);
-        if (strcmp(group, last) != 0)
-            open = ui_section(ui, group, false);
-        memcpy(last, group, sizeof last);
-        if (open && list && list != last_list)
-            for (int e = 0; e < key_list_count(list, scene); e++)
-                draw_element(ui, list, e, scene, start, events);
-        else if (open && !list)
-            draw_key(ui, &keys[i], scene, start, NULL, events);
-        last_list = list;
+        if (groups_add(&groups, group) && ui_section(ui, group, false))
+            draw_group(ui, group, data, start, events);
     }
 }
 

@@ -85,7 +85,7 @@ void panel_stages(Ui *ui, const PanelData *data)
     Line lines[STAGE_COUNT + 1];
     double all, longest = 0;
     float rect[4];
-    if (!ui_section(ui, "Stages", true))
+    if (!ui_section(ui, "Stages", false))
         return;
     draw_balance(ui, data);
     const int count = gather(data, lines, &all);

@@ -3,8 +3,10 @@
 
 #include "render/frame/colormap.h"
 #include "render/frame/overlay.h"
+#include "render/frame/view.h"
 #include "render/particles/particle_under.h"
 #include "sim/base/scalar.h"
+#include "sim/base/stage.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -73,6 +75,29 @@ static void next_scalar(Play *play)
     notice_tell(&play->notice, "coloured by %s", scalar_name(view->color_by));
 }
 
+/* The next one that can show these states, round and round. */
+static void next_view(Play *play)
+{
+    ViewDef *view = &play->model.open.scene.view, tried = *view;
+    int at = 0, count = 0;
+    Error none;
+    while (view_at(count))
+        count++;
+    while (at + 1 < count && strcmp(view_at(at)->name, view->kind) != 0)
+        at++;
+    for (int i = 1; i < count; i++) {
+        const ViewKind *next = view_at((at + i) % count);
+        Ask ask = {.kind = ASK_SETTING};
+        snprintf(tried.kind, sizeof tried.kind, "%s", next->name);
+        if (!model_has(&play->model, &tried, &none))
+            continue;
+        snprintf(ask.text, sizeof ask.text, "view.kind=%s", next->name);
+        ask_add(&play->asks, &ask);
+        notice_tell(&play->notice, "view %s: %s", next->name, next->help);
+        return;
+    }
+}
+
 static void next_colormap(Play *play)
 {
     ViewDef *view = &play->model.open.scene.view;
@@ -121,6 +146,20 @@ static void show_scenes(Play *play)
         notice_error(&play->notice, error.message);
 }
 
+/* The session was saved, or the user says it twice. */
+static bool may_close(Play *play)
+{
+    static const double PATIENCE_MS = 4000; /* as long as the question is there */
+    const double now = wall_ms();
+    const bool lost = play->model.status.unsaved && !play->model.record;
+    if (!lost || (play->asked_ms > 0 && now < play->asked_ms + PATIENCE_MS))
+        return true;
+    play->asked_ms = now;
+    notice_tell(&play->notice,
+                "what you did is not saved: Ctrl+S saves it, Escape once more closes the window");
+    return false;
+}
+
 static void quit_or_close(Play *play)
 {
     if (play->overlay.help)
@@ -128,7 +167,7 @@ static void quit_or_close(Play *play)
     else if (play->overlay.scenes)
         show_scenes(play);
     else
-        play->quit = true;
+        play->quit = may_close(play);
 }
 
 static void step_plane(Play *play, PlayCommand command)
@@ -228,6 +267,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_SCENES:
         show_scenes(play);
+        break;
+    case PLAY_NEXT_VIEW:
+        next_view(play);
         break;
     case PLAY_NEXT_SCALAR:
         next_scalar(play);

@@ -77,8 +77,11 @@ static void count_picture(Play *play, double began)
         return;
     if (meter_begin(&play->meter, now))
         model->simulated_s = -model->status.simulated_s;
+    if (model->paused)
+        meter_rest(&play->meter, true);
     meter_picture(&play->meter, now,
                   model->open.simulator ? simulator_obeyed(model->open.simulator, model->particles.step) : 0);
+    meter_rest(&play->meter, model->paused);
 }
 
 bool draw_needs_fluid(const Play *play)

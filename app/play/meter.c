@@ -51,6 +51,9 @@ void meter_picture(PlayMeter *meter, double now_ms, uint64_t obeyed)
     if (meter->pictures++ == 0) {
         meter->first_ms = meter_process_age_ms();
         meter->second_began_ms = now_ms;
+    } else if (meter->rests) {
+        meter->second_began_ms = now_ms;
+        meter->in_second = 0;
     } else {
         meter->history[meter->history_next] = (float)(now_ms - meter->last_ms);
         meter->history_next = (meter->history_next + 1) % METER_HISTORY;
@@ -81,6 +84,12 @@ double meter_cpu_ms(void)
 double meter_thread_cpu_ms(void)
 {
     return clock_ms(CLOCK_THREAD_CPUTIME_ID);
+}
+
+/* The first picture behind a pause ends it. */
+void meter_rest(PlayMeter *meter, bool rests)
+{
+    meter->rests = rests;
 }
 
 bool meter_begin(PlayMeter *meter, double now_ms)

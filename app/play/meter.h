@@ -23,7 +23,8 @@ typedef struct PlayMeter {
     double second_began_ms;       /* of the present count */
     int in_second;                /* pictures since then */
     double pictures_per_second;   /* of the last second */
-    float history[METER_HISTORY]; /* from picture to picture, ms; a ring */
+    float history[METER_HISTORY]; /* from picture to picture, ms; a ring; without pauses */
+    bool rests;                   /* as of meter_rest */
     int history_next, history_count;
     int waiting_count;
     MeterEvent waiting[METER_WAITING_MAX]; /* not shown yet, in the order of their commands */
@@ -44,6 +45,9 @@ void meter_event(PlayMeter *meter, double when_ms, uint64_t command);
 
 /* A picture is on the screen now, of a state that has obeyed `obeyed` commands. */
 void meter_picture(PlayMeter *meter, double now_ms, uint64_t obeyed);
+
+/* The time is paused, or not: pictures come then as somebody does something, which is no rate. */
+void meter_rest(PlayMeter *meter, bool rests);
 
 /* The first picture of a state: from now on the session counts. False: it was not the first. */
 bool meter_begin(PlayMeter *meter, double now_ms);

@@ -35,6 +35,7 @@ typedef struct Play {
     Notice notice;
     double shake_seconds; /* given: more than 0: a script shakes the box for so long, then all ends */
     WindowShake shake;
+    double asked_ms; /* wall time at which the user was asked whether to close without saving; 0: never */
     bool quit;
 } Play;
 

@@ -12,6 +12,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+static const float PANEL_FROM_EM =
+    56; /* the panel takes less than half of a window as wide as so many letters */
 static const double IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, WORK_MS = 4;
 
 /* The parts, and what comes from outside. */
@@ -65,7 +67,8 @@ static bool start(Session *session, Error *error)
                           .past_bytes = setup->past_bytes,
                           .speed = 1};
     const float letters = picture_letters(play->window);
-    play->overlay.panel = (float)play->picture.width > 60 * letters; /* beside the fluid, not over it */
+    play->overlay.panel =
+        (float)play->picture.width > PANEL_FROM_EM * letters; /* beside the fluid, not over it */
     return act_open(play, setup->scene, setup->settings, error) &&
            picture_start(&play->picture, &play->model.open, letters, error) &&
            overlay_start(&play->overlay, letters, error);

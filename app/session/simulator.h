@@ -182,9 +182,10 @@ typedef struct SimulatorStatus {
     int probe_count; /* the same of `probes` */
     ProbeSample probes[SIMULATOR_GAUGES];
     SimulatorPast past;
-    bool saving;             /* a simulator_save is not done yet */
-    unsigned saves;          /* counts simulator_save that ended */
-    bool saved;              /* whether the last one succeeded */
+    bool unsaved;   /* something was done since the start, or since a simulator_save that succeeded */
+    bool saving;    /* a simulator_save is not done yet */
+    unsigned saves; /* counts simulator_save that ended */
+    bool saved;     /* whether the last one succeeded */
     char save_message[1024]; /* its error, or what it saved */
 } SimulatorStatus;
 

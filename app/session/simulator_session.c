@@ -80,6 +80,13 @@ void simulator_make_world(Simulator *simulator)
     awaken(simulator);
 }
 
+static void set_unsaved(Simulator *simulator, bool unsaved)
+{
+    pthread_mutex_lock(&simulator->lock);
+    simulator->status.unsaved = unsaved;
+    pthread_mutex_unlock(&simulator->lock);
+}
+
 void simulator_obey(Simulator *simulator, const SimCommand *command)
 {
     Error error = {{0}};
@@ -92,6 +99,8 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
         simulator_past_begin(simulator);
         simulator_tell(simulator, false,
                        "this session has become too long to be saved; a reset begins a new one");
+    } else {
+        set_unsaved(simulator, true);
     }
 }
 
@@ -118,6 +127,7 @@ void simulator_restart(Simulator *simulator, Work *work)
         work->commands.commands[i].step = 0;
         simulator_obey(simulator, &work->commands.commands[i]);
     }
+    set_unsaved(simulator, false);
     recording_destroy(&before);
 }
 
@@ -144,6 +154,7 @@ void simulator_save_session(Simulator *simulator, const char *path)
     simulator->saving = false;
     status->saves++;
     status->saved = ok;
+    status->unsaved &= !ok;
     if (ok)
         snprintf(status->save_message, sizeof status->save_message, "%.900s: the session, %.4g s", path,
                  saved_s);

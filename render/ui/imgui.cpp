@@ -650,6 +650,44 @@ void ui_warning(Ui *ui, const char *text)
     wrapped(ui, text, ImGui::ColorConvertU32ToFloat4(imgui_color(0xf2b866ff)));
 }
 
+// The end of the first line that is `width` wide, and where the next one begins.
+static const char *line_end(const char *text, float width, const char **next)
+{
+    const char *end = text + strlen(text);
+    const char *stop = GImGui->Font->CalcWordWrapPositionA(1, text, end, width);
+    const char *broken = (const char *)memchr(text, '\n', (size_t)(stop - text));
+    stop = broken ? broken : stop;
+    *next = stop;
+    while (**next == ' ' || **next == '\n')
+        ++*next;
+    return stop;
+}
+
+void ui_notice(Ui *ui, float lines, const char *text, const char *help)
+{
+    Current current(ui->context);
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const float width = ImGui::GetContentRegionAvail().x, line = ImGui::GetTextLineHeight();
+    const float dots = ImGui::CalcTextSize("...").x;
+    const ImU32 color = imgui_color(0xf2b866ff);
+    ui->line_right = 0;
+    ImGui::Dummy(ImVec2(width, line * lines));
+    tip(ui, help);
+    watch(ui, text, ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()), widest_word(text));
+    for (int i = 0; i < (int)lines && *text; i++) {
+        const char *next, *end = line_end(text, width, &next);
+        const bool cut = i + 1 == (int)lines && *next;
+        if (cut)
+            end = line_end(text, width - dots, &next);
+        const ImVec2 at(corner.x, corner.y + line * (float)i);
+        ImGui::GetWindowDrawList()->AddText(at, color, text, end);
+        if (cut)
+            ImGui::GetWindowDrawList()->AddText(ImVec2(at.x + ImGui::CalcTextSize(text, end).x, at.y), color,
+                                                "...");
+        text = next;
+    }
+}
+
 void ui_gap(Ui *ui)
 {
     Current current(ui->context);

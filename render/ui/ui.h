@@ -93,6 +93,10 @@ void ui_faint(Ui *ui, const char *text);   /* what matters less */
 void ui_warning(Ui *ui, const char *text); /* what matters more */
 void ui_gap(Ui *ui);                       /* half a line */
 
+/* A warning in a place of so many lines, whether there is one or not: what does not fit ends in "...". `help`
+   as of UiField. */
+void ui_notice(Ui *ui, float lines, const char *text, const char *help);
+
 /* A heading: a click hides or shows what follows. True: what follows is to be shown. */
 bool ui_section(Ui *ui, const char *name, bool open_at_start);
 

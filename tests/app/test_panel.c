@@ -8,11 +8,13 @@
 #include "app/panel/panel.h"
 #include "app/scene/keys.h"
 #include "app/scene/live.h"
+#include "render/frame/view.h"
 #include "render/pbsr/pbsr_def.h"
 
 enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
 
-static const char *const sections[] = {"History", "Colours", "World", "Fluids", "Solver", "Hand", "View"};
+static const char *const sections[] = {"History", "Stages", "Accuracy", "Colours", "World", "Fluids",
+                                       "Solver",  "Hand",   "Glyphs",   "Trails"}; /* View is open */
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 /* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
@@ -206,6 +208,60 @@ static void set_ranges(Scene *scene)
     }
 }
 
+/* The panel has the keys of the shown view alone: a key of another one needs that view. */
+static void show_view_of(Session *session, Desk *desk, const char *path)
+{
+    for (int i = 0; view_at(i); i++) {
+        char own[64];
+        snprintf(own, sizeof own, "view.%s.", view_at(i)->name);
+        if (strncmp(path, own, strlen(own)) != 0 || strcmp(session->scene.view.kind, view_at(i)->name) == 0)
+            continue;
+        snprintf(session->scene.view.kind, NAME_SIZE, "%s", view_at(i)->name);
+        desk->input.changed = true;
+        desk_frames(desk, 10);
+    }
+}
+
+static void test_the_shown_view_has_its_keys_and_no_other(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "two_oils", 400, TALL, 13);
+    assert_non_null(desk_find(desk, "view.kind")); /* open at first */
+    assert_null(desk_find(desk, "view.splat.weights"));
+    assert_true(desk_find(desk, "View")->rect[1] < desk_find(desk, "Colours")->rect[1]);
+    show_view_of(&session, desk, "view.splat.weights");
+    assert_non_null(desk_find(desk, "view.splat.weights"));
+    assert_null(desk_find(desk, "view.volume.look"));
+    assert_null(desk_find(desk, "view.trails.show")); /* under a heading of its own */
+    desk_click_at(desk, "Trails", 0.3F);
+    assert_non_null(desk_find(desk, "view.trails.show"));
+    session_close(&session, desk);
+}
+
+/* Nothing moves when warnings come, however many and long. */
+static void test_warnings_move_nothing(void **state)
+{
+    (void)state;
+    static const char *const many[] = {
+        "A warning so long that it has no room in two lines of the panel, which is why it ends in three dots there, and "
+        "stands whole below all the rest of it, where nothing can be moved by it.",
+        "Another one."};
+    Session session;
+    Desk *desk = all_open(&session, "two_oils");
+    session.data.warning_count = 0;
+    desk_frames(desk, 30);
+    const float view = desk_find(desk, "View")->rect[1],
+                last = desk_find(desk, "picture to picture")->rect[1];
+    session.data.warnings = many;
+    session.data.warning_count = 2;
+    desk_frames(desk, 30);
+    assert_true(desk_find(desk, "View")->rect[1] == view);
+    assert_true(desk_find(desk, "picture to picture")->rect[1] == last);
+    assert_true(desk_find(desk, many[1])->rect[1] > last);
+    session_close(&session, desk);
+}
+
 static void test_every_live_key_has_a_widget(void **state)
 {
     (void)state;
@@ -222,6 +278,7 @@ static void test_every_live_key_has_a_widget(void **state)
         /* "box" is also what "view.box" is called, "solids" what a stage is */
         if (keys[i].type == KEY_MAPPING || keys[i].type == KEY_LIST)
             continue;
+        show_view_of(&session, desk, path);
         if ((desk_find(desk, path) != NULL) != expected)
             fail_msg("%s: %s", path, expected ? "live, without a widget" : "has a widget");
         live += expected;
@@ -259,6 +316,7 @@ static void test_what_it_asks_for_is_accepted(void **state)
         static const float shares[] = {0.005F, 0.3F, 0.62F, 0.995F};
         char path[64];
         in_second_fluid(keys[i].path, path);
+        show_view_of(&session, desk, path);
         if (!desk_find(desk, path) || !(keys[i].flags & KEY_LIVE))
             continue;
         const int before = session.settings;
@@ -296,6 +354,7 @@ static void test_typed_numbers_are_accepted(void **state)
     for (int i = 0; i < count; i++) {
         char path[64];
         in_second_fluid(keys[i].path, path);
+        show_view_of(&session, desk, path);
         if (!desk_find(desk, path) ||
             (keys[i].type != KEY_NUMBER && keys[i].type != KEY_INTEGER && keys[i].type != KEY_VEC3))
             continue;
@@ -444,7 +503,9 @@ static void test_stages_as_they_are_known(void **state)
 {
     (void)state;
     Session session;
-    Desk *desk = session_open(&session, "box_slosh", 1280, 720, 13);
+    Desk *desk = session_open(&session, "box_slosh", 1280, 1600, 13);
+    assert_null(desk_find(desk, "visibility")); /* closed at first */
+    desk_click_at(desk, "Stages", 0.3F);
     assert_non_null(desk_find(desk, "visibility"));
     assert_non_null(desk_find(desk, "density"));
     assert_null(desk_find(desk, "all rendering"));
@@ -475,7 +536,10 @@ static void test_gauges_are_plotted(void **state)
                                         "0 to 0.789, last 5.95 s",
                                         "0.789, bounded by viscous"};
     Session session;
-    Desk *desk = session_open(&session, "box_slosh", 1280, 1000, 13);
+    Desk *desk = session_open(&session, "box_slosh", 1280, 1600, 13);
+    assert_false(session.watches); /* closed at first: nothing is measured */
+    desk_click_at(desk, "Accuracy", 0.3F);
+    desk_frames(desk, 3);
     for (size_t i = 0; i < sizeof shown / sizeof *shown; i++)
         if (!desk_find(desk, shown[i]))
             fail_msg("%s is not shown", shown[i]);
@@ -486,7 +550,7 @@ static void test_gauges_are_plotted(void **state)
     assert_non_null(desk_find(desk, "kinetic 1.23 kJ"));
     for (int i = 0; i < HISTORY; i++)
         session.gauges[i].gauge.total_known = false;
-    desk_move(desk, 700, 500);
+    desk_move(desk, 700, 1500);
     desk->input.changed = true;
     desk_frames(desk, 30);
     assert_non_null(desk_find(desk, "potential -45.6 kJ"));
@@ -622,16 +686,16 @@ static void test_small_windows_scroll(void **state)
     Session session;
     Desk *desk = session_open(&session, "two_oils", 640, 360, 13);
     assert_nothing_is_cut(desk);
-    assert_true(desk_find(desk, "View")->rect[1] > 360);
+    assert_true(desk_find(desk, "History")->rect[1] > 360);
     desk_move(desk, 100, 200);
     for (int i = 0; i < 20; i++) {
         desk->input.wheel = -1;
         desk_frame(desk);
     }
     desk_frames(desk, 3);
-    assert_true(desk_find(desk, "View")->rect[3] < 350);
-    desk_click_at(desk, "View", 0.3F);
-    assert_non_null(desk_find(desk, "view.legend"));
+    assert_true(desk_find(desk, "History")->rect[3] < 350);
+    desk_click_at(desk, "History", 0.3F);
+    assert_non_null(desk_find(desk, "picture to picture"));
     session_close(&session, desk);
 }
 
@@ -657,6 +721,8 @@ static void test_help_lists_every_row(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_the_shown_view_has_its_keys_and_no_other, no_gl_errors),
+        cmocka_unit_test_teardown(test_warnings_move_nothing, no_gl_errors),
         cmocka_unit_test_teardown(test_every_live_key_has_a_widget, no_gl_errors),
         cmocka_unit_test_teardown(test_what_it_asks_for_is_accepted, no_gl_errors),
         cmocka_unit_test_teardown(test_typed_numbers_are_accepted, no_gl_errors),

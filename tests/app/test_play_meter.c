@@ -25,6 +25,26 @@ static void pictures_a_second(void **state)
         assert_true(history[i] > history[i - 1]);
 }
 
+/* A pause of 27 s is no picture of 27 s, and none of its pictures counts. */
+static void pauses_are_left_out(void **state)
+{
+    (void)state;
+    PlayMeter meter = {0};
+    float history[METER_HISTORY];
+    for (int i = 0; i < 61; i++)
+        meter_picture(&meter, 1000 + 20.0 * i, 0);
+    meter_rest(&meter, true);
+    meter_picture(&meter, 2300, 0);
+    meter_picture(&meter, 29000, 0);
+    meter_picture(&meter, 29300, 0);
+    meter_rest(&meter, false);
+    meter_picture(&meter, 29320, 0);
+    assert_int_equal(meter_history(&meter, history), 61);
+    for (int i = 0; i < 61; i++)
+        assert_true(fabsf(history[i] - 20) < 1e-3F);
+    assert_true(fabs(meter.pictures_per_second - 50) < 0.5);
+}
+
 /* An event is shown by the first picture whose state has obeyed its command, and by no other. */
 static void events_wait_for_their_picture(void **state)
 {
@@ -99,8 +119,11 @@ static void the_script_keeps_its_times(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pictures_a_second),          cmocka_unit_test(events_wait_for_their_picture),
-        cmocka_unit_test(more_than_it_holds),         cmocka_unit_test(the_process_has_an_age),
+        cmocka_unit_test(pictures_a_second),
+        cmocka_unit_test(pauses_are_left_out),
+        cmocka_unit_test(events_wait_for_their_picture),
+        cmocka_unit_test(more_than_it_holds),
+        cmocka_unit_test(the_process_has_an_age),
         cmocka_unit_test(the_script_keeps_its_times),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

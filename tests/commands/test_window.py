@@ -242,7 +242,15 @@ class Window(CommandTest):
         return figures
 
     def quit(self):
+        """Once more where it asks, because what was done is not saved."""
         self.key('Escape')
+        end = time.monotonic() + 60
+        while self.process.poll() is None and time.monotonic() < end:
+            time.sleep(0.02)
+            with open(self.path('said.txt')) as said:
+                if 'Escape once more' in said.read():
+                    self.key('Escape')
+                    break
         return self.end()
 
     def files(self, extension):
@@ -346,6 +354,26 @@ class Keys(Window):
         self.filled()
         out = self.quit()
         self.assertEqual((out['scene'], out['scenes_opened'], out['scenes']), ('./scene.yaml', 2, False))
+
+    def test_the_next_view(self):
+        self.open('still.yaml')
+        self.keys('F4', 'd')
+        out = self.quit()
+        self.assertEqual(out['view'], 'volume')  # spheres, splat, volume
+        self.assertIn('view splat: ', self.messages)
+
+    def test_escape_asks_where_what_was_done_is_not_saved(self):
+        self.open('still.yaml')
+        self.drag(1, [(200, 200), (220, 200), (240, 210)], 'ctrl')
+        time.sleep(0.2)
+        self.keys('Escape')
+        self.assertIsNone(self.process.poll())
+        self.keys('ctrl+s')
+        self.wait_for(lambda: self.files('recording'), self.process)
+        self.drawn()
+        self.key('Escape')
+        self.end()
+        self.assertEqual(self.messages.count('what you did is not saved: Ctrl+S saves it, Escape once more closes the window\n'), 1)
 
     def test_scenes(self):
         self.write('zz.yaml', STILL.replace('0.4, 0.5', '0.3, 0.5'))
@@ -667,7 +695,6 @@ class Panel(Window):
         self.pictures(5)
 
     def pause(self):
-        """What is paused is not too slow: no warning, as on a busy machine, moves the widgets down."""
         self.keys('space')
         self.pictures(5)
 
@@ -679,23 +706,22 @@ class Panel(Window):
         self.open()
         self.pause()
         self.drag(1, [(120, 60), (200, 90)])  # between the widgets: nothing
-        self.drag(1, [(44, 146), (44, 146)])  # the button: it goes on; a click counts while nothing moves
+        self.drag(1, [(44, 170), (44, 170)])  # the button: it goes on; a click counts while nothing moves
         out = self.quit()
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (True, False, True))
 
     def test_hidden_it_takes_nothing(self):
         self.open()
         self.keys('F2')
-        self.drag(1, [(44, 146), (94, 146)])
+        self.drag(1, [(44, 170), (94, 170)])
         out = self.quit()
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (False, False, False))
 
     def test_a_slider_changes_the_fluid(self):
         self.open('--record', 'a.rec')
         self.pause()
-        self.drag(1, [(60, 412), (60, 412)])  # the heading Accuracy, open at first
-        self.drag(1, [(60, 472), (60, 472)])  # the heading World, closed at first
-        self.drag(1, [(248, 493), (255, 493), (262, 493)])
+        self.drag(1, [(60, 480), (60, 480)])  # the heading World, closed at first
+        self.drag(1, [(248, 502), (255, 502), (262, 502)])
         self.keys('space')
         self.pictures(5)
         self.quit()
