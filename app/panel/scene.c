@@ -44,7 +44,7 @@ static bool is_elsewhere(const Key *key)
     return false;
 }
 
-/* What follows "view." in a key such as view.splat.level or view.trails.show, up to the dot: its length; 0:
+/* What follows "view." in a key such as view.NAME.level, up to the dot: its length; 0:
    the key is of every view. */
 static size_t part_of_view(const Key *key, const char **part)
 {
@@ -72,7 +72,7 @@ static bool is_of_another_view(const Key *key, const Scene *scene)
 }
 
 /* The heading that a key stands under: "solver.step.dt" is in "Solver", "gravity" in "World", the shown
-   view's own in "View", "view.trails.show" in "Trails". */
+   view's own in "View", an overlay's under its own name. */
 static void group_of(const Key *key, char name[NAME_LENGTH])
 {
     const char *part;

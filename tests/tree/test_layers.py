@@ -78,7 +78,8 @@ APP = {
     "panel": "probe scene term hand held session shelf window",
     "play": "base scene recording hand device held output session playback beside shelf lab window panel",
     "manual": "base scene session",
-    "command": "base metric probe outcome yaml scene recording hand device held output session playback beside shelf trace case lab stability fit ablate gallery play manual",
+    "film": "base scene recording output session playback beside",
+    "command": "base metric probe outcome yaml scene recording hand device held output session playback beside shelf trace case lab stability fit ablate gallery play manual film",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

@@ -1,4 +1,4 @@
-#include "app/command/render_plan.h"
+#include "app/film/render_plan.h"
 
 #include "app/beside/beside.h"
 #include "app/scene/check.h"

@@ -3,7 +3,7 @@
 #define SLOSH_RENDER_REPORT_H
 
 #include "app/beside/shoot.h"
-#include "app/command/render_plan.h"
+#include "app/film/render_plan.h"
 
 typedef struct RenderFigures {
     size_t pictures;

@@ -1,4 +1,4 @@
-#include "app/command/render_file.h"
+#include "app/film/render_file.h"
 
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
@@ -7,7 +7,7 @@
 #include "app/beside/beside.h"
 #include "app/beside/lacks.h"
 #include "app/beside/panel_title.h"
-#include "app/command/render_report.h"
+#include "app/film/render_report.h"
 #include "app/output/pictures.h"
 #include "app/playback/reel_watch.h"
 #include "app/session/headless.h"

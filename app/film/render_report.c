@@ -1,4 +1,4 @@
-#include "app/command/render_report.h"
+#include "app/film/render_report.h"
 
 #include "app/base/json_file.h"
 #include "sim/base/stage.h"

@@ -3,10 +3,10 @@
 #include "app/base/progress.h"
 #include "app/beside/beside.h"
 #include "app/beside/shoot.h"
-#include "app/command/cmd.h"
-#include "app/command/render_file.h"
-#include "app/command/render_report.h"
+#include "app/film/render_file.h"
+#include "app/film/render_report.h"
 #include "app/output/pictures.h"
+#include "app/session/args.h"
 #include "app/session/recording_play.h"
 
 #include <inttypes.h>
