@@ -78,8 +78,9 @@ typedef struct PlayKey {
 
 typedef struct PlayCommandRow {
     PlayCommand command;
-    const char *name; /* a word, or words with hyphens between */
-    const char *help; /* one plain line */
+    const char *group; /* heading over this row and those below; NULL: that of the row above */
+    const char *name;  /* a word, or words with hyphens between */
+    const char *help;  /* one plain line */
     PlayKey keys[2];
     const char *gamepad; /* name of the gamepad's button that does it; NULL: none */
     const char *gesture; /* how, for what is no single press: "Shift + left drag"; NULL: a press */
@@ -116,7 +117,7 @@ int play_key_on_layout(int key, const char *label);
 /* How to give the command: "Space, Pause or gamepad Start", "Ctrl+S", "Shift + left drag"; cut at `size`. */
 void play_command_keys_text(const PlayCommandRow *row, char *text, size_t size);
 
-/* The list as a Markdown table: `slosh help window`. */
+/* The list as Markdown, a table a group: `slosh help window`. */
 void play_commands_print(FILE *file);
 
 #endif

@@ -23,6 +23,10 @@ void panel_help_draw(Ui *ui, int width, int height)
     ui_gap(ui);
     for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
         play_command_keys_text(row, keys, sizeof keys);
+        if (row->group) {
+            ui_gap(ui);
+            ui_text(ui, row->group);
+        }
         ui_row(ui, keys, row->help);
     }
     ui_window_end(ui);

@@ -51,7 +51,7 @@ const Key step_keys[] = {
     NUMBER("solver.step.dt", L, "s", 1e-7, 1, AT(dt), "simulated time of a frame", .owner = &fixed),
     INTEGER("solver.step.substeps", L, 1, 10000, AT(substeps), "steps in a frame", .owner = &fixed),
     NUMBER("solver.step.number", L, "", 0.001, 2, AT(cfl_number),
-           "Courant factor: the step is at most this fraction of h / (c + v) and of sqrt(h / a), and twice it, at most 0.7, of the longest step that friction stands; slosh info says the default of a method", .owner = &cfl),
+           "Courant factor: the step is this fraction of the smallest of these limits: h / (c + v), sqrt(h / a), and twice the longest step that friction stands (never more than 0.7 of that step); slosh info says the default of a method", .owner = &cfl),
     NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, AT(max_dt), "greatest step", .owner = &cfl),
     INTEGER("solver.step.retries", 0, 0, 10, AT(retries),
             "after trouble go back and halve the step, up to so many times; 0: stop at once"),

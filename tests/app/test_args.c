@@ -145,7 +145,7 @@ static void slips_are_named(void **state)
            "slosh run: unknown option '--fps', which is one of slosh render; `slosh help run`");
     refuse("play --time 3", "slosh play: unknown option '--time', which is one of slosh render, run, bench,");
     refuse("dam_brake", "slosh: unknown command 'dam_brake'; did you mean the scene 'dam_break'?");
-    refuse("render -o a.png", "slosh render: the scene is missing; write slosh render SCENE|IN.h5part -o");
+    refuse("render -o a.png", "slosh render: the scene is missing; write slosh render SCENE|IN.h5part|SESSION -o");
     refuse("render s", "slosh render: -o is missing; add -o with OUT.png, OUT.mp4 or a folder");
     refuse("run s", "slosh run: -o is missing; add -o with OUT.h5part");
     refuse("render s t -o a.png", "slosh render: one argument too many: 't'; it takes 1 scene");
@@ -288,7 +288,7 @@ static void help_comes_from_the_table(void **state)
     refuse("help dance", "slosh: unknown command 'dance'");
 
     char *program = help_of(COMMAND_HELP), *bench = help_of(COMMAND_BENCH), *run = help_of(COMMAND_RUN);
-    assert_non_null(strstr(program, " SCENE|IN.h5part -o OUT.png|OUT.mp4|FOLDER"));
+    assert_non_null(strstr(program, " SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|FOLDER"));
     assert_non_null(strstr(program, "slosh play"));
     assert_non_null(strstr(program, "dam_break, dam_break_2d, drop,"));
     assert_non_null(strstr(bench, "--sweep KEY=A,B,..."));
@@ -372,7 +372,7 @@ static void help_names_what_there_is(void **state)
     char *bench = help_of(COMMAND_BENCH), *play = help_of(COMMAND_PLAY);
     for (int i = 0; table_choice(i); i++)
         assert_non_null(strstr(bench, table_choice(i)));
-    assert_non_null(strstr(play, "which equations: mueller, wcsph, dfsph, pbf\n"));
+    assert_non_null(strstr(play, "the equations of the solver: mueller, wcsph, dfsph, pbf\n"));
     assert_non_null(strstr(play, "pixels (1280x720)\n"));
     assert_non_null(strstr(bench, "pixels (512x512)\n"));
     free(bench);

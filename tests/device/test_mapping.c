@@ -497,7 +497,7 @@ static void in_words(void **state)
         "  left_x         moves the box to the right, as a speed, 2-fold, the other way round\n",
         "  left_y         moves the box towards you, for as long as it is held\n",
         "  right_trigger  brings the camera nearer, as a speed\n",
-        "  triangle       make the pose of the motion device now its neutral one\n",
+        "  triangle       take the present pose of the motion device as level\n",
         "SpaceMouse Compact: gain 1",
         "  x              does nothing\n",
     };
