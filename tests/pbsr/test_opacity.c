@@ -444,8 +444,8 @@ static SetSight sight_at(double away)
 static void looks_do_not_depend_on_others(void **state)
 {
     (void)state;
-    const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.3};
-    const PbsrDef def = {.repeat = 16, .points = 4e5, .seed = 3};
+    const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.05};
+    const PbsrDef def = {.repeat = 16, .points = 6e4, .seed = 3};
     const double box[3] = {1, 0, 1}, aways[] = {9, 2, 9};
     StillLayer fresh = {.sets = 0}, still = {.sets = 0};
     for (int moving = 0; moving <= 2; moving += 2) {

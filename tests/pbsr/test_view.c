@@ -171,7 +171,7 @@ static ViewDef five_layers(PbsrMethod method, PbsrSampler sampler, int repeat, i
     pbsr_def(&def)->cell = cell > 0 ? cell : pbsr_def(&def)->cell;
     pbsr_def(&def)->method = method;
     pbsr_def(&def)->seed = seed;
-    pbsr_def(&def)->edges = 3;
+    pbsr_def(&def)->edges = 1;
     add_layer(&def, PBSR_SURFACE, 0.5, 0.4, 0.9);
     add_layer(&def, PBSR_SCALARS + SCALAR_SPEED, 1.4, 0.6, 0.1);
     add_layer(&def, PBSR_SLICE_X, 0.1, 0.4, 0);
@@ -587,7 +587,7 @@ static double dark_of_walks(int layers, double opacity, double edges, PbsrSample
 {
     static uint8_t rgb[2][BYTES];
     for (int k = 0; k < 2; k++) {
-        ViewDef def = pbsr_view(64);
+        ViewDef def = pbsr_view(24);
         pbsr_def(&def)->method = PBSR_CPU;
         pbsr_def(&def)->edges = edges;
         for (int i = 0; i < layers; i++) {
