@@ -173,7 +173,7 @@ unsigned renderer_attributes(const ViewDef *def)
 {
     const unsigned fluid =
         PARTICLE_SCALAR(SCALAR_FLUID); /* as a number; as a colour it is among the scalars */
-    ParticleWants all = {UINT32_MAX, UINT32_MAX, fluid};
+    ParticleWants all = {UINT64_MAX, UINT32_MAX, fluid};
     overlays_want(NULL, &all);
     const ParticleWants wants = def ? wants_of(def) : all;
     return wants_attributes(&wants);
@@ -452,7 +452,7 @@ static ScalarRange range_of(Renderer *renderer, Scalar scalar, const ParticleBuf
 void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
 {
     const ParticleWants wants = wants_of(&renderer->def);
-    const uint32_t ranged = view_def_ranges(&renderer->def);
+    const uint64_t ranged = view_def_ranges(&renderer->def);
     derive(renderer, &wants, particles);
     for (int s = 0; s < SCALAR_COUNT; s++)
         if ((ranged & SCALAR_BIT(s)) && !particles->range[s].known)

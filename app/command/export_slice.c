@@ -77,7 +77,7 @@ const char *export_kernel_choice(int index)
 static bool find_name(const char *option, const char *name, const char *(*names)(int), int *found,
                       Error *error)
 {
-    char list[512] = "";
+    char list[1000] = "";
     size_t used = 0;
     Suggestion near = suggest_for(name);
     for (*found = 0; names(*found); ++*found) {
@@ -133,7 +133,7 @@ static bool refuse_others(const Args *args, Error *error)
 
 bool export_has_scalar(const Args *args, SnapshotReader *reader, size_t index, Scalar scalar, Error *error)
 {
-    char list[512] = "";
+    char list[800] = "";
     SnapshotStep step;
     if (!snapshot_read_shown(reader, index, &step, error))
         return false;

@@ -49,7 +49,7 @@ static bool check_scalars(const Check *check, const char *view, const ViewDef *d
     if (lacks == SCALAR_COUNT)
         return true;
     for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
-        if (columns_scalars(world) & SCALAR_BIT(s))
+        if (columns_scalars(world) & PARTICLE_SCALAR(s))
             snprintf(has + strlen(has), sizeof has - strlen(has), "%s%s", *has ? ", " : "",
                      scalar_name((Scalar)s));
     snprintf(path, sizeof path, "%s.%s", view, key_of(def, lacks));

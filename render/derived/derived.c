@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-_Static_assert(SCALAR_COUNT <= 32 && VECTOR_COUNT <= 32, "a bit for each in ParticleWants");
+_Static_assert(SCALAR_COUNT <= 64 && VECTOR_COUNT <= 32, "a bit for each in ParticleWants");
 
 /* A formula of shaders/derived/derived.comp, over: `place` and `velocity` of the particle; `carried`, its
    scalar `carries`; `three`, its scalars from `threes` on; with `near_too` and the velocity or the scalar
@@ -41,7 +41,14 @@ static const Recipe scalar_recipes[SCALAR_COUNT] = {
                                false},
     [SCALAR_VORTICITY] = {"two_dimensions != 0u ? curl(gradient).z : length(curl(gradient))",
                           PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_VORTICITY_X] = {"curl(gradient).x", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_VORTICITY_Y] = {"curl(gradient).y", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_VORTICITY_Z] = {"curl(gradient).z", PARTICLE_VELOCITY, NOTHING, true},
     [SCALAR_DIVERGENCE] = {"gradient[0].x + gradient[1].y + gradient[2].z", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_PRESSURE_GRADIENT] = {"length(slope)", 0, SCALAR_PRESSURE, true},
+    [SCALAR_PRESSURE_GRADIENT_X] = {"slope.x", 0, SCALAR_PRESSURE, true},
+    [SCALAR_PRESSURE_GRADIENT_Y] = {"slope.y", 0, SCALAR_PRESSURE, true},
+    [SCALAR_PRESSURE_GRADIENT_Z] = {"slope.z", 0, SCALAR_PRESSURE, true},
     [SCALAR_NEIGHBOURS] = {"near", 0, NOTHING, true},
 };
 
@@ -77,7 +84,7 @@ unsigned wants_attributes(const ParticleWants *wants)
 }
 
 /* SCALAR_BIT: the births too, where something reads them. */
-static uint32_t wanted_scalars(const ParticleWants *wants)
+static uint64_t wanted_scalars(const ParticleWants *wants)
 {
     return wants->scalars | (wants_attributes(wants) & PARTICLE_SCALAR(SCALAR_BORN));
 }

@@ -17,13 +17,13 @@ ViewDef view_def_shared(void)
                      .resolution = 1};
 }
 
-static unsigned curve_bit(const ScalarCurve *curve)
+static uint64_t curve_bit(const ScalarCurve *curve)
 {
-    return curve->by != 0 && curve->range_auto ? 1U << scalar_of_curve(curve) : 0;
+    return curve->by != 0 && curve->range_auto ? UINT64_C(1) << scalar_of_curve(curve) : 0;
 }
 
-unsigned view_def_ranges(const ViewDef *def)
+uint64_t view_def_ranges(const ViewDef *def)
 {
     const bool color = def->color_by != SCALAR_FLUID && def->range_auto;
-    return (color ? 1U << def->color_by : 0) | curve_bit(&def->size) | curve_bit(&def->opacity);
+    return (color ? UINT64_C(1) << def->color_by : 0) | curve_bit(&def->size) | curve_bit(&def->opacity);
 }

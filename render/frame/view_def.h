@@ -77,8 +77,9 @@ static inline Scalar scalar_of_curve(const ScalarCurve *curve)
     return (Scalar)(curve->by - 1);
 }
 
-/* Bits 1 << Scalar of those whose range follows the state. The fluids' own colours have none. */
-unsigned view_def_ranges(const ViewDef *def);
+/* A bit a Scalar, the first the lowest: those whose range follows the state. The fluids' own colours have
+ * none. */
+uint64_t view_def_ranges(const ViewDef *def);
 
 /* Defaults of all that views share; kind and own settings: views_default, overlays_default. */
 ViewDef view_def_shared(void);

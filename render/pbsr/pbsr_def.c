@@ -128,9 +128,9 @@ int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX])
     return def->layer_count > 0 ? def->layer_count : 1;
 }
 
-unsigned pbsr_scalars(const PbsrDef *def)
+uint64_t pbsr_scalars(const PbsrDef *def)
 {
-    unsigned scalars = 0;
+    uint64_t scalars = 0;
     for (int i = 0; i < def->layer_count; i++)
         if (def->layers[i].of >= PBSR_SCALARS)
             scalars |= SCALAR_BIT(def->layers[i].of - PBSR_SCALARS);

@@ -87,6 +87,6 @@ bool pbsr_colored(const PbsrLayer *layer);
 int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX]);
 
 /* Which scalars the layers are of, SCALAR_BIT. */
-unsigned pbsr_scalars(const PbsrDef *def);
+uint64_t pbsr_scalars(const PbsrDef *def);
 
 #endif

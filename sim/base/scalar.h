@@ -38,7 +38,14 @@
     X(ACCELERATION, "acceleration", "m/s2")                                                                  \
     X(KINETIC_ENERGY, "kinetic_energy", "J/m3")                                                              \
     X(VORTICITY, "vorticity", "1/s")                                                                         \
+    X(VORTICITY_X, "vorticity_x", "1/s")                                                                     \
+    X(VORTICITY_Y, "vorticity_y", "1/s")                                                                     \
+    X(VORTICITY_Z, "vorticity_z", "1/s")                                                                     \
     X(DIVERGENCE, "divergence", "1/s")                                                                       \
+    X(PRESSURE_GRADIENT, "pressure_gradient", "Pa/m")                                                        \
+    X(PRESSURE_GRADIENT_X, "pressure_gradient_x", "Pa/m")                                                    \
+    X(PRESSURE_GRADIENT_Y, "pressure_gradient_y", "Pa/m")                                                    \
+    X(PRESSURE_GRADIENT_Z, "pressure_gradient_z", "Pa/m")                                                    \
     X(NEIGHBOURS, "neighbours", "")                                                                          \
     X(AGE, "age", "s")
 

@@ -23,12 +23,12 @@ enum {
 
 /* What is read of a state's particles, but for positions. */
 typedef struct ParticleWants {
-    uint32_t scalars;    /* SCALAR_BIT, the state's own among them */
+    uint64_t scalars;    /* SCALAR_BIT, the state's own among them */
     uint32_t vectors;    /* VECTOR_BIT */
     unsigned attributes; /* PARTICLE_VELOCITY, PARTICLE_FLUID, PARTICLE_ID */
 } ParticleWants;
 
-#define SCALAR_BIT(scalar) (UINT32_C(1) << (scalar))
+#define SCALAR_BIT(scalar) (UINT64_C(1) << (scalar))
 #define VECTOR_BIT(vector) (UINT32_C(1) << (vector))
 
 /* Where an attribute lies: buffer 0 means that it is not there. */

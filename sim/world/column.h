@@ -89,7 +89,7 @@ void column_scalar_name(const ColumnDef *column, int component, char name[COLUMN
 /* Which of the methods' own a scalar of OWN_SCALAR_LIST is, of these rows; -1: none of them has it. */
 int columns_place(const ColumnRows *rows, Scalar scalar);
 
-/* The scalars, SCALAR_BIT by SCALAR_BIT, that a state of the def's worlds has of its own. */
+/* PARTICLE_SCALAR by PARTICLE_SCALAR, what a state of the def's worlds has of its own. */
 uint32_t columns_scalars(const struct WorldDef *def);
 
 /* The array of a component; free, save and copy go through it. */

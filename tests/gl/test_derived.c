@@ -7,10 +7,9 @@
 #include "render/derived/ranges.h"
 
 /* But for what is of columns that this world has not. */
-enum {
-    ALL_SCALARS = (1U << SCALAR_COUNT) - 1 - (1U << SCALAR_ACCELERATION),
-    ALL_VECTORS = (1U << VECTOR_COUNT) - 1 - (1U << VECTOR_ACCELERATION) - (1U << VECTOR_FRICTION_BEFORE)
-};
+#define ALL_SCALARS (SCALAR_BIT(SCALAR_COUNT) - 1 - SCALAR_BIT(SCALAR_ACCELERATION))
+#define ALL_VECTORS                                                                                          \
+    (VECTOR_BIT(VECTOR_COUNT) - 1 - VECTOR_BIT(VECTOR_ACCELERATION) - VECTOR_BIT(VECTOR_FRICTION_BEFORE))
 static const ParticleWants everything = {ALL_SCALARS, ALL_VECTORS, PARTICLE_ID};
 
 static bool emits(const char *backend)

@@ -87,7 +87,7 @@ static void read_back(const ParticleAttribute *from, size_t count, float *to)
 /* Everything that there is. */
 static void derive(Cloud *cloud)
 {
-    const ParticleWants wants = {(UINT32_C(1) << SCALAR_COUNT) - 1, (UINT32_C(1) << VECTOR_COUNT) - 1, 0};
+    const ParticleWants wants = {SCALAR_BIT(SCALAR_COUNT) - 1, VECTOR_BIT(VECTOR_COUNT) - 1, 0};
     const size_t count = cloud->state.count;
     Error error = {0};
     ParticleBuffers particles;
@@ -291,7 +291,13 @@ static double compare(const Cloud *cloud)
             const size_t at = 4 * i + (size_t)k;
             worst = fmax(worst, fabs((double)cloud->vector[VECTOR_VORTICITY][at] - r.curl[k]));
             worst = fmax(worst, fabs((double)cloud->vector[VECTOR_PRESSURE_GRADIENT][at] - r.slope[k]) / 600);
+            worst = fmax(worst, fabs((double)cloud->scalar[SCALAR_VORTICITY_X + k][i] - r.curl[k]));
+            worst = fmax(worst,
+                         fabs((double)cloud->scalar[SCALAR_PRESSURE_GRADIENT_X + k][i] - r.slope[k]) / 600);
         }
+        const double steep =
+            sqrt(r.slope[0] * r.slope[0] + r.slope[1] * r.slope[1] + r.slope[2] * r.slope[2]);
+        worst = fmax(worst, fabs((double)cloud->scalar[SCALAR_PRESSURE_GRADIENT][i] - steep) / 600);
     }
     printf("worst %.3g of %.3g 1/s, %g neighbours at least\n", worst, most, few);
     assert_true(worst < 1e-5 * most);
