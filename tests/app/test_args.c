@@ -145,7 +145,8 @@ static void slips_are_named(void **state)
            "slosh run: unknown option '--fps', which is one of slosh render; `slosh help run`");
     refuse("play --time 3", "slosh play: unknown option '--time', which is one of slosh render, run, bench,");
     refuse("dam_brake", "slosh: unknown command 'dam_brake'; did you mean the scene 'dam_break'?");
-    refuse("render -o a.png", "slosh render: the scene is missing; write slosh render SCENE|IN.h5part|SESSION -o");
+    refuse("render -o a.png",
+           "slosh render: the scene is missing; write slosh render SCENE|IN.h5part|SESSION -o");
     refuse("render s", "slosh render: -o is missing; add -o with OUT.png, OUT.mp4 or a folder");
     refuse("run s", "slosh run: -o is missing; add -o with OUT.h5part");
     refuse("render s t -o a.png", "slosh render: one argument too many: 't'; it takes 1 scene");
