@@ -89,11 +89,12 @@ class BadInput(CommandTest):
         self.assertEqual(code, 0, said)
 
     def test_files_of_other_commands(self):
-        for text, takes in (('slosh recording 1\nprogram 0.1\n', 'slosh replay and slosh render take it'),
-                            ('\x89HDF\r\n\x1a\n', 'slosh play, slosh render and slosh export take it'),
-                            ('slosh device recording 1\n', '--device file:PATH takes it')):
+        for text, takes, commands in (
+                ('slosh recording 1\nprogram 0.1\n', 'slosh replay and slosh render take it', COMMANDS[:1]),
+                ('\x89HDF\r\n\x1a\n', 'slosh play, slosh render and slosh export take it', COMMANDS[:2]),
+                ('slosh device recording 1\n', '--device file:PATH takes it', COMMANDS[:2])):
             self.write('other', text.encode('latin-1'))
-            self.refused('other', 'other: ', f'no scene; {takes}', commands=COMMANDS[:2])
+            self.refused('other', 'other: ', f'no scene; {takes}', commands=commands)
 
     def test_a_scene_that_is_nearly_named(self):
         self.refused('dam_brake', 'dam_brake: no such file', "did you mean 'dam_break'", commands=COMMANDS[:2])
