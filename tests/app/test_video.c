@@ -1,7 +1,7 @@
 /* Videos by ffmpeg, folders of frames, single pictures. */
 #include "tests/app/output_fixture.h"
-#include "tests/read_image.h"
 
+#include "app/output/image.h"
 #include "app/output/pictures.h"
 #include "app/output/video.h"
 
@@ -192,7 +192,7 @@ static void a_folder_gets_numbered_frames(void **state)
     write_pictures("frames", 8, 6, 3);
     write_pictures("frames/", 8, 6, 2); /* again, into the same */
     assert_int_equal(count_files("frames"), 3);
-    assert_true(image_read(&image, "frames/frame_00002.png", &error));
+    assert_true(image_read("frames/frame_00002.png", &image, &error));
     assert_int_equal(image.width, 8);
     assert_int_equal(image.rgb[1], 80);
     image_destroy(&image);

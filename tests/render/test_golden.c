@@ -2,10 +2,10 @@
    8 of 255.
 
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
+#include "app/output/image.h"
 #include "render/glyphs/glyphs_def.h"
 #include "render/slice/slice_def.h"
 #include "render/trails/trails_def.h"
-#include "tests/read_image.h"
 #include "tests/render/fixture.h"
 
 #define SPACING 0.08
@@ -120,7 +120,7 @@ static void check(const Golden *golden)
     snprintf(path, sizeof path, SLOSH_SOURCE_DIR "/tests/images/%s.png", golden->name);
     if (mode && strcmp(mode, "write") == 0 && !image_write(&drawn, path, &error))
         fail_msg("%s", error.message);
-    if (!image_read(&kept, path, &error))
+    if (!image_read(path, &kept, &error))
         fail_msg("%s", error.message);
     assert_int_equal(kept.width, drawn.width);
     assert_int_equal(kept.height, drawn.height);
