@@ -166,7 +166,7 @@ static inline uint64_t replay(const char *path)
     const uint64_t steps = recording.steps;
     RecordingPlay play = {.path = path, .recording = &recording};
     headless_destroy(context); /* the session makes its own */
-    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, &session, &error) == 0);
+    must(recording_play_open(&play, NULL, HEADLESS_GPU_AUTO, false, &session, &error) == 0);
     while (recording_play_apply(&play, &session, &error) && !recording_play_ended(&play, &session))
         must(session_substep(&session, &error));
     if (world_hash(session.world) != recording.hash)
