@@ -480,7 +480,7 @@ static void incompressible_lives(const char *method)
     LIVE(base, d.dimensions = 2, d.tension_model = TENSION_COLOUR_FIELD, d.fluids[0].surface_tension = 0.1);
 }
 
-enum { VIEWS_MAX = 100 };
+enum { VIEWS_MAX = 120 };
 
 /* Every view once, and what makes other shaders of it. */
 static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
