@@ -159,7 +159,7 @@ static void want_curve(ParticleWants *wants, const ScalarCurve *curve)
    ids. */
 static ParticleWants wants_of(const ViewDef *def)
 {
-    ParticleWants wants = {.scalars = SCALAR_BIT(def->color_by)};
+    ParticleWants wants = {.scalars = SCALAR_BIT(view_color_by(def))};
     overlays_want(def, &wants);
     view_want(def, &wants);
     want_curve(&wants, &def->opacity);
@@ -474,8 +474,8 @@ static ParticleBuffers derived_of(Renderer *renderer, const ParticleBuffers *sta
 /* What the colours cannot show; NULL: nothing. */
 static const char *note_of(Renderer *renderer, const ParticleBuffers *particles)
 {
-    const ScalarRange *range = &particles->range[renderer->def.color_by];
-    const char *name = scalar_name(renderer->def.color_by);
+    const ScalarRange *range = &particles->range[view_color_by(&renderer->def)];
+    const char *name = scalar_name(view_color_by(&renderer->def));
     const bool waits = strncmp(name, "acceleration", strlen("acceleration")) == 0;
     if (renderer->derived.lacks)
         snprintf(renderer->note, sizeof renderer->note, "the GPU has no memory for %s",
@@ -544,11 +544,12 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
 void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
     const Subject subject = subject_of(renderer);
-    const ParticleWants wants = {.scalars = SCALAR_BIT(renderer->def.color_by)}; /* all that is kept of one */
+    const ParticleWants wants = {.scalars =
+                                     SCALAR_BIT(view_color_by(&renderer->def))}; /* all that is kept of one */
     ParticleBuffers with = *state;
     if (!overlays_take_any(&renderer->overlays))
         return;
-    if ((int)renderer->def.color_by >= SCALAR_BORN)
+    if ((int)view_color_by(&renderer->def) >= SCALAR_BORN)
         GL_STAGE(timer, STAGE_SCALARS)
         {
             derive(renderer, &wants, &with);

@@ -52,10 +52,10 @@ static bool shares_range(const RenderPlan *plan, int panel)
     const ViewDef *own = plan->views[panel];
     for (int i = 0; i < plan->panel_count; i++) {
         const ViewDef *view = plan->views[i];
-        shares |=
-            plan->world_of[i] != plan->world_of[panel] && view->range_auto && view->color_by == own->color_by;
+        shares |= plan->world_of[i] != plan->world_of[panel] && view->range_auto &&
+                  view_color_by(view) == view_color_by(own);
     }
-    return shares && own->range_auto && own->color_by != SCALAR_FLUID;
+    return shares && own->range_auto && view_color_by(own) != SCALAR_FLUID;
 }
 
 static void tell_range(const RenderPlan *plan)
@@ -144,11 +144,12 @@ static json_t *panel_json(const RenderPlan *plan, const Session sessions[], cons
     double range[2];
     render_plan_name(plan, panel, name);
     panels_range(shoot->panels, panel, range);
-    json_t *json = json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:f}", "setting", name, "place", at->x, at->y,
-                             at->width, at->height, "view", view->kind, "scalar", scalar_name(view->color_by),
-                             "time", shoot->sources[shoot->source_of[panel]].state.time);
+    json_t *json =
+        json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:f}", "setting", name, "place", at->x, at->y, at->width,
+                  at->height, "view", view->kind, "scalar", scalar_name(view_color_by(view)), "time",
+                  shoot->sources[shoot->source_of[panel]].state.time);
     add_source(plan, sessions, figures, panel, json);
-    if (json && view->color_by != SCALAR_FLUID)
+    if (json && view_color_by(view) != SCALAR_FLUID)
         json_object_set_new(json, "range", json_pack("[f,f]", range[0], range[1]));
     return json;
 }

@@ -243,7 +243,7 @@ void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents
     for (size_t i = 0; i < sizeof color_keys / sizeof *color_keys; i++)
         draw_key(ui, scene_key_find(color_keys[i].path), data->scene, start, ranges[color_keys[i].range],
                  events);
-    legend_unit(scalar_unit(data->scene->view.color_by), unit);
+    legend_unit(scalar_unit(view_color_by(&data->scene->view)), unit);
     snprintf(text, sizeof text, "%.4g to %.4g%s%s", data->scalar_range[0], data->scalar_range[1],
              *unit ? " " : "", unit);
     ui_row(ui, "range now", text);

@@ -66,13 +66,15 @@ static void next_scalar(Play *play)
     ViewDef *view = &open->scene.view;
     const ViewDef *file = &play->model.file_scene.view;
     Error none;
+    view->color_by = view_color_by(view);
     do
         view->color_by = (Scalar)((view->color_by + 1) % SCALAR_COUNT);
     while (view->color_by != SCALAR_FLUID && !model_has(&play->model, view, &none));
-    view->range_auto = view->color_by == file->color_by ? file->range_auto : true;
+    const Scalar ranged = file->color_by == SCALAR_COUNT ? SCALAR_SPEED : file->color_by;
+    view->range_auto = view->color_by == ranged ? file->range_auto : true;
     memcpy(view->range, file->range, sizeof view->range);
     view_changed(play);
-    notice_tell(&play->notice, "coloured by %s", scalar_name(view->color_by));
+    notice_tell(&play->notice, "coloured by %s", scalar_name(view_color_by(view)));
 }
 
 /* The next one that can show these states, round and round. */

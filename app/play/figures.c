@@ -50,7 +50,7 @@ static void add_view(const ViewDef *view, PlayFigures *figures)
     memcpy(figures->camera_from, view->camera.from, sizeof figures->camera_from);
     memcpy(figures->camera_to, view->camera.to, sizeof figures->camera_to);
     snprintf(figures->view, sizeof figures->view, "%s", view->kind);
-    snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(view->color_by));
+    snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(view_color_by(view)));
     snprintf(figures->colormap, sizeof figures->colormap, "%s", view->colormap);
 }
 

@@ -18,7 +18,7 @@ static unsigned lacks_scalar(const Recorded *recorded, Scalar scalar)
 
 static unsigned lacks_color(const Recorded *recorded, const ViewDef *view)
 {
-    return strcmp(view->kind, "none") == 0 ? 0 : lacks_scalar(recorded, view->color_by);
+    return strcmp(view->kind, "none") == 0 ? 0 : lacks_scalar(recorded, view_color_by(view));
 }
 
 /* Screen-doors go by ids. */
@@ -88,7 +88,7 @@ bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error)
     char key[64];
     unsigned lacks;
     if (lacks_color(recorded, view))
-        return no_color(recorded, view->color_by, error);
+        return no_color(recorded, view_color_by(view), error);
     if ((lacks = lacks_opacity(recorded, view)))
         return needs(recorded, "opacity.by", lacks, error);
     if ((lacks = lacks_size(recorded, view)))

@@ -35,7 +35,7 @@ static Scalar missing_scalar(const ViewDef *view, const WorldDef *world)
 /* Which key names it. */
 static const char *key_of(const ViewDef *view, Scalar scalar)
 {
-    return view->color_by == scalar                                             ? "color_by"
+    return view_color_by(view) == scalar                                        ? "color_by"
            : view->opacity.by != 0 && scalar_of_curve(&view->opacity) == scalar ? "opacity.by"
            : view->size.by != 0 && scalar_of_curve(&view->size) == scalar       ? "size.by"
                                                                                 : "glyphs.vector";

@@ -1,5 +1,7 @@
 #include "app/scene/keys.h"
 
+#include "sim/base/scalar.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -12,10 +14,18 @@ void key_range_free(const KeyScalar *scalar, void *base)
     *((bool *)base + scene_key_find(scalar->range)->aux) = true;
 }
 
+const char *key_ranged(const char *scalar)
+{
+    return strcmp(scalar, "auto") == 0 ? scalar_name(SCALAR_SPEED) : scalar;
+}
+
 void key_range_follow(const KeyScalar *scalar, const void *before, void *base)
 {
-    const size_t at = scene_key_find(scalar->by)->offset;
-    if (memcmp((const char *)before + at, (const char *)base + at, sizeof(int)) != 0)
+    const Key *key = scene_key_find(scalar->by);
+    char was[NAME_SIZE], now[NAME_SIZE];
+    key_value_text(key, before, was, sizeof was);
+    key_value_text(key, base, now, sizeof now);
+    if (strcmp(key_ranged(was), key_ranged(now)) != 0)
         key_range_free(scalar, base);
 }
 

@@ -69,6 +69,10 @@ extern const KeyScalar key_scalars[KEY_SCALARS];
    from (key_list_at). */
 void key_range_free(const KeyScalar *scalar, void *base);
 
+/* The name of the scalar that a range is of where the picture names this one: beside `auto` it is the speed,
+   as the fluids' own colours have none. */
+const char *key_ranged(const char *scalar);
+
 /* The same where `before`, of the same kind, has another scalar. */
 void key_range_follow(const KeyScalar *scalar, const void *before, void *base);
 

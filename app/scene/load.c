@@ -51,7 +51,8 @@ static void range_of_scalar(const Tree *tree, const KeyScalar *scalar, const cha
     scene_default(&usual);
     key_value_text(key, &usual, before, sizeof before);
     key_value_text(key, scene, now, sizeof now);
-    if (!(range && range->said) && by && by->said && strcmp(*of_file ? of_file : before, now) != 0)
+    if (!(range && range->said) && by && by->said &&
+        strcmp(key_ranged(*of_file ? of_file : before), key_ranged(now)) != 0)
         key_range_free(scalar, scene);
 }
 

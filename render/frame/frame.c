@@ -34,14 +34,14 @@ static void curve_range(const ScalarCurve *curve, const ParticleBuffers *particl
 static void make_ranges(Frame *frame, const ParticleBuffers *particles)
 {
     const ViewDef *def = frame->def;
-    const ScalarRange *found = &particles->range[def->color_by];
+    const ScalarRange *found = &particles->range[view_color_by(def)];
     range_of(found, def->range_auto, def->range_symmetric, def->range, frame->range);
     frame->beyond[0] = def->range_auto && found->least < frame->range[0];
     frame->beyond[1] = def->range_auto && found->greatest > frame->range[1];
     curve_range(&def->opacity, particles, frame->opacity_range);
     curve_range(&def->size, particles, frame->size_range);
-    frame->shown = scalar_name(def->color_by);
-    frame->shown_unit = scalar_unit(def->color_by);
+    frame->shown = scalar_name(view_color_by(def));
+    frame->shown_unit = scalar_unit(view_color_by(def));
 }
 
 /* The light comes from the left, the front and above of the automatic camera. Its map covers the ball around
@@ -193,7 +193,7 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
     make_bounds(frame, particles->box_size);
     make_floor(frame, particles->box_size, &particles->box, particles->time);
     make_ranges(frame, particles);
-    frame->by_fluid = def->color_by == SCALAR_FLUID || !particles->scalar[def->color_by].buffer;
+    frame->by_fluid = view_color_by(def) == SCALAR_FLUID || !particles->scalar[view_color_by(def)].buffer;
 }
 
 void frame_bounds(const Frame *frame, int part[4])

@@ -25,11 +25,11 @@ float legend_text_pixels(int height)
 double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height)
 {
     double letters = 0;
-    if (!def->legend || (def->color_by == SCALAR_FLUID && world->fluid_count == 0))
+    if (!def->legend || (view_color_by(def) == SCALAR_FLUID && world->fluid_count == 0))
         return 0;
     for (int i = 0; i < world->fluid_count; i++)
         letters = fmax(letters, (double)strlen(world->fluids[i].name));
-    double width_em = def->color_by == SCALAR_FLUID ? 3.3 + 0.6 * letters : SCALAR_WIDTH_EM;
+    double width_em = view_color_by(def) == SCALAR_FLUID ? 3.3 + 0.6 * letters : SCALAR_WIDTH_EM;
     return (width_em + 1) * legend_text_pixels(height);
 }
 

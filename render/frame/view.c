@@ -177,6 +177,14 @@ bool view_same(const Subject *a, const Subject *b)
                       (!kind->same || kind->same(a, b))));
 }
 
+Scalar view_color_by(const ViewDef *def)
+{
+    const ViewKind *kind = view_find(def->kind);
+    if (def->color_by != SCALAR_COUNT)
+        return def->color_by;
+    return kind && kind->own_colors && kind->own_colors(def) ? SCALAR_FLUID : SCALAR_SPEED;
+}
+
 bool view_accepts(View *view, const Subject *subject, Error *error)
 {
     return !view->kind->accepts || view->kind->accepts(view->state, subject, error);

@@ -119,6 +119,8 @@ typedef struct ViewKind {
     bool (*check)(const Subject *subject, const char **key, Error *error);
     /* The files that the def names, to be read with the scene; how many. NULL: none. */
     int (*files)(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
+    /* Whether view.color_by: auto is the fluids' own colours; NULL: it is the speed. */
+    bool (*own_colors)(const ViewDef *def);
     double radius;                /* of a particle, in spacings, where ViewDef.radius is 0 */
     unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: of the def's curves those that it draws */
     const KeyOwner *curves_where; /* in use where it does; NULL: always */

@@ -2,7 +2,7 @@
 
 ViewDef view_def_shared(void)
 {
-    return (ViewDef){.color_by = SCALAR_SPEED,
+    return (ViewDef){.color_by = SCALAR_COUNT,
                      .colormap = "viridis",
                      .range_auto = true,
                      .color_curve = control_points_straight(),
@@ -24,6 +24,6 @@ static uint64_t curve_bit(const ScalarCurve *curve)
 
 uint64_t view_def_ranges(const ViewDef *def)
 {
-    const bool color = def->color_by != SCALAR_FLUID && def->range_auto;
-    return (color ? UINT64_C(1) << def->color_by : 0) | curve_bit(&def->size) | curve_bit(&def->opacity);
+    const bool color = view_color_by(def) != SCALAR_FLUID && def->range_auto;
+    return (color ? UINT64_C(1) << view_color_by(def) : 0) | curve_bit(&def->size) | curve_bit(&def->opacity);
 }

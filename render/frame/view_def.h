@@ -39,16 +39,16 @@ typedef struct ScalarCurve {
 } ScalarCurve;
 
 typedef struct ViewDef {
-    char kind[NAME_SIZE];            /* see view_list; "none" draws nothing */
-    Scalar color_by;                 /* SCALAR_FLUID takes the fluids' own colours */
-    char colormap[NAME_SIZE];        /* see colormap_list */
-    bool range_auto;                 /* the range follows each state; else range[0] .. range[1] */
-    bool range_symmetric;            /* one that follows each state is as wide below 0 as above */
-    double range[2];                 /* in the scalar's unit */
-    ControlPoints color_curve;       /* bends the colormap */
-    ScalarCurve opacity;             /* 0 .. 1 */
-    ScalarCurve size;                /* factor of the radius */
-    double radius;                   /* of a particle, in spacings; 0: the view's default */
+    char kind[NAME_SIZE];      /* see view_list; "none" draws nothing */
+    Scalar color_by;           /* SCALAR_FLUID: the fluids' own; SCALAR_COUNT: auto, see view_color_by */
+    char colormap[NAME_SIZE];  /* see colormap_list */
+    bool range_auto;           /* the range follows each state; else range[0] .. range[1] */
+    bool range_symmetric;      /* one that follows each state is as wide below 0 as above */
+    double range[2];           /* in the scalar's unit */
+    ControlPoints color_curve; /* bends the colormap */
+    ScalarCurve opacity;       /* 0 .. 1 */
+    ScalarCurve size;          /* factor of the radius */
+    double radius;             /* of a particle, in spacings; 0: the view's default */
     ViewOwn of_view[VIEW_KINDS_MAX]; /* own settings of each view of the list, in its order */
     bool legend;                     /* draw the legend */
     bool box;                        /* draw the box's edges */
@@ -76,6 +76,10 @@ static inline Scalar scalar_of_curve(const ScalarCurve *curve)
 {
     return (Scalar)(curve->by - 1);
 }
+
+/* What the colours show: of a def with `auto` what goes with its view and look (ViewKind.own_colors). All
+   that draw, name or check colours ask here. */
+Scalar view_color_by(const ViewDef *def);
 
 /* A bit a Scalar, the first the lowest: those whose range follows the state. The fluids' own colours have
  * none. */

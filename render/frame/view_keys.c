@@ -24,6 +24,12 @@ SYMMETRIC_FOLLOWS(range);
 SYMMETRIC_FOLLOWS(opacity.range);
 SYMMETRIC_FOLLOWS(size.range);
 
+/* The scalars, then "auto". */
+static const char *scalar_or_auto(int index)
+{
+    return index < SCALAR_COUNT ? scalar_list[index].name : index == SCALAR_COUNT ? "auto" : NULL;
+}
+
 /* "none", then the scalars. */
 static const char *scalar_or_none(int index)
 {
@@ -37,7 +43,7 @@ static const KeyOwner by_size = {.key = "view.size.by", .need = "a scalar (view.
 const Key view_keys[] = {
     MAPPING("view", "the picture", .flags = I),
     CHOICE("view.kind", L, kind_name, AT(kind), "how the fluid is drawn"),
-    CHOICE_OF("view.color_by", L | KEY_INDEX, scalar_list, AT(color_by), "what the colour shows"),
+    CHOICE("view.color_by", L | KEY_INDEX, scalar_or_auto, AT(color_by), "what the colour shows; auto: the fluid's own colour where the view shows clear fluid (looks and shadings water and jelly), else speed"),
     CHOICE_OF("view.colormap", L, colormap_list, AT(colormap), "the colours of a scalar"),
     {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(range),
      .aux = AT(range_auto), .help = "auto: of 98 in 100 particles; symmetric: that, about 0; or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},

@@ -70,7 +70,7 @@ static void set_vector(const GlyphArrows *arrows, GLuint program, const Particle
                        const Frame *frame)
 {
     const size_t count = particles->count;
-    const Scalar shown = frame->def->color_by;
+    const Scalar shown = view_color_by(frame->def);
     particle_bind(program, particles, shown);
     glProgramUniform1ui(program, GLYPH_VECTOR_STRIDE_AT,
                         particle_bind_one(GLYPH_VECTORS_STORAGE, vector_of(particles, frame), count, 0));

@@ -68,7 +68,7 @@ static void set_look(const Glyphs *glyphs, const Frame *frame)
     glUniform1f(GLYPH_SCALE_AT, (float)(glyphs->length / glyphs->unit));
     glUniform3f(GLYPH_SIZE_AT, tip_length * size, tip_radius * size, shaft_radius * size);
     glUniform1f(GLYPH_LIFT_AT, (float)lift);
-    glUniform1ui(GLYPH_IS_FLUID_AT, frame->def->color_by == SCALAR_FLUID);
+    glUniform1ui(GLYPH_IS_FLUID_AT, view_color_by(frame->def) == SCALAR_FLUID);
     glUniform4f(GLYPH_COLOR_AT, (float)def->color[0], (float)def->color[1], (float)def->color[2],
                 def->color_by == GLYPHS_PLAIN || glyphs->plain);
 }
@@ -95,7 +95,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     {
         glyph_arrows_make(&glyphs->arrows, particles, frame);
         make_scale(glyphs, particles, frame);
-        glyphs->plain = !particle_shown(particles, frame->def->color_by)->buffer;
+        glyphs->plain = !particle_shown(particles, view_color_by(frame->def))->buffer;
         if (glyphs->arrows.most > 0 && glyphs->unit > 0)
             draw_arrows(glyphs, frame);
     }

@@ -167,7 +167,7 @@ static void layers_from(LayersFrom *from, const ParticleBuffers *particles, cons
     from->count = particles->count;
     from->buffer = particles->position.buffer;
     from->offset = particles->position.offset;
-    from->color = frame->by_fluid ? SCALAR_FLUID : frame->def->color_by;
+    from->color = frame->by_fluid ? SCALAR_FLUID : view_color_by(frame->def);
     memcpy(from->box_size, particles->box_size, sizeof from->box_size);
     from->spacing = particles->spacing;
     from->support = particles->support_radius;

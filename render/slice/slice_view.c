@@ -123,7 +123,7 @@ static bool make_job(const ParticleBuffers *particles, const Frame *frame, Plane
     const SliceDef *def = slice_def(frame->def);
     *job = (PlaneJob){.kernel = plane_kernel_of(def->kernel, frame->world),
                       .dimensions = frame->slab > 0 ? 2 : 3,
-                      .scalar = frame->def->color_by};
+                      .scalar = view_color_by(frame->def)};
     if (!slice_plane(def, particles, &job->plane))
         return false;
     if (def->show == SLICE_FLAT)
@@ -376,7 +376,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     bool made = false;
     draw_balls(view, frame);
     view->has_scalar =
-        frame->def->color_by != SCALAR_FLUID && particles->scalar[frame->def->color_by].buffer != 0;
+        view_color_by(frame->def) != SCALAR_FLUID && particles->scalar[view_color_by(frame->def)].buffer != 0;
     const PlaneSum *veils = NULL;
     GL_STAGE(frame->timer, STAGE_BLEND)
     {

@@ -148,7 +148,7 @@ static void find_visible(Spheres *spheres, const ParticleBuffers *particles, con
     GLuint program = points ? spheres->points : spheres->visibility;
     particle_curves_bind(&spheres->curves);
     glUseProgram(program);
-    particle_bind(program, particles, frame->def->color_by);
+    particle_bind(program, particles, view_color_by(frame->def));
     if (!points) {
         quad_indices_draw(&spheres->quads, particles->count);
         return;
@@ -168,7 +168,7 @@ static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, co
     color_table_bind(&spheres->colors, &frame->def->color_curve);
     particle_curves_bind(&spheres->curves);
     glUseProgram(spheres->shading);
-    particle_bind(spheres->shading, particles, frame->def->color_by);
+    particle_bind(spheres->shading, particles, view_color_by(frame->def));
     glBindVertexArray(spheres->screen);
     frame_cut_to_bounds(frame);
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -103,7 +103,7 @@ static void use(GLuint program, const Grid *grid, const ParticleBuffers *particl
 {
     glUseProgram(program);
     if (particles)
-        particle_bind(program, particles, frame->def->color_by);
+        particle_bind(program, particles, view_color_by(frame->def));
     glUniform2ui(CELLS_AT, grid->columns, grid->rows);
     glUniform1ui(CELL_SIDE_AT, grid->side);
     glUniform2f(CULL_PIXELS_AT, grid->width, grid->height);

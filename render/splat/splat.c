@@ -308,6 +308,11 @@ static ViewProbing splat_probing(const void *state, const ViewDef *def)
     return (ViewProbing){.by = VIEW_PROBE_MEAN};
 }
 
+static bool splat_own_colors(const ViewDef *def)
+{
+    return splat_def(def)->shading != SPLAT_PHONG;
+}
+
 static const KeyOwner spheres = {.key = "view.splat.level", .value = "0"};
 
 const ViewKind view_splat = {
@@ -318,6 +323,7 @@ const ViewKind view_splat = {
     .curves_where = &spheres,
     .radii = splat_radii,
     .shapes = splat_shapes,
+    .own_colors = splat_own_colors,
     .create = splat_create,
     .destroy = splat_destroy,
     .keys = splat_keys,

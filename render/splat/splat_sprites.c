@@ -71,7 +71,7 @@ unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, 
 static void bind(unsigned program, const ParticleBuffers *particles, const Frame *frame)
 {
     glUseProgram(program);
-    particle_bind(program, particles, frame->def->color_by);
+    particle_bind(program, particles, view_color_by(frame->def));
 }
 
 void splat_sprites_draw_points(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,

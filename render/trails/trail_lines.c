@@ -59,7 +59,7 @@ static TrailLook look_of(const TrailStore *store, const Frame *frame)
                                  trails_def(frame->def)->by == TRAILS_AUTO,
                        .width = frame->width,
                        .height = frame->height,
-                       .scalar = frame->def->color_by,
+                       .scalar = view_color_by(frame->def),
                        .drops = store->ring.drops,
                        .made = store->made};
 }
@@ -109,7 +109,7 @@ static void set_color(const TrailStore *store, const Frame *frame, GLuint progra
     glUseProgram(program);
     glUniform1f(TRAIL_TIME_AT, (float)store->ring.now);
     glUniform2f(TRAIL_FADE_AT, (float)(1 / store->ring.length), strength);
-    glUniform1ui(TRAIL_IS_FLUID_AT, frame->def->color_by == SCALAR_FLUID);
+    glUniform1ui(TRAIL_IS_FLUID_AT, view_color_by(frame->def) == SCALAR_FLUID);
 }
 
 /* From the column before to that one, by the program in use. */
@@ -266,7 +266,7 @@ static void show(TrailLines *lines, const TrailStore *store, const Frame *frame,
         return; /* the newest state is in the kept picture */
     set_lines(&lines->look, lines->head);
     set_color(store, frame, lines->head, strength);
-    draw_column(lines, store, store->ring.head, frame->def->color_by);
+    draw_column(lines, store, store->ring.head, view_color_by(frame->def));
 }
 
 static void show_all(TrailLines *lines, const TrailStore *store, const Frame *frame)

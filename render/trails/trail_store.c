@@ -313,8 +313,8 @@ static void run_take(const TrailStore *store, const ParticleBuffers *particles, 
 void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const ViewDef *def)
 {
     const TrailsDef *own = trails_def(def);
-    const bool has = particle_shown(particles, def->color_by)->buffer;
-    const Scalar scalar = has ? def->color_by : SCALAR_COUNT; /* which none shows */
+    const bool has = particle_shown(particles, view_color_by(def))->buffer;
+    const Scalar scalar = has ? view_color_by(def) : SCALAR_COUNT; /* which none shows */
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     make_room(store, own, particles->count);
     if (store->slots == 0 || (particles->count > 0 && !particles->id.buffer))
@@ -326,7 +326,7 @@ void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const
         go_back(store);
     clear(store->owners, trail_store_column(store, store->ring.head), (size_t)store->slots, 0);
     if (particles->count > 0)
-        run_take(store, particles, def->color_by, claim(store, particles));
+        run_take(store, particles, view_color_by(def), claim(store, particles));
     if (store->mapped_places)
         fence(store);
 }

@@ -91,8 +91,9 @@ VolumeOpacity volume_opacity(const ViewDef *def)
     const VolumeDef *own = volume_def(def);
     if (def->opacity.by == 0 || own->raycast.look != RAYCAST_TRANSLUCENT || own->show != VOLUME_SHADED)
         return VOLUME_EVEN;
-    return scalar_of_curve(&def->opacity) == def->color_by && def->color_by != SCALAR_FLUID ? VOLUME_BY_COLOR
-                                                                                            : VOLUME_BY_OWN;
+    return scalar_of_curve(&def->opacity) == view_color_by(def) && view_color_by(def) != SCALAR_FLUID
+               ? VOLUME_BY_COLOR
+               : VOLUME_BY_OWN;
 }
 
 VolumeDef *volume_def(const ViewDef *def)

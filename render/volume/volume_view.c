@@ -80,14 +80,14 @@ static bool create_raycast(VolumeView *view, const Subject *subject, Error *erro
  * scalar's colours. */
 static bool carries_fluids(const Subject *subject)
 {
-    return volume_def(subject->def)->show == VOLUME_SHADED && subject->def->color_by == SCALAR_FLUID &&
+    return volume_def(subject->def)->show == VOLUME_SHADED && view_color_by(subject->def) == SCALAR_FLUID &&
            subject->world->fluid_count > 1;
 }
 
 static bool carries(const Subject *subject)
 {
     return volume_def(subject->def)->show == VOLUME_SHADED &&
-           (subject->def->color_by != SCALAR_FLUID || carries_fluids(subject));
+           (view_color_by(subject->def) != SCALAR_FLUID || carries_fluids(subject));
 }
 
 /* Sampled as a texture, also where the field is not. */
@@ -138,7 +138,7 @@ static bool make_volume(VolumeView *view, const ParticleBuffers *particles, cons
     if (view->opacity && !voxelizer_run(view->opacity, volume_def(def), particles,
                                         scalar_of_curve(&def->opacity), &opacity, &error))
         return false;
-    if (!voxelizer_run(view->voxelizer, volume_def(def), &carrying, def->color_by, volume, &error))
+    if (!voxelizer_run(view->voxelizer, volume_def(def), &carrying, view_color_by(def), volume, &error))
         return false;
     volume->opacity[0] = opacity.field;
     volume->opacity[1] = opacity.scalar;
@@ -195,8 +195,14 @@ static bool same(const Subject *a, const Subject *b)
 {
     return volume_opacity(a->def) == volume_opacity(b->def) &&
            raycast_is_curved(a->def) == raycast_is_curved(b->def) &&
-           (a->def->color_by == SCALAR_FLUID) == (b->def->color_by == SCALAR_FLUID) &&
+           (view_color_by(a->def) == SCALAR_FLUID) == (view_color_by(b->def) == SCALAR_FLUID) &&
            (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
+}
+
+/* Clear water in the colours of a scalar would be no water. */
+static bool own_colors(const ViewDef *def)
+{
+    return volume_def(def)->raycast.look == RAYCAST_WATER;
 }
 
 static const KeyOwner translucent = {.key = "view.volume.look", .value = "translucent"};
@@ -207,6 +213,7 @@ const ViewKind view_volume = {
     .radius = 0.5,
     .curves = VIEW_OPACITY,
     .curves_where = &translucent,
+    .own_colors = own_colors,
     .create = create,
     .destroy = destroy,
     .keys = volume_keys,

@@ -71,11 +71,60 @@ static void it_is_listed_behind_the_others(void **state)
     assert_int_equal(scene_key_find("view.toy.shade")->flags & (KEY_LIVE | KEY_IDLE), KEY_LIVE | KEY_IDLE);
 }
 
+static Scalar shown_by(const char *view)
+{
+    static Scene scene;
+    Error error = {0};
+    char text[512];
+    snprintf(text, sizeof text, "%sview: {%s}\n", LEAST, view);
+    if (!parse_text(text, NULL, &scene, &error))
+        fail_msg("%s", error.message);
+    return view_color_by(&scene.view);
+}
+
+static void clear_fluid_has_its_own_colour_unless_a_scalar_is_asked_for(void **state)
+{
+    (void)state;
+    assert_int_equal(shown_by("kind: spheres"), SCALAR_SPEED);
+    assert_int_equal(shown_by("kind: none"), SCALAR_SPEED);
+    assert_int_equal(shown_by("kind: volume"), SCALAR_SPEED);
+    assert_int_equal(shown_by("kind: splat"), SCALAR_SPEED);
+    assert_int_equal(shown_by("kind: splat, volume: {look: water}"), SCALAR_SPEED);
+    assert_int_equal(shown_by("kind: volume, volume: {look: water}"), SCALAR_FLUID);
+    assert_int_equal(shown_by("kind: splat, splat: {shading: water}"), SCALAR_FLUID);
+    assert_int_equal(shown_by("kind: splat, splat: {shading: jelly}"), SCALAR_FLUID);
+    assert_int_equal(shown_by("kind: splat, splat: {shading: jelly}, color_by: auto"), SCALAR_FLUID);
+    assert_int_equal(shown_by("kind: splat, splat: {shading: jelly}, color_by: speed"), SCALAR_SPEED);
+}
+
+static void a_view_follows_what_auto_stands_for(void **state)
+{
+    (void)state;
+    static Scene scene;
+    Error error = {0};
+    bool of_world;
+    if (!parse_text(LEAST "view: {kind: volume, range: [0, 3]}\n", NULL, &scene, &error))
+        fail_msg("%s", error.message);
+    assert_int_equal(view_def_ranges(&scene.view), 0);
+    assert_true(scene_set_live(&scene, "view.range=auto", &of_world, &error));
+    assert_int_equal(view_def_ranges(&scene.view), 1U << SCALAR_SPEED);
+    assert_true(scene_set_live(&scene, "view.volume.look=water", &of_world, &error) && !of_world);
+    assert_int_equal(view_color_by(&scene.view), SCALAR_FLUID);
+    assert_int_equal(view_def_ranges(&scene.view), 0);
+    assert_true(scene_set_live(&scene, "view.range=[0, 3]", &of_world, &error));
+    assert_true(scene_set_live(&scene, "view.color_by=speed", &of_world, &error));
+    assert_false(scene.view.range_auto); /* a range beside auto is of the speed */
+    assert_true(scene_set_live(&scene, "view.color_by=density", &of_world, &error));
+    assert_true(scene.view.range_auto);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(it_draws_by_its_own_settings, no_gl_errors),
         cmocka_unit_test(scenes_have_its_key),
+        cmocka_unit_test(clear_fluid_has_its_own_colour_unless_a_scalar_is_asked_for),
+        cmocka_unit_test(a_view_follows_what_auto_stands_for),
         cmocka_unit_test(it_is_listed_behind_the_others),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);

@@ -74,7 +74,7 @@ static void each_type_reaches_its_field(void **state)
     assert_false(set("view.range=[-1, 5]"));
     assert_true(!scene.view.range_auto && scene.view.range[0] == -1 && scene.view.range[1] == 5);
     char same[64];
-    snprintf(same, sizeof same, "view.color_by=%s", scalar_name(scene.view.color_by));
+    snprintf(same, sizeof same, "view.color_by=%s", scalar_name(view_color_by(&scene.view)));
     assert_false(set(same));
     assert_false(scene.view.range_auto);
     assert_false(set("view.color_by=pressure"));
