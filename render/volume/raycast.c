@@ -3,6 +3,7 @@
 #include "render/frame/behind.h"
 #include "render/frame/colormap.h"
 #include "render/volume/bricks.h"
+#include "render/volume/drops.h"
 #include "render/volume/transfer.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/raycast_block.h"
@@ -32,6 +33,7 @@ struct Raycast {
     GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
     GLuint found;           /* depth below the eye of what each ray met, m, R32F; 0: nothing */
     unsigned target_number; /* which these were made for; 0: none */
+    VolumeDrops drops;      /* of surfaces of a volume; else nothing */
     RaycastLook look;
     bool solids;
 };
@@ -40,6 +42,7 @@ void raycast_destroy(Raycast *raycast)
 {
     if (!raycast)
         return;
+    volume_drops_destroy(&raycast->drops);
     bricks_destroy(&raycast->bricks);
     behind_destroy(&raycast->behind);
     glDeleteProgram(raycast->program);
@@ -81,6 +84,19 @@ static GLuint create_program(const Subject *subject, const char *field, Error *e
     return program_create("raycast", stages, defines, error);
 }
 
+/* Where the picture is of a surface in a volume. */
+static bool create_drops(Raycast *raycast, const Subject *subject, const Voxelizer *voxelizer, Error *error)
+{
+    const VolumeDef *def = volume_def(subject->def);
+    char defines[64];
+    if (!voxelizer || def->method == VOLUME_DIRECT || def->show != VOLUME_SHADED ||
+        raycast->look == RAYCAST_TRANSLUCENT)
+        return true;
+    snprintf(defines, sizeof defines, "%s%s", raycast->solids ? "#define SOLIDS 1\n" : "",
+             raycast->look == RAYCAST_WATER ? "#define WATER 1\n#define FLOOR_SHADOW 1\n" : "");
+    return volume_drops_create(&raycast->drops, subject->def, defines, error);
+}
+
 bool raycast_is_curved(const ViewDef *def)
 {
     const RaycastDef *cast = &volume_def(def)->raycast;
@@ -106,7 +122,8 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
     if (raycast->program)
         raycast->settle =
             program_create_pair("raycast depth", "common/screen.vert", "volume/raycast_depth.frag", error);
-    if (raycast->settle && bricks_create(&raycast->bricks, error))
+    if (raycast->settle && bricks_create(&raycast->bricks, error) &&
+        create_drops(raycast, subject, voxelizer, error))
         return raycast;
     raycast_destroy(raycast);
     return NULL;
@@ -184,6 +201,22 @@ static bool near_is_inside(const RaycastBlock *block, const Frame *frame)
     return inside;
 }
 
+/* Where no walls are, far outside. Particles at rest stand half a spacing before a wall; some are pressed
+   nearer to it and leave holes there, which the field that far from the wall does not have. */
+static void fill_walls(RaycastBlock *block, const Volume *volume, const ParticleBuffers *particles)
+{
+    const VolumeGrid *grid = &volume->grid;
+    for (int k = 0; k < 3; k++) {
+        const double size = particles->box_size[k], side = grid->size[k] * grid->cell;
+        const double low = ((k == 1 ? 0 : -size / 2) - grid->corner[k]) / side, high = low + size / side;
+        const double margin = fmin(0.5 * particles->spacing, 0.25 * size) / side;
+        block->wall_low[k] = volume->walled[k] ? (float)low : -1;
+        block->wall_high[k] = volume->walled[k] ? (float)high : 2;
+        block->field_low[k] = volume->walled[k] ? (float)(low + margin) : -1;
+        block->field_high[k] = volume->walled[k] ? (float)(high - margin) : 2;
+    }
+}
+
 static void fill_march(RaycastBlock *block, const RaycastDef *cast, const Volume *volume)
 {
     block->surface_level = (float)cast->level;
@@ -218,6 +251,7 @@ static void fill_block(RaycastBlock *block, const Volume *volume, const Particle
     block->cell_size = (float)grid->cell;
     block->brick_side = (float)side;
     block->brick_least = (float)(cast->skip ? surface ? cast->level : cast->ramp[0] : -1);
+    fill_walls(block, volume, particles);
     fill_march(block, cast, volume);
     fill_opacity(block, cast, particles->spacing);
     block->near_start = near_is_inside(block, frame) ? frame->camera.near_plane : 0;
@@ -295,9 +329,12 @@ static void look_through(Raycast *raycast, const Frame *frame)
         behind_take(&raycast->behind, frame);
     else
         glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
-    glProgramUniform1f(raycast->program, REFRACTION_INDEX_AT, (GLfloat)cast->ior);
-    glProgramUniform1f(raycast->program, ATTENUATION_AT,
-                       cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->attenuation);
+    const GLuint programs[] = {raycast->program, raycast->drops.program};
+    for (int i = 0; i < 2 && programs[i]; i++) {
+        glProgramUniform1f(programs[i], REFRACTION_INDEX_AT, (GLfloat)cast->ior);
+        glProgramUniform1f(programs[i], ATTENUATION_AT,
+                           cast->attenuation > 0 ? (GLfloat)cast->attenuation : frame->attenuation);
+    }
 }
 
 /* Rays end at solids, so that what they find is always before them. */
@@ -349,6 +386,8 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
         look_through(raycast, frame);
     march(raycast, frame, block.near_start > 0);
     write_depth(raycast, frame);
+    if (raycast->drops.program && particles->count > 0)
+        volume_drops_draw(&raycast->drops, particles, frame);
 }
 
 /* Pixels whose depth is written: of translucent fluid those that it hides by half. */

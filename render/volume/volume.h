@@ -22,6 +22,7 @@ typedef struct Volume {
                         shaders/volume/field.glsl sums at the sample */
     unsigned scalar; /* the same for sum V W scalar, whose mean is this by F; 0 where none is carried. A
                         texture of its own, since most samples need F alone */
+    bool walled[3]; /* the box's sides across this axis are walls that the field reaches, and where it ends */
     unsigned
         opacity[2]; /* both of another volume on the same grid, for opacity by a scalar of its own; else 0 */
 } Volume;

@@ -4,6 +4,7 @@
 #include "render/volume/fluid_numbers.h"
 #include "render/volume/raycast.h"
 #include "render/volume/volume_slice.h"
+#include "render/volume/walls.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -13,6 +14,7 @@
 
 typedef struct VolumeView {
     Voxelizer *voxelizer;
+    VolumeWalls walls; /* of looks that are surfaces */
     VolumeSlice slice; /* shown alone: nothing below is there */
     Raycast *raycast;  /* NULL: the slice */
     Casting casting;
@@ -23,6 +25,7 @@ typedef struct VolumeView {
 static void destroy(void *state)
 {
     VolumeView *view = state;
+    volume_walls_destroy(&view->walls);
     volume_slice_destroy(&view->slice);
     raycast_destroy(view->raycast);
     fluid_numbers_destroy(&view->numbers);
@@ -73,7 +76,9 @@ static bool accepts(void *state, const Subject *subject, Error *error)
 static bool create_raycast(VolumeView *view, const Subject *subject, Error *error)
 {
     view->raycast = raycast_create(subject, view->voxelizer, error);
-    return view->raycast && casting_create(&view->casting, NULL, error);
+    const bool surface = volume_def(subject->def)->raycast.look != RAYCAST_TRANSLUCENT;
+    return view->raycast && casting_create(&view->casting, NULL, error) &&
+           (!surface || volume_walls_create(&view->walls, error));
 }
 
 /* The volume carries the fluids where the picture has the colours of several, and a scalar where it has that
@@ -128,9 +133,10 @@ static void cast(void *state, const ParticleBuffers *particles, const Frame *fra
         casting_draw(&view->casting, particles);
 }
 
-static bool make_volume(VolumeView *view, const ParticleBuffers *particles, const ViewDef *def,
+static bool make_volume(VolumeView *view, const ParticleBuffers *particles, const Frame *frame,
                         Volume *volume)
 {
+    const ViewDef *def = frame->def;
     Error error;
     Volume opacity = {.field = 0};
     const ParticleBuffers carrying =
@@ -140,6 +146,8 @@ static bool make_volume(VolumeView *view, const ParticleBuffers *particles, cons
         return false;
     if (!voxelizer_run(view->voxelizer, volume_def(def), &carrying, view_color_by(def), volume, &error))
         return false;
+    if (view->walls.program)
+        volume_walls_mirror(&view->walls, particles, frame->world->periodic, volume);
     volume->opacity[0] = opacity.field;
     volume->opacity[1] = opacity.scalar;
     return true;
@@ -152,7 +160,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     bool made = false;
     GL_STAGE(frame->timer, STAGE_VOXELIZE)
     {
-        made = make_volume(view, particles, frame->def, &volume);
+        made = make_volume(view, particles, frame, &volume);
     }
     if (!made) /* memory that was there at the start is not there now */
         return;

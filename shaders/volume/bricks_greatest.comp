@@ -1,4 +1,4 @@
-// The greatest value of the field in each brick, of the voxels at its faces too.
+// The greatest value of the field in each brick, of the voxels at its faces too; behind walls as field_at has it.
 #include "volume/raycast.glsl"
 #include "shaders/volume/volume_bindings.h"
 
@@ -8,12 +8,14 @@ layout(binding = GREATEST_IMAGE, r32f) uniform writeonly image3D greatest_map;
 
 void main()
 {
-    ivec3 count = ivec3(brick_count), size = ivec3(volume_cells), side = ivec3(brick_side);
+    ivec3 count = ivec3(brick_count), side = ivec3(brick_side);
     int number = int(gl_GlobalInvocationID.x);
     ivec3 brick = ivec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
     if (brick.z >= count.z)
         return;
-    ivec3 low = brick * side, high = min(low + side, size - 1);
+    ivec3 least = ivec3(max(floor(field_low * volume_cells - 0.5), vec3(0.0)));
+    ivec3 most = ivec3(min(ceil(field_high * volume_cells - 0.5), volume_cells - 1.0));
+    ivec3 low = clamp(brick * side, least, most), high = clamp(brick * side + side, least, most);
     float greatest = 0.0;
     for (int z = low.z; z <= high.z; z++)
         for (int y = low.y; y <= high.y; y++)

@@ -14,9 +14,13 @@ UNIFORM_BLOCK(RaycastBlock, RAYCAST_BLOCK)
     float cell_size; /* m */
     vec3 brick_count;
     float brick_side;  /* cells */
+    vec3 wall_low;     /* of the walls at which fluid ends; beyond the volume where there are none */
     float brick_least; /* field that a brick with fluid exceeds */
+    vec3 wall_high;
     float surface_level;
-    float step_length;   /* m */
+    vec3 field_low;    /* nearer to a wall the field is as here */
+    float step_length; /* m */
+    vec3 field_high;
     float far_step;      /* the longest, far from the surface, m */
     float near_start;    /* depth where all rays start, m; 0: at faces */
     float ramp_begin;    /* field at which opacity begins */

@@ -16,7 +16,7 @@ layout(binding = FIELD_SCALAR_UNIT) uniform sampler3D field_scalar_map;
 float scalar_at(vec3 at)
 {
     float field = field_at(at);
-    return field > 0.0 ? textureLod(field_scalar_map, at, 0.0).x / field : 0.0;
+    return field > 0.0 ? textureLod(field_scalar_map, clamp(at, field_low, field_high), 0.0).x / field : 0.0;
 }
 #endif
 

@@ -15,7 +15,7 @@ layout(binding = FIELD_UNIT) uniform sampler3D field_map;
 
 float field_at(vec3 at)
 {
-    return textureLod(field_map, at, 0.0).x;
+    return textureLod(field_map, clamp(at, field_low, field_high), 0.0).x;
 }
 #endif
 layout(binding = ENTRY_UNIT) uniform sampler2D entry_map; // reversed depths of faces
@@ -30,6 +30,7 @@ struct Ray {
     vec3 origin, way; // the same in the volume
     float slant;      // length of `to`
     float begin, end; // t of what is to be marched through
+    float wall;       // t up to which it comes in through a wall
 };
 
 vec3 ray_at(Ray ray, float t)
@@ -44,15 +45,40 @@ Ray ray_from(vec3 from, vec3 to)
     ray.origin = (eye_to_volume * vec4(from, 1.0)).xyz;
     ray.way = mat3(eye_to_volume) * to;
     ray.slant = length(to);
-    ray.begin = 0.0, ray.end = 0.0;
+    ray.begin = 0.0, ray.end = 0.0, ray.wall = -1e30;
     return ray;
+}
+
+// t at which the ray passes each of the sides before it, of walls and of the volume; infinite where it is parallel to them.
+vec3 ray_ends(Ray ray)
+{
+    return (clamp(mix(wall_low, wall_high, step(vec3(0.0), ray.way)), 0.0, 1.0) - ray.origin) / ray.way;
 }
 
 // Where the ray leaves the volume, when it is in it at t = 0.
 float ray_end(Ray ray)
 {
-    vec3 end = (step(vec3(0.0), ray.way) - ray.origin) / ray.way; // infinite where it is parallel to a side
+    vec3 end = ray_ends(ray);
     return min(min(end.x, end.y), end.z);
+}
+
+// Towards the eye, unit, of the wall that the ray comes in through at the last.
+vec3 wall_normal(Ray ray)
+{
+    vec3 at = (mix(wall_high, wall_low, step(vec3(0.0), ray.way)) - ray.origin) / ray.way;
+    vec3 axis = at.x > at.y && at.x > at.z ? vec3(1.0, 0.0, 0.0) : at.y > at.z ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
+    return mat3(box_to_eye) * (axis * -sign(ray.way));
+}
+
+// Fluid ends at walls.
+void cut_to_walls(inout Ray ray)
+{
+    vec3 begin = (mix(wall_high, wall_low, step(vec3(0.0), ray.way)) - ray.origin) / ray.way;
+    vec3 end = (mix(wall_low, wall_high, step(vec3(0.0), ray.way)) - ray.origin) / ray.way;
+    ray.wall = max(max(begin.x, begin.y), begin.z);
+    ray.begin = max(ray.begin, ray.wall);
+    ray.wall += 0.01 * cell_size / ray.slant; // the faces of bricks, which lie in walls too, are rounded otherwise
+    ray.end = min(ray.end, min(min(end.x, end.y), end.z));
 }
 
 float solid_end()
@@ -72,6 +98,7 @@ Ray eye_ray()
     Ray ray = ray_from(vec3(0.0), ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)));
     ray.begin = near_start > 0.0 ? near_start : near_plane / max(entry, 1e-30);
     ray.end = min(near_plane / max(leave, 1e-30), solid_end());
+    cut_to_walls(ray);
     return ray;
 }
 

@@ -36,6 +36,8 @@ float find_surface(Ray ray)
 // Out of the fluid, unit; towards the eye where the field is even.
 vec3 normal_at(Ray ray, float t)
 {
+    if (t <= ray.wall)
+        return wall_normal(ray);
     vec3 outward = -slope_at(ray_at(ray, t));
     float length2 = dot(outward, outward);
     return length2 > 1e-12 ? outward * inversesqrt(length2) : -ray.to / ray.slant;

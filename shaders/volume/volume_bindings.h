@@ -44,5 +44,9 @@
 #define FLUID_COUNT_AT 18
 #define SLICE_AXIS_AT  19
 #define SLICE_PLACE_AT 20
+#define WALL_AXIS_AT   21
+#define WALL_PLACE_AT  22
+#define WALL_CELLS_AT  23
+#define DROPS_FLAT_AT  24
 
 #endif

@@ -548,7 +548,8 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
              volume_def(&v)->raycast.jitter = !volume_def(&v)->raycast.jitter,
              volume_def(&v)->raycast.skip = !volume_def(&v)->raycast.skip,
              v.opacity.by = 1 + SCALAR_PRESSURE);
-        VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look, v.opacity.by = 1 + (int)v.color_by,
+        VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look,
+             v.opacity.by = 1 + (int)view_color_by(&v),
              volume_def(&v)->raycast.curve = volume_presets[3].points);
     }
     for (int show = VOLUME_SLICE; show <= VOLUME_NORMALS; show++)
@@ -579,7 +580,7 @@ static int few_views_of(ViewDef base, ViewDef views[VIEWS_MAX])
          volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT, v.opacity.by = 1 + SCALAR_DENSITY,
          volume_def(&v)->bounds = VOLUME_FLUID);
     VIEW("volume", volume_def(&v)->method = VOLUME_GATHER, volume_def(&v)->raycast.look = RAYCAST_TRANSLUCENT,
-         volume_def(&v)->raycast.curve = volume_presets[2].points, v.opacity.by = 1 + (int)v.color_by);
+         volume_def(&v)->raycast.curve = volume_presets[2].points, v.opacity.by = 1 + (int)view_color_by(&v));
     VIEW("slice", slice_def(&v)->show = SLICE_FLAT);
     VIEW("slice", slice_def(&v)->particles = SLICE_BEHIND);
     VIEW("pbsr");

@@ -81,7 +81,7 @@ static void colors_of_scalars_and_fluids(void **state)
     for (int i = 0; i < 3; i++)
         for (int by_fluid = 0; by_fluid < 2; by_fluid++) {
             volume_def(&picture.def)->method = methods[i];
-            picture.def.color_by = by_fluid ? SCALAR_FLUID : SCALAR_SPEED;
+            picture.def.color_by = by_fluid ? SCALAR_FLUID : i == 1 ? SCALAR_COUNT : SCALAR_SPEED; /* auto */
             for (int side = 0; side < 2; side++)
                 for (int k = 0; k < 3; k++)
                     colors[side][k] = by_fluid ? srgb(picture.world.fluids[side].color[k])
@@ -108,11 +108,12 @@ static int pixels_apart(const Image *a, const Image *b, int most)
     return apart;
 }
 
-/* The field summed at the sample gives the picture that a fine volume gives. */
+/* The field summed at the sample gives the picture that a fine volume gives, where no wall is. */
 static void without_a_volume(void **state)
 {
     (void)state;
     Picture picture = picture_of_block();
+    memset(picture.world.periodic, true, sizeof picture.world.periodic);
     volume_def(&picture.def)->cells = 160;
     Image with = drawn(&picture, false);
     volume_def(&picture.def)->method = VOLUME_DIRECT;

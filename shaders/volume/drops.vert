@@ -1,0 +1,47 @@
+// Particles around which the field does not reach the level, as balls of their own volume: four vertices each, the corners of its
+// bound on the screen. They shrink to nothing as the surface comes up around them.
+#include "common/frame.glsl"
+#include "common/particles.glsl"
+#include "common/particle_color.glsl"
+#include "common/sphere.glsl"
+#include "volume/volume.glsl"
+#include "volume/raycast.glsl"
+#include "shaders/volume/volume_bindings.h"
+layout(binding = FIELD_UNIT) uniform sampler3D field_map;
+layout(location = DROPS_FLAT_AT) uniform bool flat_scene; // volumes are areas
+
+layout(location = 0) noperspective out vec3 offset;
+layout(location = 1) flat out vec3 constants;
+layout(location = 2) flat out vec4 drop; // centre in the eye's frame, radius
+layout(location = 3) flat out vec3 albedo;
+
+const float pi = 3.14159265;
+
+float own_radius(float volume)
+{
+    return flat_scene ? sqrt(volume / pi) : pow(0.75 / pi * volume, 1.0 / 3.0);
+}
+
+void main()
+{
+    uint index = uint(gl_VertexID) >> 2;
+    vec3 at = particle_position(index);
+    float volume = position_words[index * position_stride + 3u];
+    vec3 place = clamp(cells_of(at) / volume_cells, field_low, field_high);
+    // Of 0.5: one alone has 0.17, three in a row 0.33 at most, four that touch 0.40 and a surface between them, an edge of fluid 0.4.
+    float alone = 1.0 - smoothstep(0.6 * surface_level, 0.85 * surface_level, textureLod(field_map, place, 0.0).x);
+    float radius = own_radius(volume) * alone;
+    gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
+    offset = constants = albedo = vec3(0.0);
+    drop = vec4(0.0);
+    if (!(radius > 1e-6 * particle_radius && radius < 1e15))
+        return;
+    Sphere sphere = sphere_at((box_to_eye * vec4(at, 1.0)).xyz, radius);
+    vec4 bounds = sphere_bounds(sphere);
+    vec2 corner = vec2((gl_VertexID & 1) == 0 ? bounds.x : bounds.y, (gl_VertexID & 2) == 0 ? bounds.z : bounds.w);
+    offset = sphere_offset(sphere, ray_of_ndc(corner));
+    constants = sphere_constants(sphere);
+    drop = vec4(sphere.centre, radius);
+    albedo = particle_color(index);
+    gl_Position = vec4(corner, 0.5, 1.0);
+}
