@@ -112,7 +112,7 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label)
     for (GLenum axis = 0; axis < 3; axis++)
         glTextureParameteri(texture,
                             (GLenum[]){GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R}[axis],
-                            GL_CLAMP_TO_BORDER);
+                            GL_CLAMP_TO_EDGE);
     glClearTexImage(texture, 0, format == GL_R32F ? GL_RED : GL_RGBA, GL_FLOAT, none);
     return texture;
 }

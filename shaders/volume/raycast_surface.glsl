@@ -20,17 +20,15 @@ float refined(Ray ray, float t, float f, float beyond, float g)
 // t of the surface; negative: none. A ray that starts in the fluid meets it there.
 float find_surface(Ray ray)
 {
-    float t = ray.begin, f = field_at(ray_at(ray, t)), per_m = 1.0 / ray.slant;
-    if (f >= surface_level)
-        return t;
-    while (t < ray.end) {
-        float next = min(t + step_from(f, surface_level) * per_m, ray.end), g = field_at(ray_at(ray, next));
+    float t = ray.begin, f = field_at(ray_at(ray, t)), per_m = 1.0 / ray.slant, before = t, below = f;
+    while (f < surface_level && t < ray.end) {
+        before = t, below = f;
+        t = min(t + step_from(f, surface_level) * per_m, ray.end), f = field_at(ray_at(ray, t));
         steps++;
-        if (g >= surface_level)
-            return refined(ray, t, f, next, g);
-        t = next, f = g;
     }
-    return -1.0;
+    if (f < surface_level)
+        return -1.0;
+    return t > before ? refined(ray, before, below, t, f) : t; // behind the loop: a software driver runs all of each turn
 }
 
 // Out of the fluid, unit; towards the eye where the field is even.
