@@ -25,7 +25,8 @@
 static const WorldDef unknown;
 
 struct Renderer {
-    ViewDef def;
+    ViewDef said; /* by who asked for the picture */
+    ViewDef def;  /* the same at its quality */
     WorldDef world;
     bool plain, more;
     bool late;          /* what a picture wants to know of its own state may be of the one before: */
@@ -228,7 +229,8 @@ Renderer *renderer_create(const ViewDef *def, const WorldDef *world, int width, 
         error_set(error, "out of memory for the renderer");
         return NULL;
     }
-    renderer->def = *def;
+    renderer->said = *def;
+    renderer->def = view_at_quality(def, false);
     renderer->world = *(world ? world : &unknown);
     keep_freed_memory();
     if (create_parts(renderer, width, height, error))
@@ -284,8 +286,9 @@ static bool follow_view(Renderer *renderer, const Subject *subject, Error *error
     return followed;
 }
 
-bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *world, Error *error)
+bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *world, Error *error)
 {
+    const ViewDef drawn = view_at_quality(said, renderer->more), *def = &drawn;
     const Subject subject = {def, world ? world : &unknown};
     const bool letters = def->legend || *renderer->title.words;
     const bool followed =
@@ -296,6 +299,7 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *wo
         follow_view(renderer, &subject, error);
     if (followed) {
         const ParticleWants wants = wants_of(def);
+        renderer->said = *said;
         renderer->def = *def;
         renderer->world = *subject.world;
         derived_give_back(&renderer->derived, &wants);
@@ -629,7 +633,13 @@ void renderer_set_plain(Renderer *renderer, bool plain)
 
 void renderer_set_more(Renderer *renderer, bool more)
 {
+    const bool changes = renderer->more != more;
+    const ViewDef said = renderer->said;
+    const WorldDef world = renderer->world;
+    Error error;
     renderer->more = more;
+    if (changes && !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
+        fprintf(stderr, "%s\n", error.message);
 }
 
 bool renderer_unfinished(const Renderer *renderer)

@@ -164,10 +164,10 @@ ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, 
     return (ParticleRadii){radius, radius, radius};
 }
 
-/* A fifth of the longest side; in two dimensions the one layer's depth, for one sees through no more. */
+/* Two fifths of the longest side; in two dimensions the one layer's depth, for one sees through no more. */
 static float usual_attenuation(const double size[3], double slab)
 {
-    return (float)(slab > 0 ? slab : fmax(size[0], fmax(size[1], size[2])) / 5);
+    return (float)(slab > 0 ? slab : fmax(size[0], fmax(size[1], size[2])) * 0.4);
 }
 
 void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,

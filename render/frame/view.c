@@ -185,6 +185,19 @@ Scalar view_color_by(const ViewDef *def)
     return kind && kind->own_colors && kind->own_colors(def) ? SCALAR_FLUID : SCALAR_SPEED;
 }
 
+ViewDef view_at_quality(const ViewDef *def, bool moving)
+{
+    ViewDef drawn = *def;
+    const ViewKind *kind = view_find(def->kind);
+    const bool clear = kind && kind->own_colors && kind->own_colors(def); /* the dearest look */
+    ViewQuality quality = (ViewQuality)def->quality;
+    if (quality == VIEW_AUTO)
+        quality = moving && clear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
+    if (quality != VIEW_GOOD && kind && kind->quality)
+        kind->quality(&drawn, quality);
+    return drawn;
+}
+
 bool view_accepts(View *view, const Subject *subject, Error *error)
 {
     return !view->kind->accepts || view->kind->accepts(view->state, subject, error);

@@ -121,6 +121,9 @@ typedef struct ViewKind {
     int (*files)(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
     /* Whether view.color_by: auto is the fluids' own colours; NULL: it is the speed. */
     bool (*own_colors)(const ViewDef *def);
+    /* Changes what the view draws with for a draft or for the best, of keys at their defaults; NULL: nothing.
+     */
+    void (*quality)(ViewDef *def, ViewQuality quality);
     double radius;                /* of a particle, in spacings, where ViewDef.radius is 0 */
     unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: of the def's curves those that it draws */
     const KeyOwner *curves_where; /* in use where it does; NULL: always */

@@ -23,6 +23,16 @@ enum {
     VIEW_SET_SIZE = 512
 };
 
+/* How much time a picture may take. */
+typedef enum ViewQuality {
+    VIEW_AUTO,  /* draft for clear fluid in a window on a software driver, else good */
+    VIEW_DRAFT, /* in time while it moves */
+    VIEW_GOOD,  /* as all keys say */
+    VIEW_BEST
+} ViewQuality;
+
+extern const char *const view_quality_names[]; /* ended by NULL */
+
 /* Room for the own settings of a view or an overlay, a struct that only its owner knows: see view_own in
    render/frame/view.h, overlay_own in render/frame/overlay.h. */
 typedef struct ViewOwn {
@@ -56,7 +66,8 @@ typedef struct ViewDef {
     bool camera_auto;                /* the camera shows the whole box; else `camera` */
     CameraDef camera;
     double background[3]; /* linear RGB 0..1, at the horizon */
-    double resolution;    /* pixels drawn for a pixel shown, each way; more than 0, at most 1 */
+    int quality;       /* a ViewQuality: chooses for keys that are at their defaults, see view_at_quality */
+    double resolution; /* pixels drawn for a pixel shown, each way; more than 0, at most 1 */
 
     /* The same as of_view of each overlay of its list. */
     ViewOwn of_overlay[OVERLAY_KINDS_MAX];
@@ -80,6 +91,10 @@ static inline Scalar scalar_of_curve(const ScalarCurve *curve)
 /* What the colours show: of a def with `auto` what goes with its view and look (ViewKind.own_colors). All
    that draw, name or check colours ask here. */
 Scalar view_color_by(const ViewDef *def);
+
+/* The def as it is drawn: of a quality other than good the view changes its own keys and the resolution where
+   they are at their defaults. `moving`: in a window. */
+ViewDef view_at_quality(const ViewDef *def, bool moving);
 
 /* A bit a Scalar, the first the lowest: those whose range follows the state. The fluids' own colours have
  * none. */

@@ -313,6 +313,12 @@ static bool splat_own_colors(const ViewDef *def)
     return splat_def(def)->shading != SPLAT_PHONG;
 }
 
+static void splat_quality(ViewDef *def, ViewQuality quality)
+{
+    if (quality == VIEW_DRAFT && splat_def(def)->antialias == splat_usual.antialias)
+        splat_def(def)->antialias = false;
+}
+
 static const KeyOwner spheres = {.key = "view.splat.level", .value = "0"};
 
 const ViewKind view_splat = {
@@ -324,6 +330,7 @@ const ViewKind view_splat = {
     .radii = splat_radii,
     .shapes = splat_shapes,
     .own_colors = splat_own_colors,
+    .quality = splat_quality,
     .create = splat_create,
     .destroy = splat_destroy,
     .keys = splat_keys,

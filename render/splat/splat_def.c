@@ -51,7 +51,7 @@ const Key splat_keys[] = {
            "phong: opaque; water: clear, bends what is behind and mirrors the sky; jelly: both"),
     NUMBER("view.splat.ior", L, "", 1, 3, AT(ior), "index of refraction, of water and jelly"),
     NUMBER("view.splat.attenuation", L, "m", 0, 1e5, AT(attenuation),
-           "through which white light becomes the fluid's colour; 0: a fifth of the box's longest side, in 2D a spacing"),
+           "through which white light becomes the fluid's colour; 0: two fifths of the box's longest side, in 2D a spacing"),
     BOOLEAN("view.splat.cull", L | KEY_REBUILD, AT(cull), "leave out hidden spheres before they are drawn"),
     BOOLEAN("view.splat.drops", L | KEY_REBUILD, AT(drops), "a particle with few neighbours shrinks to a drop of its own volume"),
     CHOICE_OF("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, splat_filter_names, AT(filter),

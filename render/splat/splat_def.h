@@ -30,7 +30,7 @@ typedef struct IN_A_ROOM SplatDef {
     bool drops; /* a particle with few neighbours shrinks to a drop of its own volume */
     SplatShading shading;
     double ior;         /* index of refraction, of water and jelly */
-    double attenuation; /* through which white light becomes the fluid's colour, m; 0: a fifth of the
+    double attenuation; /* through which white light becomes the fluid's colour, m; 0: two fifths of the
                            box's longest side, in two dimensions the layer's depth */
     double level;       /* of the field that is the surface, 0 .. 1; 0: the union of the spheres */
     SplatFilter filter;

@@ -65,7 +65,7 @@ const Key volume_keys[] = {
            "of the field, where the surface of opaque and water is; a fluid that ends at a plane has 0.5 there"),
     NUMBER("view.volume.ior", L, "", 1, 3, AT(raycast.ior), "index of refraction, of water"),
     NUMBER("view.volume.attenuation", L, "m", 0, 1e5, AT(raycast.attenuation),
-           "of water: through which white light becomes the fluid's colour; 0: a fifth of the box's longest side"),
+           "of water: through which white light becomes the fluid's colour; 0: two fifths of the box's longest side"),
     NUMBER("view.volume.step", L | O, "cells", 0, 10, AT(raycast.step), "between two samples of a ray"),
     NUMBER("view.volume.threshold", L | O, "", 0, 1, AT(raycast.threshold), "opacity at which a ray ends; 1: never"),
     BOOLEAN("view.volume.shadows", L | KEY_REBUILD, AT(raycast.shadows), "of the fluid on itself by marching to the light, instead of the shadow map"),

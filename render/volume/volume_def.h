@@ -41,8 +41,8 @@ typedef struct IN_A_ROOM RaycastDef {
     double skin;         /* opacity of the layer in which that begins: of each surface crossed, 0 .. 1 */
     ControlPoints curve; /* on that ramp: the share of the full opacity, 0 .. 1 */
     double ior;          /* index of refraction, of water */
-    double attenuation;  /* of water: through which white light becomes the fluid's colour, m; 0: a
-                            fifth of the box's longest side, in two dimensions the layer's depth */
+    double attenuation;  /* of water: through which white light becomes the fluid's colour, m; 0: two
+                            fifths of the box's longest side, in two dimensions the layer's depth */
     bool shadows;        /* of the fluid on itself, by marching toward the light; else by the shadow map */
     bool jitter;         /* rays start at different parts of a step, so that no bands show */
     bool skip;           /* empty bricks: else all between the faces of the volume is marched through */

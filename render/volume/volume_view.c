@@ -213,6 +213,20 @@ static bool own_colors(const ViewDef *def)
     return volume_def(def)->raycast.look == RAYCAST_WATER;
 }
 
+/* Of surfaces: in a draft the shadow map stands for the march to the light, and a cell is two. */
+static void quality(ViewDef *def, ViewQuality wanted)
+{
+    VolumeDef *own = volume_def(def);
+    const VolumeDef *usual = &volume_usual;
+    const bool draft = wanted == VIEW_DRAFT, surface = own->raycast.look != RAYCAST_TRANSLUCENT;
+    if (own->cell == usual->cell && own->cells == usual->cells)
+        own->cells = draft ? usual->cells / 2 : 2 * usual->cells;
+    if (draft && surface && own->raycast.shadows == usual->raycast.shadows)
+        own->raycast.shadows = false;
+    if (draft && def->resolution == 1)
+        def->resolution = 0.5;
+}
+
 static const KeyOwner translucent = {.key = "view.volume.look", .value = "translucent"};
 
 const ViewKind view_volume = {
@@ -222,6 +236,7 @@ const ViewKind view_volume = {
     .curves = VIEW_OPACITY,
     .curves_where = &translucent,
     .own_colors = own_colors,
+    .quality = quality,
     .create = create,
     .destroy = destroy,
     .keys = volume_keys,

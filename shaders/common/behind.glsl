@@ -9,7 +9,7 @@ layout(binding = BEHIND_DEPTH_UNIT) uniform sampler2D behind_depth; // reversed
 
 vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
 {
-    return background * environment_brightness((eye_to_world * vec4(origin, 1.0)).xyz, mat3(eye_to_world) * ray);
+    return environment_light((eye_to_world * vec4(origin, 1.0)).xyz, mat3(eye_to_world) * ray);
 }
 
 // What the eye sees of the scene without the fluid in the direction of a place, in the eye's frame. Beside the picture it is sky

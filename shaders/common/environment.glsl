@@ -11,6 +11,14 @@ float sky_brightness(vec3 ray)
     return 1.04 - 0.42 * rise * rise;
 }
 
+// Tiles, a sixteenth of the floor's radius wide: what one sees through water shows how water bends it. Soft at their sides, so that no
+// derivatives are asked for, which a bent ray has not.
+float floor_tiles(vec2 from_center)
+{
+    vec2 wave = sin(16.0 * 3.14159265 * from_center);
+    return 1.0 - 0.09 * smoothstep(-0.04, 0.04, wave.x * wave.y);
+}
+
 // Brightness and how much of it is left of the fading, at the place where the ray meets the floor.
 vec2 floor_brightness(vec3 origin, vec3 ray)
 {
@@ -21,13 +29,14 @@ vec2 floor_brightness(vec3 origin, vec3 ray)
 #endif
     vec2 away = (xz - floor_center) / max(floor_radius, 1e-6);
     float left = max(1.0 - dot(away, away), 0.0);
-    return vec2(1.12 * (0.40 + 0.60 * lit), left * left);
+    return vec2(1.16 * (0.40 + 0.60 * lit) * floor_tiles(away), left * left);
 }
 
-// Of background.
-float environment_brightness(vec3 origin, vec3 ray)
+// Linear light. The sky is bluer the higher it is.
+vec3 environment_light(vec3 origin, vec3 ray)
 {
     vec2 ground = floor_brightness(origin, ray);
     bool above = ray.y < 0.0 && origin.y > floor_height;
-    return mix(sky_brightness(ray), ground.x, above && floor_radius > 0.0 ? ground.y : 0.0);
+    float floor_share = above && floor_radius > 0.0 ? ground.y : 0.0, sky = sky_brightness(ray), height = (1.04 - sky) / 0.42;
+    return background * mix(sky * mix(vec3(1.0), vec3(0.70, 0.90, 1.10), height), vec3(ground.x), floor_share);
 }

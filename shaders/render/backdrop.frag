@@ -16,6 +16,5 @@ float grain()
 void main()
 {
     vec3 ray = ray_corner + gl_FragCoord.x * ray_x + gl_FragCoord.y * ray_y;
-    float brightness = environment_brightness(eye_to_world[3].xyz, ray);
-    color = vec4(background * (brightness + grain() * (1.5 / 255.0)), 1.0);
+    color = vec4(environment_light(eye_to_world[3].xyz, ray) + background * (grain() * (1.5 / 255.0)), 1.0);
 }

@@ -37,5 +37,6 @@ void main()
     vec2 normal = vec2(-along.y, along.x) / max(length(along), 1e-6) * (end == 0 ? 1.0 : -1.0);
     across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 1.0);
     vec2 shift = normal * across * 2.0 * pixel_size;
-    gl_Position = vec4((here + shift) * -from.z, near_plane, -from.z);
+    // A little nearer than they are: fluid at a wall is as near as the wall's edges, and is drawn first.
+    gl_Position = vec4((here + shift) * -from.z, 1.003 * near_plane, -from.z);
 }

@@ -154,6 +154,7 @@ static void picture_stages(const char *view)
     ViewDef def = view_def_default();
     WorldDef world = {0};
     text_set(def.kind, view);
+    def.color_by = SCALAR_SPEED;            /* whose range is found */
     splat_def(&def)->shading = SPLAT_WATER; /* has all stages */
     splat_def(&def)->filter = SPLAT_NARROW_RANGE;
     world.solid_count = 1; /* what only some scenes have */

@@ -383,6 +383,13 @@ static double fresnel_at(double cosine, double ior)
     return 0.5 * (pow(sin(a - b) / sin(a + b), 2) + pow(tan(a - b) / tan(a + b), 2));
 }
 
+/* Where the sky is higher it is bluer: times that of a mirrored brightness. */
+static double sky_tint(double brightness, int component)
+{
+    static const double high[] = {0.70, 0.90, 1.10};
+    return 1 + (high[component] - 1) * (1.04 - brightness) / 0.42;
+}
+
 /* The sky's brightness in the direction that a ray is mirrored to, as in shaders/common/environment.glsl; -1
  * next to the sun. */
 static double mirrored_sky(const SplatScene *scene, const double ray[3], const double normal[3])
@@ -431,7 +438,8 @@ static void reflection_by_fresnel(void **state)
         greatest = fmax(greatest, share);
         compared++;
         for (int k = 0; k < 3; k++) {
-            const double wanted = share * sky * scene.def.background[k], seen = linear_of(rgba[4 * i + k]);
+            const double wanted = share * sky * sky_tint(sky, k) * scene.def.background[k],
+                         seen = linear_of(rgba[4 * i + k]);
             if (fabs(seen - wanted) > 0.003 + 0.01 * wanted)
                 fail_msg("cosine %g: component %d is %g, not %g", cosine, k, seen, wanted);
         }
