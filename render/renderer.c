@@ -633,12 +633,12 @@ void renderer_set_plain(Renderer *renderer, bool plain)
 
 void renderer_set_more(Renderer *renderer, bool more)
 {
-    const bool changes = renderer->more != more;
-    const ViewDef said = renderer->said;
+    const ViewDef said = renderer->said, drawn = view_at_quality(&said, more);
     const WorldDef world = renderer->world;
     Error error;
     renderer->more = more;
-    if (changes && !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
+    if (memcmp(&drawn, &renderer->def, sizeof drawn) != 0 &&
+        !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
         fprintf(stderr, "%s\n", error.message);
 }
 

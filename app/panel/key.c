@@ -99,7 +99,8 @@ static void draw_vector(Ui *ui, const PanelKey *row, const UiField *field, Panel
         emit(row, events, "[%.9g, %.9g, %.9g]", value[0], value[1], value[2]);
 }
 
-enum { CHOICES_MAX = 32 };
+enum { CHOICES_MAX = 64 };
+_Static_assert(SCALAR_COUNT + 1 <= CHOICES_MAX, "the longest list of names");
 
 static void draw_choice(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
 {

@@ -370,6 +370,19 @@ static void write_depth(const Raycast *raycast, const Frame *frame)
     glDisable(GL_DEPTH_TEST);
 }
 
+/* As uniforms: Mesa's zink over lavapipe (22.3) crashes where this vertex shader reads the block. */
+static void say_where_drops_are(GLuint program, const RaycastBlock *block, const VolumeGrid *grid)
+{
+    const double *corner = grid->corner, side = grid->cell;
+    const float *low = block->field_low, *high = block->field_high;
+    glProgramUniform3f(program, DROPS_CORNER_AT, (GLfloat)corner[0], (GLfloat)corner[1], (GLfloat)corner[2]);
+    glProgramUniform3f(program, DROPS_PER_SIDE_AT, (GLfloat)(1 / (grid->size[0] * side)),
+                       (GLfloat)(1 / (grid->size[1] * side)), (GLfloat)(1 / (grid->size[2] * side)));
+    glProgramUniform3f(program, DROPS_LOW_AT, low[0], low[1], low[2]);
+    glProgramUniform3f(program, DROPS_HIGH_AT, high[0], high[1], high[2]);
+    glProgramUniform1f(program, DROPS_LEVEL_AT, block->surface_level);
+}
+
 static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuffers *particles,
                       const Frame *frame)
 {
@@ -386,8 +399,10 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
         look_through(raycast, frame);
     march(raycast, frame, block.near_start > 0);
     write_depth(raycast, frame);
-    if (raycast->drops.program && particles->count > 0)
+    if (raycast->drops.program && particles->count > 0) {
+        say_where_drops_are(raycast->drops.program, &block, &volume->grid);
         volume_drops_draw(&raycast->drops, particles, frame);
+    }
 }
 
 /* Pixels whose depth is written: of translucent fluid those that it hides by half. */

@@ -4,11 +4,14 @@
 #include "common/particles.glsl"
 #include "common/particle_color.glsl"
 #include "common/sphere.glsl"
-#include "volume/volume.glsl"
-#include "volume/raycast.glsl"
 #include "shaders/volume/volume_bindings.h"
 layout(binding = FIELD_UNIT) uniform sampler3D field_map;
-layout(location = DROPS_FLAT_AT) uniform bool flat_scene; // volumes are areas
+layout(location = DROPS_FLAT_AT) uniform bool flat_scene;  // volumes are areas
+layout(location = DROPS_CORNER_AT) uniform vec3 corner_at; // of the volume, m, box's frame
+layout(location = DROPS_PER_SIDE_AT) uniform vec3 per_side; // 1/m
+layout(location = DROPS_LOW_AT) uniform vec3 field_low;    // as in RaycastBlock
+layout(location = DROPS_HIGH_AT) uniform vec3 field_high;
+layout(location = DROPS_LEVEL_AT) uniform float surface_level;
 
 layout(location = 0) noperspective out vec3 offset;
 layout(location = 1) flat out vec3 constants;
@@ -27,7 +30,7 @@ void main()
     uint index = uint(gl_VertexID) >> 2;
     vec3 at = particle_position(index);
     float volume = position_words[index * position_stride + 3u];
-    vec3 place = clamp(cells_of(at) / volume_cells, field_low, field_high);
+    vec3 place = clamp((at - corner_at) * per_side, field_low, field_high);
     // Of 0.5: one alone has 0.17, three in a row 0.33 at most, four that touch 0.40 and a surface between them, an edge of fluid 0.4.
     float alone = 1.0 - smoothstep(0.6 * surface_level, 0.85 * surface_level, textureLod(field_map, place, 0.0).x);
     float radius = own_radius(volume) * alone;

@@ -39,14 +39,19 @@
 #define UNPACKED_IMAGE     3
 
 /* Locations of uniforms */
-#define PASS_SLICE_AT  16
-#define DISCS_AT       17
-#define FLUID_COUNT_AT 18
-#define SLICE_AXIS_AT  19
-#define SLICE_PLACE_AT 20
-#define WALL_AXIS_AT   21
-#define WALL_PLACE_AT  22
-#define WALL_CELLS_AT  23
-#define DROPS_FLAT_AT  24
+#define PASS_SLICE_AT     16
+#define DISCS_AT          17
+#define FLUID_COUNT_AT    18
+#define SLICE_AXIS_AT     19
+#define SLICE_PLACE_AT    20
+#define WALL_AXIS_AT      21
+#define WALL_PLACE_AT     22
+#define WALL_CELLS_AT     23
+#define DROPS_FLAT_AT     24
+#define DROPS_CORNER_AT   25
+#define DROPS_PER_SIDE_AT 26
+#define DROPS_LOW_AT      27
+#define DROPS_HIGH_AT     28
+#define DROPS_LEVEL_AT    29
 
 #endif
