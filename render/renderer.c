@@ -633,12 +633,12 @@ void renderer_set_plain(Renderer *renderer, bool plain)
 
 void renderer_set_more(Renderer *renderer, bool more)
 {
-    const ViewDef said = renderer->said, drawn = view_at_quality(&said, more);
+    const ViewDef said = renderer->said;
     const WorldDef world = renderer->world;
+    const bool changes = more != renderer->more && view_quality(&said, true) != view_quality(&said, false);
     Error error;
     renderer->more = more;
-    if (memcmp(&drawn, &renderer->def, sizeof drawn) != 0 &&
-        !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
+    if (changes && !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
         fprintf(stderr, "%s\n", error.message);
 }
 

@@ -106,6 +106,7 @@ bool volume_header_load(const char *path, VolumeHeader *header, Error *error)
 {
     struct stat status;
     size_t size;
+    *header = (VolumeHeader){.file = ""};
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode))
         return error_set(error, "%s: no regular file; a header is read more than once", path);
     char *text = read_file(path, HEADER_BYTES_MAX, "volume's header", &size, error);

@@ -185,14 +185,20 @@ Scalar view_color_by(const ViewDef *def)
     return kind && kind->own_colors && kind->own_colors(def) ? SCALAR_FLUID : SCALAR_SPEED;
 }
 
+ViewQuality view_quality(const ViewDef *def, bool moving)
+{
+    const ViewKind *kind = view_find(def->kind);
+    const bool clear = kind && kind->own_colors && kind->own_colors(def); /* the dearest look */
+    if (def->quality != VIEW_AUTO)
+        return (ViewQuality)def->quality;
+    return moving && clear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
+}
+
 ViewDef view_at_quality(const ViewDef *def, bool moving)
 {
     ViewDef drawn = *def;
     const ViewKind *kind = view_find(def->kind);
-    const bool clear = kind && kind->own_colors && kind->own_colors(def); /* the dearest look */
-    ViewQuality quality = (ViewQuality)def->quality;
-    if (quality == VIEW_AUTO)
-        quality = moving && clear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
+    const ViewQuality quality = view_quality(def, moving);
     if (quality != VIEW_GOOD && kind && kind->quality)
         kind->quality(&drawn, quality);
     return drawn;

@@ -92,6 +92,9 @@ static inline Scalar scalar_of_curve(const ScalarCurve *curve)
    that draw, name or check colours ask here. */
 Scalar view_color_by(const ViewDef *def);
 
+/* What auto stands for; never VIEW_AUTO. `moving`: in a window. */
+ViewQuality view_quality(const ViewDef *def, bool moving);
+
 /* The def as it is drawn: of a quality other than good the view changes its own keys and the resolution where
    they are at their defaults. `moving`: in a window. */
 ViewDef view_at_quality(const ViewDef *def, bool moving);

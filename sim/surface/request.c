@@ -51,7 +51,7 @@ void result_note(SurfaceResult *result, const char *format, ...)
     size_t used = strlen(result->note);
     const size_t size = sizeof result->note;
     if (used > 0 && used + 3 < size) {
-        strcpy(result->note + used, "; ");
+        memcpy(result->note + used, "; ", 3);
         used += 2;
     }
     va_start(list, format);
