@@ -1,6 +1,7 @@
 // Particles around which the field does not reach the level, as balls of their own volume: four vertices each, the corners of its
 // bound on the screen. They shrink to nothing as the surface comes up around them.
 #include "common/frame.glsl"
+#include "common/nan.glsl"
 #include "common/particles.glsl"
 #include "common/particle_color.glsl"
 #include "common/sphere.glsl"
@@ -37,7 +38,7 @@ void main()
     gl_Position = vec4(2.0, 2.0, 0.5, 1.0);
     offset = constants = albedo = vec3(0.0);
     drop = vec4(0.0);
-    if (!(radius > 1e-6 * particle_radius && radius < 1e15))
+    if (is_nan(radius) || radius < 1e-6 * particle_radius || radius > 1e15)
         return;
     Sphere sphere = sphere_at((box_to_eye * vec4(at, 1.0)).xyz, radius);
     vec4 bounds = sphere_bounds(sphere);
