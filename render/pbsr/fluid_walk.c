@@ -19,6 +19,11 @@ bool fluid_walk_said(const PbsrLayer *said)
            (said->of == PBSR_SURFACE || said->of >= PBSR_SCALARS);
 }
 
+bool fluid_walk_by_grid(const PbsrLayer *said)
+{
+    return fluid_walk_said(said) && said->of == PBSR_SURFACE && said->interpolation != PBSR_BY_ITSELF;
+}
+
 static bool take_particles(FluidWalk *walk, const PbsrLayer *said, FluidLayers *layers,
                            const ParticleBuffers *particles)
 {
@@ -41,6 +46,13 @@ void fluid_walk_begin(FluidWalk *walk, const PbsrLayer *said, FluidLayers *layer
                            : NULL;
     if (walk->why || layers->fluid.count == 0)
         return;
+    if (fluid_walk_by_grid(said)) {
+        walk->grid = volume_of_grid(&layers->fluid.grid, layers->fluid.field);
+        walk->made =
+            level_volume(&walk->grid, pbsr_interpolation(said), &walk->still.field, &walk->still.trouble);
+        walk->why = walk->made ? NULL : walk->still.trouble.message;
+        return;
+    }
     if (take_particles(walk, said, layers, particles))
         walk->still.field = said->of == PBSR_SURFACE ? level_sph(walk->sph) : level_sph_inside(walk->sph);
     else

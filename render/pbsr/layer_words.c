@@ -149,8 +149,10 @@ static void add_idle(Words *words, int number, const PbsrLayer *said, double cur
     if (curved > 0 && (pbsr_still(said) || said->of == PBSR_SOLIDS || fluid_walk_said(said)))
         add(words, "%scurved has no effect on layer %d: it is no surface of the fluid by triangles",
             part_from(words), number);
-    if (said->interpolation != VOLUME_TRILINEAR && !pbsr_of_file(said))
-        add(words, "%sinterpolation of layer %d has no effect: it is of no file", part_from(words), number);
+    if (said->interpolation != PBSR_BY_ITSELF && !pbsr_of_file(said) && !fluid_walk_by_grid(said))
+        add(words,
+            "%sinterpolation of layer %d has no effect: it is of no file, and no walk on the fluid's surface",
+            part_from(words), number);
 }
 
 /* Points that stay with the GPU are not asked where they are in the fluid. */

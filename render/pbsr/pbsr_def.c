@@ -16,7 +16,8 @@ static const char *const sampler_names[] = {
 
 static const char *interpolation_name(int index)
 {
-    return volume_interpolation_name((VolumeInterpolation)index);
+    return index == PBSR_BY_ITSELF ? "auto"
+                                   : volume_interpolation_name((VolumeInterpolation)(index - PBSR_BY_GRID));
 }
 
 const char *pbsr_layer_name(int index)
@@ -49,7 +50,7 @@ const Key pbsr_keys[] = {
     CHOICE("view.pbsr.layers[].of", L | KEY_INDEX, pbsr_layer_name, LAYER(of),
            "surface: the fluid's; volume: the fluid itself; slice_x, slice_y, slice_z: a plane across that axis; sphere, torus, gyroid, wave: such a surface about the middle of the box; solids: those of the scene, which are opaque without such a layer; a scalar: where it has the level. With a file surface, volume and slices are of its data"),
     TEXT("view.pbsr.layers[].file", 0, PBSR_FILE_SIZE, LAYER(file), NULL, "volume data that the layer is of instead of the fluid: its header, a small .yaml beside the raw values, found from the scene's folder"),
-    CHOICE("view.pbsr.layers[].interpolation", L | KEY_INDEX, interpolation_name, LAYER(interpolation), "between the values of the file"),
+    CHOICE("view.pbsr.layers[].interpolation", L | KEY_INDEX, interpolation_name, LAYER(interpolation), "of a file: between its values; auto: trilinear. Of the fluid's surface with sampler walk: between the values of the grid; auto: the sum over the particles themselves"),
     CHOICE_OF("view.pbsr.layers[].sampler", L | KEY_INDEX, sampler_names, LAYER(sampler), "how points come onto a surface. walk: by a Brownian walk on it, on the fluid on the sum over its particles; triangles: by marching cubes; auto: walk, and triangles on the fluid"),
     VEC3("view.pbsr.layers[].position", L, "m", -1e6, 1e6, LAYER(position), "of what is no fluid: moved by that, in the box's frame; no points are made anew"),
     VEC3("view.pbsr.layers[].axis", L, "", -1000, 1000, LAYER(axis), "of what is no fluid: what it is turned about, through its middle"),
@@ -104,6 +105,13 @@ int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX])
 bool pbsr_of_file(const PbsrLayer *layer)
 {
     return *layer->file && strcmp(layer->file, "none") != 0;
+}
+
+VolumeInterpolation pbsr_interpolation(const PbsrLayer *layer)
+{
+    return layer->interpolation == PBSR_BY_ITSELF
+               ? VOLUME_TRILINEAR
+               : (VolumeInterpolation)(layer->interpolation - PBSR_BY_GRID);
 }
 
 bool pbsr_still(const PbsrLayer *layer)

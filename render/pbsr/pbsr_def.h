@@ -29,10 +29,14 @@ typedef enum PbsrMethod { PBSR_AUTO, PBSR_CPU, PBSR_GPU } PbsrMethod;
 /* How points come onto a surface. */
 typedef enum PbsrSampler { PBSR_SAMPLER_AUTO, PBSR_SAMPLER_WALK, PBSR_SAMPLER_TRIANGLES } PbsrSampler;
 
+/* Between which values a surface runs: those of a file, trilinear, and the sum over the fluid's particles; or
+   by PBSR_BY_GRID + a VolumeInterpolation those of a file, and those of the fluid's grid. */
+enum { PBSR_BY_ITSELF, PBSR_BY_GRID };
+
 typedef struct IN_A_ROOM PbsrLayer {
     int of;
     int sampler;               /* a PbsrSampler */
-    int interpolation;         /* of volume data: a VolumeInterpolation */
+    int interpolation;         /* PBSR_BY_ITSELF or behind it */
     const RangedVolume *data;  /* of the file, from who read the scene; NULL: it has none */
     char file[PBSR_FILE_SIZE]; /* of volume data; "none": the layer is of the fluid, or a formula */
     double position[3];        /* m: moved by that, in the box's frame */
@@ -73,6 +77,9 @@ int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
 
 /* Whether it is of a file. */
 bool pbsr_of_file(const PbsrLayer *layer);
+
+/* What is between its values, where they stand on a grid. */
+VolumeInterpolation pbsr_interpolation(const PbsrLayer *layer);
 
 /* Whether it is no part of the fluid: of a file, or a formula. */
 bool pbsr_still(const PbsrLayer *layer);

@@ -16,9 +16,9 @@ bool still_field(const PbsrLayer *said, const double box[3], LevelField *field, 
     if (pbsr_of_file(said)) {
         if (!said->data)
             return error_set(error, "%s could not be read", said->file);
-        return said->of > PBSR_SLICE_Z ? error_set(error, "of a file a layer is a surface, volume or slice")
-                                       : level_volume(&said->data->volume,
-                                                      (VolumeInterpolation)said->interpolation, field, error);
+        return said->of > PBSR_SLICE_Z
+                   ? error_set(error, "of a file a layer is a surface, volume or slice")
+                   : level_volume(&said->data->volume, pbsr_interpolation(said), field, error);
     }
     switch (said->of) {
     case PBSR_SPHERE:

@@ -700,7 +700,7 @@ static void still_layers_that_fall_short(void **state)
     assert_true(layers_lack(&drawn, words, sizeof words) == 0);
     idle->of = PBSR_SOLIDS;
     idle->opacity = 0;
-    idle->interpolation = VOLUME_CATMULL_ROM;
+    idle->interpolation = PBSR_BY_GRID + VOLUME_CATMULL_ROM;
     idle->sampler = PBSR_SAMPLER_WALK;
     shown.curved = 1;
     assert_true(layers_lack(&drawn, words, sizeof words) > 0);
@@ -708,7 +708,8 @@ static void still_layers_that_fall_short(void **state)
                         "position and angle of layer 1 have no effect: it stays where it is in the box; "
                         "sampler of layer 1 has no effect: its points fall on it at random; "
                         "curved has no effect on layer 1: it is no surface of the fluid by triangles; "
-                        "interpolation of layer 1 has no effect: it is of no file");
+                        "interpolation of layer 1 has no effect: it is of no file, and no walk on the "
+                        "fluid's surface");
     layer_words(&(PbsrLayer){.of = PBSR_SURFACE, .level = 120, .file = "a.b/head.yaml"}, words);
     assert_string_equal(words, "surface 120 of head");
     layer_words(&(PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .file = "head"}, words);

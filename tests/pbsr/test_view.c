@@ -283,7 +283,7 @@ static void data_look_as_their_formula(void **unused)
                                  .file = "ball",
                                  .data = &data,
                                  .sampler = sampler,
-                                 .interpolation = VOLUME_CATMULL_ROM,
+                                 .interpolation = PBSR_BY_GRID + VOLUME_CATMULL_ROM,
                                  .level = 0.1,
                                  .opacity = 0.5,
                                  .color = {0.8, 0.2, 0}},
@@ -579,6 +579,35 @@ static void walks_on_the_fluid_look_as_triangles(void **unused)
         if (fabs(hidden - 1) > 0.03)
             fail_msg("layer %d: %g of what triangles hide", i, hidden);
     }
+    scenery_free(&scenery);
+}
+
+/* On a coarse grid, whose surface the particles' own is not. */
+static void walks_by_the_grid_lie_on_it(void **unused)
+{
+    (void)unused;
+    static uint8_t walk[BYTES], again[BYTES], triangles[BYTES], own[BYTES], by[VOLUME_INTERPOLATIONS][BYTES];
+    Scenery scenery = wave();
+    for (int way = VOLUME_TRILINEAR; way < VOLUME_INTERPOLATIONS; way++) {
+        ViewDef def = pbsr_view(64);
+        pbsr_def(&def)->method = PBSR_CPU;
+        pbsr_def(&def)->cell = 2;
+        add_layer(&def, PBSR_SURFACE, 0.5, 0.9, 1);
+        picture_of(&def, NULL, &scenery, triangles);
+        pbsr_def(&def)->layers[0].sampler = PBSR_SAMPLER_WALK;
+        picture_of(&def, NULL, &scenery, own);
+        pbsr_def(&def)->layers[0].interpolation = PBSR_BY_GRID + way;
+        picture_of(&def, NULL, &scenery, walk);
+        pbsr_def(&def)->seed = 2;
+        picture_of(&def, NULL, &scenery, again);
+        if (difference(walk, triangles) > 0.75 * difference(own, triangles) ||
+            difference(walk, again) > 0.1 * difference(walk, own))
+            fail_msg("%s: %g from triangles, the particles' own %g; another seed %g",
+                     volume_interpolation_name((VolumeInterpolation)way), difference(walk, triangles),
+                     difference(own, triangles), difference(walk, again));
+        memcpy(by[way], walk, BYTES);
+    }
+    assert_true(difference(by[VOLUME_TRILINEAR], by[VOLUME_CATMULL_ROM]) > 1);
     scenery_free(&scenery);
 }
 
@@ -953,6 +982,7 @@ int main(void)
         cmocka_unit_test_teardown(lines_stand_among_layers, no_gl_errors),
         cmocka_unit_test_teardown(what_is_lacking_is_said, no_gl_errors),
         cmocka_unit_test_teardown(walks_on_the_fluid_look_as_triangles, no_gl_errors),
+        cmocka_unit_test_teardown(walks_by_the_grid_lie_on_it, no_gl_errors),
         cmocka_unit_test_teardown(equal_walks_are_two, no_gl_errors),
         cmocka_unit_test_teardown(walks_have_edges, no_gl_errors),
         cmocka_unit_test_teardown(walks_that_cannot_be_are_said, no_gl_errors),
