@@ -1,6 +1,7 @@
 #include "render/plane/plane_rows.h"
 
 #include "render/plane/plane_kernel.h"
+#include "sim/base/grow.h"
 #include "sim/base/parallel.h"
 
 #include <epoxy/gl.h>
@@ -31,18 +32,6 @@ struct PlaneDisc {
 INLINE float positive(float a)
 {
     return a > 0 ? a : 0;
-}
-
-static bool grow(void **array, size_t *capacity, size_t count, size_t width)
-{
-    if (count <= *capacity)
-        return true;
-    void *larger = realloc(*array, count * width);
-    if (!larger)
-        return false;
-    *array = larger;
-    *capacity = count;
-    return true;
 }
 
 /* ---- which particles reach the rectangle ---- */
@@ -114,7 +103,8 @@ static bool list_part(PlaneRows *rows, const PlaneJob *job, const Measure *measu
                       const float *value, size_t count)
 {
     if (rows->count + count > rows->discs_capacity &&
-        !grow((void **)&rows->discs, &rows->discs_capacity, 2 * (rows->count + count), sizeof *rows->discs))
+        !array_grow((void **)&rows->discs, &rows->discs_capacity, 2 * (rows->count + count),
+                    sizeof *rows->discs))
         return false;
     for (size_t i = 0; i < count; i++)
         rows->count +=
@@ -369,11 +359,11 @@ static bool reserve(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers 
     const size_t words = (particles->position.stride + particles->scalar[job->scalar].stride) / sizeof(float);
     const size_t samples = (size_t)job->samples[0] * (size_t)job->samples[1];
     rows->stride = (size_t)job->samples[0] + LANES;
-    bool room = grow((void **)&rows->read, &rows->read_capacity, READ * words, sizeof(float)) &&
-                grow((void **)&rows->out, &rows->out_capacity, 4 * samples, sizeof(float));
+    bool room = array_grow((void **)&rows->read, &rows->read_capacity, READ * words, sizeof(float)) &&
+                array_grow((void **)&rows->out, &rows->out_capacity, 4 * samples, sizeof(float));
     for (int k = 0; k < 3; k++)
-        room = room && grow((void **)&rows->sums[k], &rows->sums_capacity[k],
-                            rows->stride * (size_t)job->samples[1], sizeof(float));
+        room = room && array_grow((void **)&rows->sums[k], &rows->sums_capacity[k],
+                                  rows->stride * (size_t)job->samples[1], sizeof(float));
     return room;
 }
 

@@ -1,19 +1,9 @@
 #include "sim/base/bins.h"
 
+#include "sim/base/grow.h"
+
 #include <stdlib.h>
 #include <string.h>
-
-static bool grow(void **array, size_t *capacity, size_t count, size_t width)
-{
-    if (count <= *capacity)
-        return true;
-    void *larger = realloc(*array, count * width);
-    if (!larger)
-        return false;
-    *array = larger;
-    *capacity = count;
-    return true;
-}
 
 void bins_free(Bins *bins)
 {
@@ -26,7 +16,7 @@ void bins_free(Bins *bins)
 bool bins_fill(Bins *bins, size_t count, size_t items, BinsReached reached, const void *context)
 {
     size_t total = 0;
-    if (!grow((void **)&bins->begin, &bins->begin_capacity, count + 1, sizeof *bins->begin))
+    if (!array_grow((void **)&bins->begin, &bins->begin_capacity, count + 1, sizeof *bins->begin))
         return false;
     memset(bins->begin, 0, (count + 1) * sizeof *bins->begin);
     for (size_t i = 0; i < items; i++) {
@@ -39,7 +29,7 @@ bool bins_fill(Bins *bins, size_t count, size_t items, BinsReached reached, cons
         bins->begin[b] = total;
         total += here;
     }
-    if (!grow((void **)&bins->member, &bins->member_capacity, total, sizeof *bins->member))
+    if (!array_grow((void **)&bins->member, &bins->member_capacity, total, sizeof *bins->member))
         return false;
     for (size_t i = 0; i < items; i++) {
         const BinSpan span = reached(context, i);
