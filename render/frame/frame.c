@@ -309,6 +309,9 @@ static void fill_particles(FrameBlock *block, const Frame *frame, const double b
     block->range_low = (float)frame->range[0];
     block->range_scale = (float)(1 / (frame->range[1] - frame->range[0]));
     block->by_fluid = frame->by_fluid;
+    for (unsigned k = 0; k < 3; k++) /* in two dimensions front and back are none */
+        if (!frame->world->periodic[k] && !(k == 2 && frame->slab > 0))
+            block->walled |= 1U << k;
 }
 
 void frame_uniforms_update(unsigned buffer, const Frame *frame, const double box_size[3], double spacing)

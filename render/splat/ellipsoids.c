@@ -15,7 +15,7 @@ const char *ellipsoids_defines(const SplatDef *def)
 {
     if (ellipsoids_stretched(def))
         return LEAST "#define ELLIPSOID 1\n";
-    const bool paper = def->shape == SPLAT_PAPER;
+    const bool paper = splat_shape(def) == SPLAT_PAPER;
     if (ellipsoids_wanted(def))
         return paper ? "#define PAPER 1\n#define DROPS 1\n" : "#define DROPS 1\n";
     return paper ? "#define PAPER 1\n" : "";

@@ -3,6 +3,7 @@
 #include "render/frame/colormap.h"
 #include "render/particles/casting.h"
 #include "render/splat/narrow_range.h"
+#include "render/splat/panes.h"
 #include "render/splat/silhouette.h"
 #include "render/splat/splat_level.h"
 #include "render/splat/splat_shade.h"
@@ -27,8 +28,9 @@ typedef struct SplatView {
     Ellipsoids ellipsoids;
     SplatMaps maps;
     Thickness thickness; /* where the shading wants it */
+    Panes panes;         /* where splat_clear */
     NarrowRange filter;  /* where the def has it */
-    SplatMaps shown;     /* what is shaded: maps, or what the filter made of them */
+    SplatMaps shown;     /* what is shaded: maps, or what panes and the filter made of them */
     SplatShade shade;
     SplatLevel level;      /* where splat_level_wanted */
     Silhouette silhouette; /* where it smooths outlines */
@@ -66,6 +68,7 @@ static void splat_destroy(void *state)
     color_table_destroy(&splat->colors);
     splat_level_destroy(&splat->level);
     splat_maps_delete(&splat->maps);
+    panes_destroy(&splat->panes);
     narrow_range_destroy(&splat->filter);
     silhouette_destroy(&splat->silhouette);
     splat_sprites_destroy(&splat->sprites);
@@ -113,6 +116,7 @@ static bool create_passes(SplatView *splat, const Subject *subject, Error *error
 {
     const SplatDef *own = &splat->def;
     return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
+           (!splat_clear(own) || panes_create(&splat->panes, error)) &&
            (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)) &&
            (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, subject, error)) &&
            create_shading(splat, subject, error);
@@ -255,10 +259,15 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
             thickness_draw(&splat->thickness, &splat->sprites, particles, frame);
         }
     splat->shown = splat->maps;
+    if (splat_clear(&splat->def))
+        GL_STAGE(frame->timer, STAGE_FILTER)
+        {
+            splat->shown = panes_draw(&splat->panes, &splat->maps, &splat->sprites.tiles, frame);
+        }
     if (splat->def.filter == SPLAT_NARROW_RANGE)
         GL_STAGE(frame->timer, STAGE_FILTER)
         {
-            splat->shown = narrow_range_draw(&splat->filter, &splat->maps, frame);
+            splat->shown = narrow_range_draw(&splat->filter, &splat->shown, frame);
         }
     GL_STAGE(frame->timer, STAGE_SHADE)
     splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, &splat->sprites.tiles, frame);
@@ -299,7 +308,7 @@ static void splat_radii(const ViewDef *def, const ParticleBuffers *particles, Pa
 static const ViewShapes *splat_shapes(const ViewDef *def)
 {
     static const ViewShapes ellipsoids = {"of ellipsoids", 3 * 4 * sizeof(float)};
-    return splat_def(def)->shape == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
+    return splat_shape(splat_def(def)) == SPLAT_ELLIPSOID ? &ellipsoids : NULL;
 }
 
 static ViewProbing splat_probing(const void *state, const ViewDef *def)

@@ -4,8 +4,11 @@
 
 const char *const splat_weights_names[] = {
     [SPLAT_NO_WEIGHTS] = "none", [SPLAT_W1] = "w1", [SPLAT_W1W2] = "w1w2", NULL};
-const char *const splat_shape_names[] = {
-    [SPLAT_PERSPECTIVE] = "perspective", [SPLAT_PAPER] = "paper", [SPLAT_ELLIPSOID] = "ellipsoid", NULL};
+const char *const splat_shape_names[] = {[SPLAT_PERSPECTIVE] = "perspective",
+                                         [SPLAT_PAPER] = "paper",
+                                         [SPLAT_ELLIPSOID] = "ellipsoid",
+                                         [SPLAT_SHAPE_AUTO] = "auto",
+                                         NULL};
 const char *const splat_sprite_names[] = {
     [SPLAT_AUTO] = "auto", [SPLAT_QUAD] = "quad", [SPLAT_POINT] = "point", NULL};
 const char *const splat_show_names[] = {[SPLAT_SHADED] = "shaded",
@@ -19,13 +22,15 @@ const char *const splat_shading_names[] = {
     [SPLAT_PHONG] = "phong", [SPLAT_WATER] = "water", [SPLAT_JELLY] = "jelly", NULL};
 
 const char *const splat_filter_names[] = {
-    [SPLAT_NO_FILTER] = "none", [SPLAT_NARROW_RANGE] = "narrow_range", NULL};
+    [SPLAT_NO_FILTER] = "none", [SPLAT_NARROW_RANGE] = "narrow_range", [SPLAT_FILTER_AUTO] = "auto", NULL};
 
 const SplatDef splat_usual = {.eps = 1.5,
                               .weights = SPLAT_W1W2,
+                              .shape = SPLAT_SHAPE_AUTO,
                               .cull = true,
                               .drops = true,
                               .ior = 1.333,
+                              .filter = SPLAT_FILTER_AUTO,
                               .filter_size = 4,
                               .filter_range = 3,
                               .filter_iterations = 2,
@@ -43,7 +48,8 @@ const Key splat_keys[] = {
     CHOICE_OF("view.splat.weights", L | KEY_INDEX | KEY_REBUILD, splat_weights_names, AT(weights),
            "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
     CHOICE_OF("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, splat_shape_names, AT(shape),
-           "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie"),
+           "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie; "
+           "auto: ellipsoid for water and jelly, else perspective"),
     CHOICE_OF("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, splat_sprite_names, AT(sprite),
            "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
     CHOICE_OF("view.splat.show", L | KEY_INDEX | KEY_REBUILD, splat_show_names, AT(show), "a stage of the way to the picture"),
@@ -55,7 +61,8 @@ const Key splat_keys[] = {
     BOOLEAN("view.splat.cull", L | KEY_REBUILD, AT(cull), "leave out hidden spheres before they are drawn"),
     BOOLEAN("view.splat.drops", L | KEY_REBUILD, AT(drops), "a particle with few neighbours shrinks to a drop of its own volume"),
     CHOICE_OF("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, splat_filter_names, AT(filter),
-           "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018"),
+           "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018; "
+           "auto: for water and jelly"),
     NUMBER("view.splat.filter_size", L | O, "radii", 0, 100, AT(filter_size), "half the width of the filter"),
     NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, AT(filter_range),
            "the filter takes what lies farther in front or behind for another surface"),
@@ -79,9 +86,28 @@ SplatDef *splat_def(const ViewDef *def)
     return view_own(def, &view_splat);
 }
 
+static bool smooth(const SplatDef *def)
+{
+    return def->shading != SPLAT_PHONG && !(def->level > 0);
+}
+
+SplatShape splat_shape(const SplatDef *def)
+{
+    return def->shape != SPLAT_SHAPE_AUTO ? def->shape : smooth(def) ? SPLAT_ELLIPSOID : SPLAT_PERSPECTIVE;
+}
+
+SplatFilter splat_filter(const SplatDef *def)
+{
+    return def->filter != SPLAT_FILTER_AUTO ? def->filter
+           : smooth(def)                    ? SPLAT_NARROW_RANGE
+                                            : SPLAT_NO_FILTER;
+}
+
 SplatDef splat_def_made(const ViewDef *def)
 {
     SplatDef made = *splat_def(def);
+    made.shape = splat_shape(&made);
+    made.filter = splat_filter(&made);
     made.sized = def->size.by != 0 && !(made.level > 0);
     return made;
 }
@@ -98,7 +124,7 @@ bool splat_level_wanted(const SplatDef *def)
 
 bool ellipsoids_stretched(const SplatDef *def)
 {
-    return def->shape == SPLAT_ELLIPSOID && !(def->level > 0);
+    return splat_shape(def) == SPLAT_ELLIPSOID && !(def->level > 0);
 }
 
 bool ellipsoids_crowded(const SplatDef *def)
@@ -113,7 +139,12 @@ bool ellipsoids_wanted(const SplatDef *def)
 
 bool splat_shade_wants_thickness(const SplatDef *def)
 {
-    return def->show == SPLAT_THICKNESS || (def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG);
+    return def->show == SPLAT_THICKNESS || splat_clear(def);
+}
+
+bool splat_clear(const SplatDef *def)
+{
+    return def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG;
 }
 
 bool silhouette_wanted(const SplatDef *def)

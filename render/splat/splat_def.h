@@ -6,7 +6,7 @@
 #include "sim/base/room.h"
 
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
-typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID } SplatShape;
+typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID, SPLAT_SHAPE_AUTO } SplatShape;
 typedef enum SplatSprite { SPLAT_AUTO, SPLAT_QUAD, SPLAT_POINT } SplatSprite;
 typedef enum SplatShading { SPLAT_PHONG, SPLAT_WATER, SPLAT_JELLY } SplatShading;
 typedef enum SplatShow {
@@ -18,7 +18,7 @@ typedef enum SplatShow {
     SPLAT_CULLED
 } SplatShow;
 
-typedef enum SplatFilter { SPLAT_NO_FILTER, SPLAT_NARROW_RANGE } SplatFilter;
+typedef enum SplatFilter { SPLAT_NO_FILTER, SPLAT_NARROW_RANGE, SPLAT_FILTER_AUTO } SplatFilter;
 
 typedef struct IN_A_ROOM SplatDef {
     double eps; /* how far below the surface spheres still blend, in radii */
@@ -58,8 +58,12 @@ extern const char *const splat_show_names[];
 extern const char *const splat_shading_names[];
 extern const char *const splat_filter_names[];
 
-/* What a view is made for: the def's own settings, and whether they are sized. At a level above zero spheres
-   have one size. */
+/* What `auto` stands for: spheres, but for clear fluid a smooth surface, unless a level is one already. */
+SplatShape splat_shape(const SplatDef *def);
+SplatFilter splat_filter(const SplatDef *def);
+
+/* What a view is made for: the def's own settings, with what `auto` stands for, and whether they are sized.
+   At a level above zero spheres have one size. */
 SplatDef splat_def_made(const ViewDef *def);
 
 /* Whether spheres are culled: also where the picture shows what culling left out. */
@@ -74,6 +78,9 @@ bool ellipsoids_stretched(const SplatDef *def); /* not drops or sizes alone */
 bool ellipsoids_crowded(const SplatDef *def);   /* by their neighbours: not sizes alone */
 
 bool splat_shade_wants_thickness(const SplatDef *def);
+
+/* Whether one sees through the fluid: water and jelly. */
+bool splat_clear(const SplatDef *def);
 
 /* Whether outlines are smoothed: pictures of what comes before shading are left as they are. */
 bool silhouette_wanted(const SplatDef *def);

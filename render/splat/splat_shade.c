@@ -16,10 +16,11 @@ static unsigned create_program(const SplatShade *shade, const Subject *subject, 
     const SplatDef *def = splat_def(subject->def);
     const bool solids = subject->world->solid_count > 0;
     static const char *const stages[] = {FLUID_TILES_VERTEX, "splat/splat_shade.frag", NULL};
-    char defines[160];
+    char defines[192];
     snprintf(defines, sizeof defines, "%s%s%s#define SHOW %d\n#define SHADING %d\n",
              solids ? "#define SOLIDS 1\n" : "#define SETTLED 1\n",
-             shade->clear ? "#define FLOOR_SHADOW 1\n" : "", more, (int)def->show, (int)def->shading);
+             shade->clear ? "#define FLOOR_SHADOW 1\n#define PANES 1\n" : "", more, (int)def->show,
+             (int)def->shading);
     return program_create("splat shade", stages, defines, error);
 }
 
@@ -33,7 +34,7 @@ bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
 {
     const SplatDef *def = splat_def(subject->def);
     const bool discs = silhouette_by_discs(def);
-    *shade = (SplatShade){.clear = def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG};
+    *shade = (SplatShade){.clear = splat_clear(def)};
     shade->program = create_program(shade, subject, "", error);
     if (shade->program && subject->world->solid_count == 0 && !(shade->settle = create_settle(error)))
         return false;

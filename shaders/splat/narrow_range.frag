@@ -10,11 +10,12 @@ layout(location = FILTER_RADIUS_AT) uniform float filter_radius; // m
 layout(location = FILTER_AXIS_AT) uniform ivec2 along;           // the axis
 layout(location = 0) out float filtered;
 
-// Of a neighbour t = middle / z - 1, by how much it is nearer: linear on the screen where the surface is a plane.
+// Of a neighbour t = middle / z - 1, by how much it is nearer: linear on the screen where the surface is a plane. A pane of the box
+// (z below 0) is another surface before this one.
 float nearness(float middle, ivec2 pixel)
 {
     float z = texelFetch(depth_map, pixel, 0).x;
-    return z < 1e29 ? (middle - z) / z : -1e9;
+    return z < 0.0 ? 1e9 : z < 1e29 ? (middle - z) / z : -1e9;
 }
 
 // What counts of t; what lies between `limits` does, and widens them. False: nothing, it is another surface before this one.
@@ -74,7 +75,7 @@ void main()
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float middle = texelFetch(depth_map, pixel, 0).x;
     vec2 sums = vec2(0.0, 1.0);
-    if (middle < 1e29)
+    if (middle > 0.0 && middle < 1e29)
         sums = sum_up(middle, pixel, min(pixel, ivec2(picture_size) - 1 - pixel));
     filtered = middle / (1.0 + sums.x / sums.y);
 }

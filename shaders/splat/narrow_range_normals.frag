@@ -8,12 +8,14 @@ layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
 layout(location = EDGE_STEP_AT) uniform float edge; // m: from there on a step that is not the surface's slope
 layout(location = 0) out vec4 normal;
 
-// Of 1 / z per pixel along an axis, and the step: next to the picture's border and beyond it as on the other side.
+// Of 1 / z per pixel along an axis, and the step: next to the picture's border or a pane and beyond it as on the other side.
 vec4 steps_along(ivec2 pixel, float z, ivec2 along)
 {
     bvec2 inside = bvec2(all(greaterThanEqual(pixel, along)), all(lessThan(pixel + along, ivec2(picture_size))));
     vec2 sides = vec2(inside.x ? texelFetch(depth_map, pixel - along, 0).x : z,
                       inside.y ? texelFetch(depth_map, pixel + along, 0).x : z);
+    inside = bvec2(inside.x && sides.x > 0.0, inside.y && sides.y > 0.0);
+    sides = mix(vec2(z), sides, inside);
     vec4 steps = vec4(vec2(sides.x - z, z - sides.y) / (z * sides), abs(sides - z));
     return inside.x && inside.y ? steps : inside.x ? steps.xxzz : steps.yyww;
 }
@@ -34,6 +36,8 @@ void main()
     vec2 slopes;
     if (z >= 1e29) {
         normal = vec4(0.0);
+    } else if (z < 0.0) { // a pane of the box: shading knows it
+        normal = vec4(0.0, 0.0, 1.0, 0.0);
     } else if (slope_along(pixel, z, ivec2(1, 0), slopes.x) && slope_along(pixel, z, ivec2(0, 1), slopes.y)) {
         slopes *= 0.5 * picture_size / view_tangent;
         vec2 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)).xy;

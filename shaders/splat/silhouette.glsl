@@ -14,7 +14,7 @@ struct Seen {
 Seen seen_at(ivec2 pixel)
 {
     pixel = clamp(pixel, ivec2(0), ivec2(picture_size) - 1);
-    float z = texelFetch(nearest_map, pixel, 0).x;
+    float z = abs(texelFetch(nearest_map, pixel, 0).x); // below 0 at a wall
 #ifdef SOLIDS
     float nearness = texelFetch(target_depth, pixel, 0).x;
     if (nearness > near_plane / z * 1.00001)

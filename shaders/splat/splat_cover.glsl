@@ -14,7 +14,7 @@ float cover_at(ivec2 pixel, float depth, inout vec3 albedo, inout vec3 normal)
     for (int i = 0; i < 4; i++) {
         ivec2 offset = i < 2 ? ivec2(4 * i - 2, 0) : ivec2(0, 4 * i - 10);
         ivec2 beside = clamp(pixel + offset, ivec2(0), ivec2(picture_size) - 1);
-        float z = texelFetch(nearest_map, beside, 0).x, weight = texelFetch(weight_map, beside, 0).x;
+        float z = abs(texelFetch(nearest_map, beside, 0).x), weight = texelFetch(weight_map, beside, 0).x;
         around += int(z < 1e29);
         if (z < 1e29 && z > depth + cover_step && weight > 0.0) {
             albedo = mix(texelFetch(color_map, beside, 0).rgb / weight, albedo, cover);

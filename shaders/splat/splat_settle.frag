@@ -15,5 +15,5 @@ void main()
     float length2 = dot(normal, normal);
     if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0)
         discard;
-    gl_FragDepth = near_plane / depth;
+    gl_FragDepth = near_plane / abs(depth); // below 0 at a wall
 }

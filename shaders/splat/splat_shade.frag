@@ -10,6 +10,9 @@
 #include "common/behind.glsl"
 #include "common/surface.glsl"
 #include "common/clear.glsl"
+#ifdef PANES
+#include "splat/panes.glsl"
+#endif
 
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;
@@ -62,6 +65,9 @@ Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
 #if SHADING > 0
     s.normal = facing(normal, s.view);
     s.thickness = thickness_here();
+#ifdef PANES // the field is blurred beyond the walls, and the fluid ends there
+    s.thickness = min(s.thickness, max(within_box(ray).leave - depth, 0.0) * length(ray));
+#endif
 #endif
     return s;
 }
@@ -75,9 +81,13 @@ void main()
 #ifndef SETTLED
     if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // nothing, or just the rim of a lone sphere
         discard;
-    gl_FragDepth = near_plane / depth;
+    gl_FragDepth = near_plane / abs(depth);
 #endif
     normal *= inversesqrt(length2);
+#ifdef PANES
+    normal = depth < 0.0 ? within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).normal : normal;
+    depth = abs(depth);
+#endif
 #if SHOW == 1
     color = vec4(vec3(1.0 - 0.9 * clamp((depth - nearest_depth) / (farthest_depth - nearest_depth), 0.0, 1.0)), 1.0);
 #elif SHOW == 2

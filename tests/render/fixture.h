@@ -172,6 +172,7 @@ static inline ViewDef bare_view(void)
     ViewDef def = view_def_default();
     def.legend = def.box = def.floor = false;
     splat_def(&def)->drops = false;
+    splat_def(&def)->shape = SPLAT_PERSPECTIVE, splat_def(&def)->filter = SPLAT_NO_FILTER;
     return def;
 }
 

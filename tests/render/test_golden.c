@@ -275,7 +275,8 @@ static void clear_splat(const char *name, SplatShading shading)
     Golden golden = golden_create(name, 320, 240);
     text_set(golden.def.kind, "splat");
     golden.def.color_by = SCALAR_FLUID;
-    splat_def(&golden.def)->shading = shading;
+    splat_def(&golden.def)->shading = shading, splat_def(&golden.def)->drops = true;
+    splat_def(&golden.def)->shape = SPLAT_SHAPE_AUTO, splat_def(&golden.def)->filter = SPLAT_FILTER_AUTO;
     golden.world.solid_count = 2;
     memcpy(golden.world.solids, solids, sizeof solids);
     check(&golden);

@@ -1,0 +1,178 @@
+/* A tank of clear fluid at rest in the view splat: its sides are the walls of the box, its top the level, and
+   light is absorbed along the way between. */
+#include "tests/splat/splat_fixture.h"
+
+enum { SIDE = 160 };
+static const double SPACING = 0.05, LEVEL = 0.5, WALL[3] = {0.5, 0, 0.25}; /* m */
+static const float COLOUR[3] = {0.2F, 0.5F, 0.9F};
+
+/* A lattice that is half a spacing from each wall, seen from the front, the right and above. */
+static SplatScene tank(void)
+{
+    SplatScene scene = splat_scene((double[]){0.7, 1.1, 1.6}, (double[]){0, 0.3, 0}, 35, SPACING);
+    scene.width = scene.height = SIDE;
+    memcpy(scene.state.box_size, (double[]){2 * WALL[0], 1, 2 * WALL[2]}, sizeof scene.state.box_size);
+    memcpy(scene.world.fluids[0].color, COLOUR, sizeof COLOUR);
+    splat_def(&scene.def)->shading = SPLAT_WATER, splat_def(&scene.def)->attenuation = 0.4;
+    splat_def(&scene.def)->shape = SPLAT_SHAPE_AUTO, splat_def(&scene.def)->filter = SPLAT_FILTER_AUTO;
+    splat_def(&scene.def)->drops = true;
+    for (int i = 0; i < 20 * 10 * 10; i++)
+        particles_add(scene.particles, SPACING * (i % 20 - 9.5), SPACING * (i / 20 % 10 + 0.5),
+                      SPACING * (i / 200 - 4.5), 1, 0);
+    return scene;
+}
+
+/* A pixel's ray from the eye, and where it is between the walls, for a depth of 1 m: the floor is one, no lid
+   is. */
+typedef struct Through {
+    double from[3], way[3], enter, leave;
+} Through;
+
+static Through sight_of(const SplatScene *scene, int x, int y)
+{
+    Through sight = {.enter = -1e30, .leave = 1e30};
+    const Camera *camera = &scene->frame.camera;
+    const double ray[3] = {(2 * (x + 0.5) / SIDE - 1) * camera->tangent[0],
+                           (2 * (y + 0.5) / SIDE - 1) * camera->tangent[1], -1};
+    for (int k = 0; k < 3; k++) {
+        const float *column = &camera->view[4 * k];
+        sight.from[k] = scene->def.camera.from[k];
+        sight.way[k] = column[0] * ray[0] + column[1] * ray[1] + column[2] * ray[2];
+        const double low = k == 1 ? 0 : -WALL[k], high = k == 1 ? 1e9 : WALL[k];
+        const double a = (low - sight.from[k]) / sight.way[k], b = (high - sight.from[k]) / sight.way[k];
+        sight.enter = fmax(sight.enter, fmin(a, b)), sight.leave = fmin(sight.leave, fmax(a, b));
+    }
+    return sight;
+}
+
+static double height_at(const Through *sight, double depth)
+{
+    return sight->from[1] + depth * sight->way[1];
+}
+
+/* In the box, m. Ellipsoids round its edges by a fraction of a spacing: the shortest ways miss them. */
+static double way_of(const Through *sight)
+{
+    return sqrt(dot3(sight->way, sight->way)) * (sight->leave - sight->enter);
+}
+
+typedef struct Tally {
+    int panes, top, none;
+    double squares; /* of the top's height beside the level, in spacings */
+} Tally;
+
+/* The least way to a side. */
+static double from_walls(const Through *sight, double depth)
+{
+    return fmin(WALL[0] - fabs(sight->from[0] + depth * sight->way[0]),
+                WALL[2] - fabs(sight->from[2] + depth * sight->way[2]));
+}
+
+/* Walls within reach of the field. */
+static int walls_at(const Through *sight, double depth)
+{
+    int walls = height_at(sight, depth) < 2.1 * SPACING;
+    for (int k = 0; k < 3; k += 2)
+        walls += WALL[k] - fabs(sight->from[k] + depth * sight->way[k]) < 2.1 * SPACING;
+    return walls;
+}
+
+static void check_depth(const Through *sight, double depth, int x, int y, Tally *tally)
+{
+    const double to_level = (LEVEL - sight->from[1]) / sight->way[1];
+    const double enters = height_at(sight, sight->enter) - LEVEL,
+                 leaves = height_at(sight, sight->leave) - LEVEL;
+    if (sight->enter >= sight->leave || leaves > 0.1 * SPACING) {
+        tally->none++;
+        if (depth < 1e29)
+            fail_msg("pixel %d %d: %g m, where no fluid is", x, y, depth);
+    } else if (enters < -0.6 * SPACING && way_of(sight) > 1.5 * SPACING) {
+        tally->panes++;
+        if (fabs(-depth - sight->enter) > 1e-5)
+            fail_msg("pixel %d %d: pane at %g m, not %g", x, y, -depth, sight->enter);
+    } else if (enters > SPACING && leaves < -2 * SPACING && from_walls(sight, to_level) > 2.5 * SPACING) {
+        tally->top++;
+        const double above = (height_at(sight, depth) - LEVEL) / SPACING;
+        tally->squares += above * above;
+        if (fabs(above) > 0.25)
+            fail_msg("pixel %d %d: %g spacings above the level", x, y, above);
+    }
+}
+
+static void the_surface_is_the_walls_and_the_level(void **state)
+{
+    (void)state;
+    Tally tally = {0};
+    SplatScene scene = tank();
+    SplatPixel *pixels = splat_drawn(&scene);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const Through sight = sight_of(&scene, i % SIDE, i / SIDE);
+        check_depth(&sight, pixels[i].shown_depth, i % SIDE, i / SIDE, &tally);
+    }
+    if (sqrt(tally.squares / tally.top) > 0.1)
+        fail_msg("the top is %g spacings (rms) beside the level", sqrt(tally.squares / tally.top));
+    if (tally.panes < 2000 || tally.top < 400 || tally.none < 5000)
+        fail_msg("compared: %d of panes, %d of the top, %d beside", tally.panes, tally.top, tally.none);
+    free(pixels);
+    free(scene.particles);
+}
+
+static double linear_of(uint8_t code)
+{
+    const double value = code / 255.0;
+    return value <= 0.04045 ? value / 12.92 : pow((value + 0.055) / 1.055, 2.4);
+}
+
+static uint8_t grey[4 * SIDE * SIDE];
+
+static void lay_grey(const Target *target)
+{
+    memset(grey, 230, sizeof grey);
+    glTextureSubImage2D(target->color, 0, 0, 0, SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, grey);
+}
+
+/* How much fluid a pixel's colour stands for, m, by its red. */
+static double thickness_seen(const uint8_t *rgba)
+{
+    return 0.4 * log(linear_of(rgba[0]) / linear_of(230)) / log((double)COLOUR[0]);
+}
+
+/* From the pane to the wall behind, within 2 %; but beside a third wall, where the field is less. Nowhere
+   more than that. */
+static void absorption_ends_at_the_walls(void **state)
+{
+    (void)state;
+    int compared = 0;
+    SplatScene scene = tank();
+    SplatDrawing drawing = splat_open(&scene, lay_grey, true);
+    uint8_t *rgba = calloc(4, SIDE * SIDE);
+    assert_non_null(rgba);
+    glGetTextureImage(drawing.target.color, 0, GL_RGBA, GL_UNSIGNED_BYTE, 4 * SIDE * SIDE, rgba);
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const Through sight = sight_of(&scene, i % SIDE, i / SIDE);
+        const double way = way_of(&sight);
+        if (way > 0 && thickness_seen(&rgba[4 * i]) > 1.02 * way + 0.1 * SPACING)
+            fail_msg("pixel %d %d: %g spacings of fluid, of %g in the box", i % SIDE, i / SIDE,
+                     thickness_seen(&rgba[4 * i]) / SPACING, way / SPACING);
+        if (way < 0 || walls_at(&sight, sight.enter) > 1 || walls_at(&sight, sight.leave) > 1 ||
+            height_at(&sight, sight.enter) > LEVEL - 2 * SPACING)
+            continue;
+        compared++;
+        if (fabs(thickness_seen(&rgba[4 * i]) - way) > 0.02 * way)
+            fail_msg("pixel %d %d: %g spacings of fluid, not %g", i % SIDE, i / SIDE,
+                     thickness_seen(&rgba[4 * i]) / SPACING, way / SPACING);
+    }
+    assert_true(compared > 1500);
+    free(rgba);
+    splat_close(&drawing);
+    free(scene.particles);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(the_surface_is_the_walls_and_the_level, no_gl_errors),
+        cmocka_unit_test_teardown(absorption_ends_at_the_walls, no_gl_errors),
+    };
+    return cmocka_run_group_tests(tests, context_setup, context_teardown);
+}
