@@ -1,4 +1,4 @@
-#include "app/output/export.h"
+#include "app/export/export.h"
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/command/cmd.h"

@@ -1,10 +1,10 @@
 /* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
 #include "tests/app/output_fixture.h"
 
-#include "app/output/export.h"
-#include "app/output/export_index.h"
-#include "app/output/ply.h"
-#include "app/output/vtp.h"
+#include "app/export/export.h"
+#include "app/export/export_index.h"
+#include "app/export/ply.h"
+#include "app/export/vtp.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -6,8 +6,8 @@
 #ifndef SLOSH_VTP_H
 #define SLOSH_VTP_H
 
+#include "app/export/surface.h"
 #include "app/output/snapshot.h"
-#include "app/output/surface.h"
 
 #include <stdint.h>
 #include <stdio.h>

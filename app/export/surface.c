@@ -1,4 +1,4 @@
-#include "app/output/surface.h"
+#include "app/export/surface.h"
 
 #include "app/base/physical.h"
 #include "app/output/snapshot_frame.h"

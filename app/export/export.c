@@ -1,8 +1,8 @@
-#include "app/output/export.h"
+#include "app/export/export.h"
 
 #include "app/base/output.h"
-#include "app/output/series.h"
-#include "app/output/vtp.h"
+#include "app/export/series.h"
+#include "app/export/vtp.h"
 
 #include <errno.h>
 #include <math.h>

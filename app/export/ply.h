@@ -8,8 +8,8 @@
 #ifndef SLOSH_PLY_H
 #define SLOSH_PLY_H
 
+#include "app/export/surface.h"
 #include "app/output/snapshot.h"
-#include "app/output/surface.h"
 #include "sim/base/scalar.h"
 
 #include <stdio.h>

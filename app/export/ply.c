@@ -1,5 +1,5 @@
 /* After: Greg Turk, "The PLY polygon file format", 1994. */
-#include "app/output/ply.h"
+#include "app/export/ply.h"
 
 #include "render/frame/colormap.h"
 

@@ -1,4 +1,4 @@
-#include "app/output/export_index.h"
+#include "app/export/export_index.h"
 
 #include <errno.h>
 #include <jansson.h>

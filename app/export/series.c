@@ -1,7 +1,7 @@
-#include "app/output/series.h"
+#include "app/export/series.h"
 
 #include "app/base/interrupt.h"
-#include "app/output/export_index.h"
+#include "app/export/export_index.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #define SLOSH_EXPORT_H
 
 #include "app/base/progress.h"
-#include "app/output/ply.h"
+#include "app/export/ply.h"
 #include "app/output/snapshot_frame.h"
 #include "app/output/snapshot_sift.h"
 

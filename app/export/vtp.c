@@ -1,6 +1,6 @@
 /* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, raw appended data with 64-bit
    sizes. */
-#include "app/output/vtp.h"
+#include "app/export/vtp.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
