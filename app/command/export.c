@@ -113,11 +113,15 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
     if (!export_needs_slice(args, error) || !export_kind(args->output, &export->kind, error))
         return false;
     if (export_is_series(export->kind) && args->time_given)
-        return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vtp or a FILE.ply",
-                         args->output);
-    if (args->color_by != COLOR_CHOICE_AUTO && (export->kind == EXPORT_PVD || export->kind == EXPORT_VTP))
         return error_set(error,
-                         "--color-by is of a .ply; a .vtp has every scalar, and ParaView colours by any");
+                         "--time makes no sense for all snapshots, %s; name a FILE.vtp, FILE.ply or FILE.obj",
+                         args->output);
+    if (args->color_by != COLOR_CHOICE_AUTO && !export_is_colored(export->kind))
+        return error_set(
+            error, "--color-by is of a .ply or a .obj; a .vtp has every scalar, and ParaView colours by any");
+    if (export_is_obj(export->kind) && !args->surface)
+        return error_set(error, "a .obj holds meshes, no particles: add --surface, or write %s as a .ply",
+                         args->output);
     if (!export_open(args, &export->reader, error))
         return false;
     export->flaws = snapshot_flaws(export->reader, args->surface);

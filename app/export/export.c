@@ -1,6 +1,7 @@
 #include "app/export/export.h"
 
 #include "app/base/output.h"
+#include "app/export/obj.h"
 #include "app/export/series.h"
 #include "app/export/vtp.h"
 
@@ -16,6 +17,9 @@ static const Named kinds[] = {
     [EXPORT_VTP] = {"vtp", "one snapshot for ParaView"},
     [EXPORT_PLY] = {"ply", "one snapshot as a point cloud or a mesh: Blender, MeshLab, CloudCompare"},
     [EXPORT_PLY_SERIES] = {"ply.series", "all snapshots: an index, and a folder with a .ply for each"},
+    [EXPORT_OBJ] = {"obj", "one snapshot's surface as a mesh: Blender, Houdini"},
+    [EXPORT_OBJ_SERIES] = {"obj.series",
+                           "all snapshots' surfaces: an index, and a folder with a .obj for each"},
     {0},
 };
 
@@ -42,14 +46,24 @@ bool export_kind(const char *path, ExportKind *kind, Error *error)
             return true;
         }
     return error_set(error,
-                     "cannot tell the format from '%s'; use .pvd, .vtp or .ply, or .ply.series for all "
-                     "snapshots as .ply",
+                     "cannot tell the format from '%s'; use .pvd, .vtp or .ply, .obj for a surface, or "
+                     ".ply.series or .obj.series for all snapshots",
                      path);
 }
 
 bool export_is_series(ExportKind kind)
 {
-    return kind == EXPORT_PVD || kind == EXPORT_PLY_SERIES;
+    return kind == EXPORT_PVD || kind == EXPORT_PLY_SERIES || kind == EXPORT_OBJ_SERIES;
+}
+
+bool export_is_obj(ExportKind kind)
+{
+    return kind == EXPORT_OBJ || kind == EXPORT_OBJ_SERIES;
+}
+
+bool export_is_colored(ExportKind kind)
+{
+    return kind != EXPORT_PVD && kind != EXPORT_VTP;
 }
 
 /* Of the file of one snapshot. */
@@ -74,7 +88,7 @@ static bool read_step(const Export *export, size_t index, SnapshotFlaws *flaws, 
 
 static bool widen_range(Export *export, size_t index, Error *error)
 {
-    PlyColors *colors = &export->colors;
+    PointColors *colors = &export->colors;
     SnapshotFlaws noted_later = export->flaws;
     SnapshotStep step;
     if (!read_step(export, index, &noted_later, &step, error))
@@ -82,7 +96,7 @@ static bool widen_range(Export *export, size_t index, Error *error)
     if (export->frame == FRAME_WORLD)
         snapshot_step_to_world(&step);
     for (size_t i = 0; i < step.count; i++) {
-        const double value = ply_scalar(&step, i, colors->scalar);
+        const double value = point_scalar(&step, i, colors->scalar);
         colors->low = fmin(colors->low, value);
         colors->high = fmax(colors->high, value);
     }
@@ -92,8 +106,8 @@ static bool widen_range(Export *export, size_t index, Error *error)
 
 bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error *error)
 {
-    PlyColors *colors = &export->colors;
-    *colors = (PlyColors){.mapped = by != SCALAR_FLUID, .scalar = by, .low = INFINITY, .high = -INFINITY};
+    PointColors *colors = &export->colors;
+    *colors = (PointColors){.mapped = by != SCALAR_FLUID, .scalar = by, .low = INFINITY, .high = -INFINITY};
     colors->count = snapshot_read_colors(export->reader, colors->color);
     for (size_t k = 0; colors->mapped && k < count; k++)
         if (!widen_range(export, first + k, error))
@@ -141,6 +155,23 @@ static bool write_particles(const Export *export, const char *name, SnapshotStep
     return close_file(export, file, written, error);
 }
 
+static bool write_obj(const Export *export, FILE *file, const Surface *surface)
+{
+    ObjFile obj =
+        obj_begin(file, surface->vertices.time, snapshot_frame_name(export->frame), &export->colors);
+    obj_add(&obj, "fluid", surface, &export->colors);
+    return obj_end(&obj);
+}
+
+static bool write_mesh_as(const Export *export, FILE *file, const Surface *surface)
+{
+    if (export_is_obj(export->kind))
+        return write_obj(export, file, surface);
+    return is_ply(export)
+               ? ply_write_surface(file, surface, snapshot_frame_name(export->frame), &export->colors)
+               : vtp_write_surface(file, surface);
+}
+
 static bool write_mesh(Export *export, const char *name, Surface *surface, Error *error)
 {
     export->vertices = surface->vertices.count;
@@ -153,9 +184,7 @@ static bool write_mesh(Export *export, const char *name, Surface *surface, Error
     FILE *file = open_file(export, name, error);
     if (!file)
         return false;
-    const bool written =
-        is_ply(export) ? ply_write_surface(file, surface, snapshot_frame_name(export->frame), &export->colors)
-                       : vtp_write_surface(file, surface);
+    const bool written = write_mesh_as(export, file, surface);
     return close_file(export, file, written, error);
 }
 
@@ -207,7 +236,9 @@ static bool write_one_of_all(void *user, size_t index, const char *name, double 
 bool export_series(Export *export, Progress *progress, Error *error)
 {
     const SeriesJob job = {.path = export->path,
-                           .extension = is_ply(export) ? ".ply" : ".vtp",
+                           .extension = export_is_obj(export->kind) ? ".obj"
+                                        : is_ply(export)            ? ".ply"
+                                                                    : ".vtp",
                            .count = snapshot_count_steps(export->reader),
                            .write = write_one_of_all,
                            .user = export};

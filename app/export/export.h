@@ -7,13 +7,26 @@
 #include "app/output/snapshot_frame.h"
 #include "app/output/snapshot_sift.h"
 
-typedef enum ExportKind { EXPORT_PVD, EXPORT_VTP, EXPORT_PLY, EXPORT_PLY_SERIES } ExportKind;
+typedef enum ExportKind {
+    EXPORT_PVD,
+    EXPORT_VTP,
+    EXPORT_PLY,
+    EXPORT_PLY_SERIES,
+    EXPORT_OBJ,
+    EXPORT_OBJ_SERIES
+} ExportKind;
 
 /* Their names, which are the extensions, in the order of ExportKind; ended by a row without a name. */
 const Named *export_kinds(void);
 
 /* Whether it is of all snapshots. */
 bool export_is_series(ExportKind kind);
+
+/* Whether it holds meshes alone, and no particles. */
+bool export_is_obj(ExportKind kind);
+
+/* Whether its points have colours; files for ParaView have the scalars instead. */
+bool export_is_colored(ExportKind kind);
 
 /* By the extension of the name; false with what would be right. */
 bool export_kind(const char *path, ExportKind *kind, Error *error);
@@ -27,7 +40,7 @@ typedef struct Export {
     const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
     SnapshotScene scene;        /* with a surface: that the snapshots are of */
     SnapshotFlaws flaws;        /* see snapshot_flaws; what was found in those that were written */
-    PlyColors colors;           /* of a .ply: see export_colors */
+    PointColors colors;         /* of a .ply or a .obj: see export_colors */
     size_t snapshots;           /* written */
     size_t particles;           /* of the last one */
     double time;                /* of the last one, s */
@@ -37,9 +50,9 @@ typedef struct Export {
     bool interrupted;           /* by a signal, before the last snapshot of a series */
 } Export;
 
-/* Sets the colours of a .ply: those of the fluids, or for speed, density and pressure a colormap from the
-   least to the greatest that a particle has in the `count` snapshots from `first` on. False when one cannot
-   be read.
+/* Sets the colours of a .ply or a .obj: those of the fluids, or for speed, density and pressure a colormap
+   from the least to the greatest that a particle has in the `count` snapshots from `first` on. False when one
+   cannot be read.
  */
 bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error *error);
 
@@ -48,7 +61,7 @@ bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error 
 bool export_one(Export *export, size_t index, Error *error);
 
 /* Writes all snapshots: the index OUT.pvd, and beside it the folder OUT with OUT-0000.vtp, OUT-0001.vtp, ...;
-   or the index OUT.ply.series, and the folder OUT with OUT-0000.ply, ...
+   or the index OUT.ply.series, and the folder OUT with OUT-0000.ply, ...; or the same of .obj.
    Both get their names when all is written, or after a signal with the snapshots that are; false with the
    reason, and what had those names before stays. */
 bool export_series(Export *export, Progress *progress, Error *error);

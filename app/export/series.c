@@ -21,7 +21,8 @@ typedef bool IndexWriter(FILE *file, const char *folder, const char *extension, 
 static const struct {
     const char *extension;
     IndexWriter *write;
-} indices[] = {{".pvd", export_index_pvd}, {".ply.series", export_index_series}};
+} indices[] = {
+    {".pvd", export_index_pvd}, {".ply.series", export_index_series}, {".obj.series", export_index_series}};
 
 /* By the end of the name; the first where it is none of them. */
 static size_t index_of(const char *path)

@@ -1,6 +1,6 @@
-/* A series of files in the making: an index, OUT.pvd or OUT.ply.series, and beside it the folder OUT with
-   OUT-0000.EXTENSION, OUT-0001.EXTENSION, ... Index and folder get their names together when all is written,
-   and what had those names before stays until then. */
+/* A series of files in the making: an index, OUT.pvd, OUT.ply.series or OUT.obj.series, and beside it the
+   folder OUT with OUT-0000.EXTENSION, OUT-0001.EXTENSION, ... Index and folder get their names together when
+   all is written, and what had those names before stays until then. */
 #ifndef SLOSH_SERIES_H
 #define SLOSH_SERIES_H
 
@@ -12,7 +12,8 @@
 
 /* What makes its files. */
 typedef struct SeriesJob {
-    const char *path;      /* of the index; ends in ".pvd" or ".ply.series", which says how it is written */
+    const char *
+        path; /* of the index; ends in ".pvd", ".ply.series" or ".obj.series", which says how it is written */
     const char *extension; /* of the files: ".vtp" */
     size_t count;          /* of them */
     /* Writes file number `index` under that name, and says of which time it is, s. False with the reason. */

@@ -69,7 +69,7 @@ static void the_worlds_frame_by_hand(void **state)
     snapshot_step_free(&step);
 }
 
-static void write_ply(const SnapshotStep *step, const PlyColors *colors)
+static void write_ply(const SnapshotStep *step, const PointColors *colors)
 {
     FILE *file = fopen("a.ply", "wb");
     assert_true(ply_write(file, step, "world", colors));
@@ -101,12 +101,12 @@ static void a_ply_is_read_back(void **state)
                                "property uint id\n";
     static const char color[] = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     /* of the third fluid nothing is known; a number that is none, or out of range, does no harm */
-    static const PlyColors colors = {.count = 2, .color = {{0, 0.5, 1}, {-1, 2, NAN}}};
+    static const PointColors colors = {.count = 2, .color = {{0, 0.5, 1}, {-1, 2, NAN}}};
     static const unsigned char bytes[3][3] = {{0, 128, 255}, {0, 255, 0}, {128, 128, 128}};
     SnapshotStep step = some_step(1000);
     for (int colored = 0; colored < 2; colored++) {
         size_t size, at = strlen(head), width = colored ? 43 : 40;
-        write_ply(&step, colored ? &colors : &(PlyColors){0});
+        write_ply(&step, colored ? &colors : &(PointColors){0});
         char *file = read_all("a.ply", &size);
         assert_memory_equal(file, head, at);
         if (colored) {
@@ -132,7 +132,7 @@ static void a_ply_is_coloured_by_a_scalar(void **state)
     (void)state;
     static const unsigned char first[3] = {0x44, 0x01, 0x54}, last[3] = {0xfd, 0xe7, 0x25};
     static const float density[4] = {950, 1000, 1100, NAN};
-    const PlyColors colors = {.mapped = true, .scalar = SCALAR_DENSITY, .low = 1000, .high = 1100};
+    const PointColors colors = {.mapped = true, .scalar = SCALAR_DENSITY, .low = 1000, .high = 1100};
     size_t size;
     SnapshotStep step = some_step(4);
     memcpy(step.density, density, sizeof density);
@@ -145,8 +145,9 @@ static void a_ply_is_coloured_by_a_scalar(void **state)
     step.velocity[0][1] = 3;
     step.velocity[1][1] = 0;
     step.velocity[2][1] = -4;
-    assert_true(ply_scalar(&step, 1, SCALAR_SPEED) == 5);
-    assert_true(ply_scalar(&step, 2, SCALAR_PRESSURE) == -10 && ply_scalar(&step, 1, SCALAR_DENSITY) == 1000);
+    assert_true(point_scalar(&step, 1, SCALAR_SPEED) == 5);
+    assert_true(point_scalar(&step, 2, SCALAR_PRESSURE) == -10 &&
+                point_scalar(&step, 1, SCALAR_DENSITY) == 1000);
     free(file);
     snapshot_step_free(&step);
 }
@@ -252,7 +253,7 @@ static void a_surface_as_ply_is_read_back(void **state)
                                "property float density\nproperty float pressure\nproperty int fluid\n"
                                "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
-    static const PlyColors colors = {.count = 1, .color = {{0, 0.5, 1}}};
+    static const PointColors colors = {.count = 1, .color = {{0, 0.5, 1}}};
     enum { VERTEX = 51, FACE = 13 };
     size_t size;
     Surface surface = some_surface();
@@ -365,14 +366,14 @@ static void a_failed_stream_is_told(void **state)
     assert_false(vtp_write(file, &step));
     fclose(file);
     file = fopen("/dev/full", "wb");
-    assert_false(ply_write(file, &step, "box", &(PlyColors){0}));
+    assert_false(ply_write(file, &step, "box", &(PointColors){0}));
     fclose(file);
     Surface surface = some_surface();
     for (int k = 0; k < 2; k++) {
         file = fopen("/dev/full", "wb");
         setbuf(file, NULL);
         assert_false(k == 0 ? vtp_write_surface(file, &surface)
-                            : ply_write_surface(file, &surface, "box", &(PlyColors){0}));
+                            : ply_write_surface(file, &surface, "box", &(PointColors){0}));
         fclose(file);
     }
     surface_free(&surface);

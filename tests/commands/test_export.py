@@ -147,7 +147,7 @@ class ExportTest(CommandTest):
             self.assertTrue(self.read(file).endswith(b'</AppendedData>\n</VTKFile>\n'))
 
 
-class ParaView(ExportTest):
+class ParaViewTest(ExportTest):
     @classmethod
     def setUpClass(cls):
         if not shutil.which('pvpython'):
@@ -168,6 +168,8 @@ class ParaView(ExportTest):
         self.assertEqual((answer, self.complaints.read()), ('read\n', ''))
         return json.loads(self.read('read.json'))
 
+
+class ParaView(ParaViewTest):
     def same_fields(self, seen, group):
         for name in ('density', 'pressure', 'fluid', 'id'):
             numpy.testing.assert_array_equal(seen['arrays'][name], group[name])
@@ -585,7 +587,7 @@ class Bad(ExportTest):
 
     def test_output(self):
         self.make('--time', '0')
-        for name in ('b.h5part', 'a.obj', 'a', 'a.pvd/', '.ply'):
+        for name in ('b.h5part', 'a.abc', 'a', 'a.pvd/', '.ply', '.obj.series'):
             self.refused('a.h5part', name, words='use .pvd, .vtp or .ply')
         self.refused('a.h5part', 'no/a.vtp', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'no/a.pvd', words='No such file or directory; create it first', code=1)
@@ -605,7 +607,10 @@ class Bad(ExportTest):
         for cell in ('0', '0.01', '5'):
             self.refused('a.h5part', 'a.ply', '--surface', '--cell', cell, words='--cell must be 0.05 to 4')
         self.refused('a.h5part', 'a.ply.series', '--surface', '--time', '0', words='--time makes no sense')
-        self.refused('a.h5part', 'a.vtp', '--color-by', 'speed', words='--color-by is of a .ply')
+        self.refused('a.h5part', 'a.vtp', '--color-by', 'speed', words='--color-by is of a .ply or a .obj')
+        self.refused('a.h5part', 'a.obj', words='a .obj holds meshes, no particles: add --surface')
+        self.refused('a.h5part', 'a.obj.series', words='a .obj holds meshes, no particles: add --surface')
+        self.refused('a.h5part', 'a.obj.series', '--surface', '--time', '0', words='--time makes no sense')
         self.refused('a.h5part', 'a.ply', '--color-by', 'mood', words='must be one of fluid|speed|density|pressure')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             file.attrs['box_size'] = [1000., 1000., 1000.]
@@ -765,7 +770,7 @@ class FullDisk(ExportTest):
         for output in ('b.pvd', 'b.vtp', 'b.ply'):
             for size in (100, 5000, 20000):
                 self.full(output, size)
-        for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series'):
+        for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series', 'b.obj', 'b.obj.series'):
             for size in (2000, 20000, 50000):  # LLVM's OpenMP, in the sanitized build, makes a file of 1 kB
                 self.full(output, size, '--surface')
         self.assertEqual(self.entries(), ['a.h5part'])
@@ -801,7 +806,7 @@ class TinyDisk(TinyDiskTest, ExportTest):
         for size, output in (('60k', 'a.pvd'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
             left = self.full(size, f'export a.h5part -o disk/{output}')
             self.assertEqual(left, ['a.h5part'])
-        for size, output in (('60k', 'a.pvd'), ('60k', 'a.ply.series'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
+        for size, output in (('60k', 'a.pvd'), ('60k', 'a.ply.series'), ('16k', 'a.vtp'), ('16k', 'a.ply'), ('16k', 'a.obj')):
             left = self.full(size, f'export a.h5part --surface -o disk/{output}')
             self.assertEqual(left, ['a.h5part'])
 
