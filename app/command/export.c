@@ -3,6 +3,7 @@
 #include "app/base/json_file.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
+#include "app/playback/recorded_scene.h"
 #include "sim/base/stage.h"
 
 #include <stdio.h>
@@ -38,6 +39,8 @@ static bool write_json(const Export *export, const Args *args, double wall_secon
                   export->time, "wall_seconds", wall_seconds, "stopped", export->interrupted);
     if (json && export->surface)
         json_object_set_new(json, "surface", surface_json(export));
+    if (json && export->solids)
+        json_object_set_new(json, "solids", json_integer(export->solids->count));
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);
     return written;
@@ -59,6 +62,8 @@ static void report(const Export *export, const Args *args)
     if (export->surface)
         fprintf(stderr, "a surface of %zu triangles around %.4g m3 at level %.3g, ", export->triangles,
                 export->volume, export->level);
+    if (export->solids)
+        fprintf(stderr, "%d solid%s, ", export->solids->count, plural((size_t) export->solids->count));
     fprintf(stderr, "in the frame of the %s\n", snapshot_frame_name(export->frame));
 }
 
@@ -107,8 +112,34 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
            surface_check(surface, &export->scene, error);
 }
 
+/* A scene is only needed for what is not in the snapshots. */
+static bool understand_solids(Export *export, ExportSolids *solids, const Args *args, Error *error)
+{
+    SnapshotScene numbers;
+    Scene scene;
+    Notes notes = {0};
+    if (!args->solids)
+        return true;
+    if (!recorded_scene(export->reader, args->scenes[0], NULL, &numbers, &scene, &notes, error))
+        return false;
+    notes_print(&notes, stderr);
+    if (scene.world.solid_count == 0)
+        return error_set(error, "%s: has no solids; export it without --solids", args->scenes[0]);
+    export->solids = solids;
+    return export_solids_make(solids, &scene.world, error);
+}
+
+static bool check_solids(const Export *export, const Args *args, Error *error)
+{
+    return !args->solids || export->kind == EXPORT_PVD || export_is_obj(export->kind) ||
+           error_set(error,
+                     "%s has room for one mesh; for --solids name a FILE.pvd, or with --surface a FILE.obj",
+                     args->output);
+}
+
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
-static bool understand(Export *export, SurfaceDef *surface, size_t *index, const Args *args, Error *error)
+static bool understand(Export *export, SurfaceDef *surface, ExportSolids *solids, size_t *index,
+                       const Args *args, Error *error)
 {
     if (!export_needs_slice(args, error) || !export_kind(args->output, &export->kind, error))
         return false;
@@ -122,10 +153,11 @@ static bool understand(Export *export, SurfaceDef *surface, size_t *index, const
     if (export_is_obj(export->kind) && !args->surface)
         return error_set(error, "a .obj holds meshes, no particles: add --surface, or write %s as a .ply",
                          args->output);
-    if (!export_open(args, &export->reader, error))
+    if (!check_solids(export, args, error) || !export_open(args, &export->reader, error))
         return false;
     export->flaws = snapshot_flaws(export->reader, args->surface);
     return understand_surface(export, surface, args, error) &&
+           understand_solids(export, solids, args, error) &&
            export_choose(args, export->reader, index, error);
 }
 
@@ -133,6 +165,7 @@ int cmd_export(const Args *args)
 {
     Export export = {.path = args->output, .frame = args->frame};
     SurfaceDef surface = {0};
+    ExportSolids solids = {0};
     Error error = {{0}};
     size_t index = 0;
     interrupt_install();
@@ -140,8 +173,10 @@ int cmd_export(const Args *args)
         return export_slice(args);
     if (args->trails)
         return export_trails(args);
-    const int code = understand(&export, &surface, &index, args, &error) ? run(&export, index, args, &error)
-                                                                         : fail(EXIT_USAGE, &error);
+    const int code = understand(&export, &surface, &solids, &index, args, &error)
+                         ? run(&export, index, args, &error)
+                         : fail(EXIT_USAGE, &error);
+    export_solids_free(&solids);
     snapshot_reader_close(export.reader);
     return code;
 }

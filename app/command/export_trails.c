@@ -37,6 +37,7 @@ static bool refuse_others(const Args *args, Error *error)
 {
     const char *end = strrchr(args->output, '.');
     const char *option = args->surface                         ? "--surface"
+                         : args->solids                        ? "--solids"
                          : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"
                          : args->level > 0                     ? "--level"
                          : args->cell > 0                      ? "--cell"

@@ -12,6 +12,12 @@
 #include <string.h>
 #include <strings.h>
 
+/* Of a snapshot: the surface if it is wanted, and the solids. */
+typedef struct Meshes {
+    int count;
+    Surface mesh[EXPORT_PARTS_MAX];
+} Meshes;
+
 static const Named kinds[] = {
     [EXPORT_PVD] = {"pvd", "all snapshots for ParaView: an index, and a folder with a .vtp for each"},
     [EXPORT_VTP] = {"vtp", "one snapshot for ParaView"},
@@ -138,6 +144,58 @@ static FILE *open_file(const Export *export, const char *name, Error *error)
     return file;
 }
 
+/* ---- the meshes of a snapshot ---- */
+
+static void note_surface(Export *export, const Surface *surface)
+{
+    export->vertices = surface->vertices.count;
+    export->triangles = surface->triangle_count;
+    export->level = surface->level;
+    export->volume = surface->volume;
+    export->empty += surface->triangle_count == 0;
+}
+
+/* Which of the solids mesh `number` of a snapshot is; less than 0: it is a fluid's. */
+static int solid_of(const Export *export, int number)
+{
+    return number - (export->surface ? 1 : 0);
+}
+
+static bool make_mesh(Export *export, int number, const SnapshotStep *step, Surface *mesh, Error *error)
+{
+    const int solid = solid_of(export, number);
+    if (solid >= 0)
+        return export_solid_at(export->solids, solid, step, mesh, error);
+    if (!surface_make(export->surface, &export->scene, step, mesh, error))
+        return false;
+    note_surface(export, mesh);
+    return true;
+}
+
+static int count_meshes(const Export *export)
+{
+    return (export->surface ? 1 : 0) + (export->solids ? export->solids->count : 0);
+}
+
+/* In the frame that is asked for. */
+static bool make_meshes(Export *export, const SnapshotStep *step, Meshes *meshes, Error *error)
+{
+    for (int k = 0; k < count_meshes(export); k++) {
+        if (!make_mesh(export, k, step, &meshes->mesh[k], error))
+            return false;
+        meshes->count++;
+        if (export->frame == FRAME_WORLD)
+            surface_to_world(&meshes->mesh[k]);
+    }
+    return true;
+}
+
+static void free_meshes(Meshes *meshes)
+{
+    for (int k = 0; k < meshes->count; k++)
+        surface_free(&meshes->mesh[k]);
+}
+
 /* ---- one snapshot ---- */
 
 static bool write_particles(const Export *export, const char *name, SnapshotStep *step, Error *error)
@@ -155,58 +213,64 @@ static bool write_particles(const Export *export, const char *name, SnapshotStep
     return close_file(export, file, written, error);
 }
 
-static bool write_obj(const Export *export, FILE *file, const Surface *surface)
+/* All in one file. */
+static bool write_obj(const Export *export, const char *name, const SnapshotStep *step, const Meshes *meshes,
+                      Error *error)
 {
-    ObjFile obj =
-        obj_begin(file, surface->vertices.time, snapshot_frame_name(export->frame), &export->colors);
-    obj_add(&obj, "fluid", surface, &export->colors);
-    return obj_end(&obj);
-}
-
-static bool write_mesh_as(const Export *export, FILE *file, const Surface *surface)
-{
-    if (export_is_obj(export->kind))
-        return write_obj(export, file, surface);
-    return is_ply(export)
-               ? ply_write_surface(file, surface, snapshot_frame_name(export->frame), &export->colors)
-               : vtp_write_surface(file, surface);
-}
-
-static bool write_mesh(Export *export, const char *name, Surface *surface, Error *error)
-{
-    export->vertices = surface->vertices.count;
-    export->triangles = surface->triangle_count;
-    export->level = surface->level;
-    export->volume = surface->volume;
-    export->empty += surface->triangle_count == 0;
-    if (export->frame == FRAME_WORLD)
-        surface_to_world(surface);
     FILE *file = open_file(export, name, error);
     if (!file)
         return false;
-    const bool written = write_mesh_as(export, file, surface);
+    ObjFile obj = obj_begin(file, step->time, snapshot_frame_name(export->frame), &export->colors);
+    for (int k = 0; k < meshes->count; k++) {
+        const int solid = solid_of(export, k);
+        obj_add(&obj, solid < 0 ? "fluid" : export->solids->solid[solid].name, &meshes->mesh[k],
+                solid < 0 ? &export->colors : &export->solids->solid[solid].color);
+    }
+    return close_file(export, file, obj_end(&obj), error);
+}
+
+static bool write_mesh(const Export *export, const char *name, int number, const Surface *mesh, Error *error)
+{
+    FILE *file = open_file(export, name, error);
+    if (!file)
+        return false;
+    bool written;
+    if (is_ply(export))
+        written = ply_write_surface(file, mesh, snapshot_frame_name(export->frame), &export->colors);
+    else
+        written = solid_of(export, number) < 0 ? vtp_write_surface(file, mesh) : vtp_write_solid(file, mesh);
     return close_file(export, file, written, error);
 }
 
-static bool write_surface(Export *export, const char *name, const SnapshotStep *step, Error *error)
+/* The particles and each mesh in a file of its own; without parts only one of these is there. */
+static bool write_parts(const Export *export, const char *name, SnapshotStep *step, const Meshes *meshes,
+                        Error *error)
 {
-    Surface surface;
-    if (!surface_make(export->surface, &export->scene, step, &surface, error))
+    const int first = export->surface ? 0 : 1; /* part of the first mesh */
+    if (first > 0 && !write_particles(export, name, step, error))
         return false;
-    const bool written = write_mesh(export, name, &surface, error);
-    surface_free(&surface);
-    return written;
+    for (int k = 0; k < meshes->count; k++) {
+        char own[2048];
+        export_part_name(name, export->part_count > 0 ? export->parts[first + k].suffix : "", own,
+                         sizeof own);
+        if (!write_mesh(export, export->part_count > 0 ? own : name, k, &meshes->mesh[k], error))
+            return false;
+    }
+    return true;
 }
 
 static bool write_snapshot(Export *export, size_t index, const char *name, Error *error)
 {
+    Meshes meshes = {0};
     SnapshotStep step;
     if (!read_step(export, index, &export->flaws, &step, error))
         return false;
     export->particles = step.count;
     export->time = step.time;
-    const bool written = export->surface ? write_surface(export, name, &step, error)
-                                         : write_particles(export, name, &step, error);
+    const bool written = make_meshes(export, &step, &meshes, error) &&
+                         (export_is_obj(export->kind) ? write_obj(export, name, &step, &meshes, error)
+                                                      : write_parts(export, name, &step, &meshes, error));
+    free_meshes(&meshes);
     snapshot_step_free(&step);
     export->snapshots += written;
     return written;
@@ -225,6 +289,26 @@ bool export_one(Export *export, size_t index, Error *error)
 
 /* ---- a series ---- */
 
+static void add_part(Export *export, const char *name, const char *suffix)
+{
+    IndexPart *part = &export->parts[export->part_count++];
+    snprintf(part->name, sizeof part->name, "%s", name);
+    snprintf(part->suffix, sizeof part->suffix, "%s", suffix);
+}
+
+/* Of a .pvd; without solids it has one file at each time. */
+static void name_parts(Export *export)
+{
+    if (export->kind != EXPORT_PVD || !export->solids)
+        return;
+    add_part(export, export->surface ? "fluid" : "particles", "");
+    for (int k = 0; k < export->solids->count; k++) {
+        char suffix[sizeof export->parts->suffix];
+        snprintf(suffix, sizeof suffix, "-solid%d", k);
+        add_part(export, export->solids->solid[k].name, suffix);
+    }
+}
+
 static bool write_one_of_all(void *user, size_t index, const char *name, double *time, Error *error)
 {
     Export *export = user;
@@ -235,11 +319,14 @@ static bool write_one_of_all(void *user, size_t index, const char *name, double 
 
 bool export_series(Export *export, Progress *progress, Error *error)
 {
+    name_parts(export);
     const SeriesJob job = {.path = export->path,
                            .extension = export_is_obj(export->kind) ? ".obj"
                                         : is_ply(export)            ? ".ply"
                                                                     : ".vtp",
                            .count = snapshot_count_steps(export->reader),
+                           .part_count = export->part_count,
+                           .parts = export->parts,
                            .write = write_one_of_all,
                            .user = export};
     size_t written = 0;

@@ -3,7 +3,9 @@
 #define SLOSH_EXPORT_H
 
 #include "app/base/progress.h"
+#include "app/export/export_index.h"
 #include "app/export/ply.h"
+#include "app/export/solids.h"
 #include "app/output/snapshot_frame.h"
 #include "app/output/snapshot_sift.h"
 
@@ -31,6 +33,8 @@ bool export_is_colored(ExportKind kind);
 /* By the extension of the name; false with what would be right. */
 bool export_kind(const char *path, ExportKind *kind, Error *error);
 
+enum { EXPORT_PARTS_MAX = 1 + FLUIDS_MAX + SOLIDS_MAX };
+
 /* One export: where from, where to, and what came of it. */
 typedef struct Export {
     SnapshotReader *reader; /* not owned; has at least one whole step */
@@ -38,9 +42,12 @@ typedef struct Export {
     ExportKind kind;
     SnapshotFrame frame;
     const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
+    const ExportSolids *solids; /* beside them, in a .pvd or with a surface in a .obj; NULL: none */
     SnapshotScene scene;        /* with a surface: that the snapshots are of */
     SnapshotFlaws flaws;        /* see snapshot_flaws; what was found in those that were written */
     PointColors colors;         /* of a .ply or a .obj: see export_colors */
+    size_t part_count;          /* of a .pvd: files of each snapshot; 0: one */
+    IndexPart parts[EXPORT_PARTS_MAX];
     size_t snapshots;           /* written */
     size_t particles;           /* of the last one */
     double time;                /* of the last one, s */
@@ -62,8 +69,9 @@ bool export_one(Export *export, size_t index, Error *error);
 
 /* Writes all snapshots: the index OUT.pvd, and beside it the folder OUT with OUT-0000.vtp, OUT-0001.vtp, ...;
    or the index OUT.ply.series, and the folder OUT with OUT-0000.ply, ...; or the same of .obj.
-   Both get their names when all is written, or after a signal with the snapshots that are; false with the
-   reason, and what had those names before stays. */
+   With solids a .pvd has of each snapshot OUT-0000.vtp, OUT-0000-solid0.vtp, ..., as blocks with names; a
+   .obj has all in one file, as objects with names. Both get their names when all is written, or after a
+   signal with the snapshots that are; false with the reason, and what had those names before stays. */
 bool export_series(Export *export, Progress *progress, Error *error);
 
 #endif

@@ -15,8 +15,7 @@ typedef struct Series {
     double *times; /* of each file, s */
 } Series;
 
-typedef bool IndexWriter(FILE *file, const char *folder, const char *extension, size_t count,
-                         const double times[]);
+typedef bool IndexWriter(FILE *file, const ExportIndex *index);
 
 static const struct {
     const char *extension;
@@ -67,8 +66,13 @@ static bool write_files(Series *series, const SeriesJob *job, Progress *progress
 static bool write_index(const Series *series, const SeriesJob *job, size_t count, Error *error)
 {
     FILE *file = fopen(series->index.temp, "wb");
-    bool written = file && indices[index_of(job->path)].write(file, series->folder.path, job->extension,
-                                                              count, series->times);
+    const ExportIndex index = {.folder = series->folder.path,
+                               .extension = job->extension,
+                               .count = count,
+                               .times = series->times,
+                               .part_count = job->part_count,
+                               .parts = job->parts};
+    bool written = file && indices[index_of(job->path)].write(file, &index);
     int reason = errno;
     if (file && fclose(file) != 0 && written) {
         reason = errno;

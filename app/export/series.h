@@ -7,6 +7,7 @@
 #include "app/base/output.h"
 #include "app/base/output_folder.h"
 #include "app/base/progress.h"
+#include "app/export/export_index.h"
 
 #include <stddef.h>
 
@@ -16,7 +17,10 @@ typedef struct SeriesJob {
         path; /* of the index; ends in ".pvd", ".ply.series" or ".obj.series", which says how it is written */
     const char *extension; /* of the files: ".vtp" */
     size_t count;          /* of them */
-    /* Writes file number `index` under that name, and says of which time it is, s. False with the reason. */
+    size_t part_count;     /* files of each number, of a .pvd; 0: one */
+    const IndexPart *parts;
+    /* Writes file number `index` under that name, or its parts under export_part_name, and says of which time
+       it is, s. False with the reason. */
     bool (*write)(void *user, size_t index, const char *name, double *time, Error *error);
     void *user;
 } SeriesJob;

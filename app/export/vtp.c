@@ -192,19 +192,33 @@ bool vtp_write(FILE *file, const SnapshotStep *step)
     return write_all(file, &all);
 }
 
+/* The points and triangles of a mesh. */
+static Contents begin_mesh(const Surface *mesh, const char *shown)
+{
+    const SnapshotStep *step = &mesh->vertices;
+    Contents all = {
+        .time = step->time, .points = step->count, .triangles = mesh->triangle_count, .shown = shown};
+    add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
+    add_numbers(&all, SECTION_POLYS, "connectivity", "UInt32", 4, 3 * mesh->triangle_count, mesh->triangle);
+    add_ramp(&all, SECTION_POLYS, "offsets", mesh->triangle_count, 3, 3);
+    return all;
+}
+
 bool vtp_write_surface(FILE *file, const Surface *surface)
 {
     const SnapshotStep *step = &surface->vertices;
-    Contents all = {.time = step->time,
-                    .points = step->count,
-                    .triangles = surface->triangle_count,
-                    .shown = "Vectors=\"velocity\" Scalars=\"density\" Normals=\"Normals\""};
-    add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
-    add_numbers(&all, SECTION_POLYS, "connectivity", "UInt32", 4, 3 * surface->triangle_count,
-                surface->triangle);
-    add_ramp(&all, SECTION_POLYS, "offsets", surface->triangle_count, 3, 3);
+    Contents all = begin_mesh(surface, "Vectors=\"velocity\" Scalars=\"density\" Normals=\"Normals\"");
     add_fields(&all, step);
     add_vectors(&all, SECTION_DATA, "Normals", step->count, surface->normal);
+    return write_all(file, &all);
+}
+
+bool vtp_write_solid(FILE *file, const Surface *solid)
+{
+    const SnapshotStep *step = &solid->vertices;
+    Contents all = begin_mesh(solid, "Vectors=\"velocity\" Normals=\"Normals\"");
+    add_vectors(&all, SECTION_DATA, "velocity", step->count, step->velocity);
+    add_vectors(&all, SECTION_DATA, "Normals", step->count, solid->normal);
     return write_all(file, &all);
 }
 

@@ -319,7 +319,7 @@ static void a_series_of_ply_has_an_index_in_json(void **state)
     static const double times[] = {0, 0.1};
     char text[1024] = "";
     FILE *file = fopen("a.ply.series", "w+");
-    assert_true(export_index_series(file, "x/a \"b\"", ".ply", 2, times));
+    assert_true(export_index_series(file, &(ExportIndex){"x/a \"b\"", ".ply", 2, times, 0, NULL}));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);
@@ -331,11 +331,12 @@ static void a_series_of_ply_has_an_index_in_json(void **state)
     assert_true(json_real_value(json_object_get(second, "time")) == 0.1);
     json_decref(index);
     file = fopen("a.ply.series", "w+");
-    assert_false(export_index_series(file, "\xff", ".ply", 2, times)); /* not UTF-8 */
+    assert_false(
+        export_index_series(file, &(ExportIndex){"\xff", ".ply", 2, times, 0, NULL})); /* not UTF-8 */
     fclose(file);
     file = fopen("/dev/full", "w");
     setbuf(file, NULL);
-    assert_false(export_index_series(file, "a", ".ply", 2, times));
+    assert_false(export_index_series(file, &(ExportIndex){"a", ".ply", 2, times, 0, NULL}));
     fclose(file);
 }
 
@@ -349,7 +350,7 @@ static void the_index_names_its_files(void **state)
     export_index_name("fluid", 12345, ".ply", name, sizeof name);
     assert_string_equal(name, "fluid-12345.ply");
     FILE *file = fopen("a.pvd", "w+");
-    assert_true(export_index_pvd(file, "x/a&<b>\"", ".vtp", 2, times));
+    assert_true(export_index_pvd(file, &(ExportIndex){"x/a&<b>\"", ".vtp", 2, times, 0, NULL}));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);

@@ -23,29 +23,35 @@ import json, os
 from paraview.simple import OpenDataFile
 from paraview import servermanager
 from vtk.util.numpy_support import vtk_to_numpy
+def seen_of(data, time):
+    arrays = data.GetPointData()
+    names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
+    own = data.GetFieldData().GetArray('TimeValue')
+    of_cells = data.GetCellData()
+    lines, order = [], data.GetLines().GetData()
+    order = vtk_to_numpy(order).tolist() if data.GetNumberOfLines() else []
+    while order:
+        lines.append(order[1:1 + order[0]])
+        order = order[1 + order[0]:]
+    cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
+    return {'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
+           'lines': lines, 'cells': {of_cells.GetArrayName(k): vtk_to_numpy(of_cells.GetArray(k)).tolist()
+                                     for k in range(of_cells.GetNumberOfArrays())},
+           'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
+           'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
+           'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
+           'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}}
 def steps_of(path):
     reader = OpenDataFile(path)
     reader.UpdatePipelineInformation()
     for time in list(reader.TimestepValues) or [None]:
         reader.UpdatePipeline() if time is None else reader.UpdatePipeline(time)
         data = servermanager.Fetch(reader)
-        arrays = data.GetPointData()
-        names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
-        own = data.GetFieldData().GetArray('TimeValue')
-        of_cells = data.GetCellData()
-        lines, order = [], data.GetLines().GetData()
-        order = vtk_to_numpy(order).tolist() if data.GetNumberOfLines() else []
-        while order:
-            lines.append(order[1:1 + order[0]])
-            order = order[1 + order[0]:]
-        cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
-        yield {'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
-               'lines': lines, 'cells': {of_cells.GetArrayName(k): vtk_to_numpy(of_cells.GetArray(k)).tolist()
-                                         for k in range(of_cells.GetNumberOfArrays())},
-               'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
-               'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
-               'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
-               'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}}
+        if data.IsA('vtkMultiBlockDataSet'):
+            names = [data.GetMetaData(k).Get(data.NAME()) for k in range(data.GetNumberOfBlocks())]
+            yield {'time': time, 'blocks': names, 'parts': [seen_of(data.GetBlock(k).GetBlock(0), time) for k in range(len(names))]}
+        else:
+            yield seen_of(data, time)
 for line in open(0):
     path, out = json.loads(line)
     with open(out, 'w') as file:
@@ -101,12 +107,13 @@ def in_box(group):
             numpy.stack([group[f'velocity_{k}'] for k in range(3)], 1))
 
 
-def in_world(group):
+def in_world(group, pose=None):
+    """By the attributes of the group, or by those of another."""
+    pose = group.attrs if pose is None else pose
     position, velocity = (numpy.float64(values) for values in in_box(group))
-    arm = rotated(group.attrs['box_orientation'], position)
-    return (group.attrs['box_position'] + arm, group.attrs['box_velocity']
-            + numpy.cross(group.attrs['box_angular_velocity'], arm)
-            + rotated(group.attrs['box_orientation'], velocity))
+    arm = rotated(pose['box_orientation'], position)
+    return (pose['box_position'] + arm, pose['box_velocity'] + numpy.cross(pose['box_angular_velocity'], arm)
+            + rotated(pose['box_orientation'], velocity))
 
 
 class ExportTest(CommandTest):

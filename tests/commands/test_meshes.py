@@ -7,7 +7,36 @@ import h5py
 import numpy
 
 import command
-from test_export import ExportTest, enclosed, read_ply
+from test_export import ExportTest, ParaViewTest, enclosed, in_world, read_ply, rotated
+
+# One of each kind around the fluid; the block turns about y, and the box of it all rocks.
+SOLIDS = '''solids=[{bowl: {centre: [0, 0.8, -0.3], radius: 0.1, thickness: 0.1}},
+{box: {centre: [0.3, 0.7, 0.3], size: [0.2, 0.1, 0.3], axis: [0, 0, 1], angle: 30}, motion: [{spin: {axis: [0, 1, 0], rate: 4}}]},
+{sphere: {centre: [-0.3, 0.8, 0.3], radius: 0.12}, color: [1, 0, 0.2], motion: [{shake: {axis: [0, 1, 0], amplitude: 0.1, frequency: 2}}]},
+{cylinder: {centre: [-0.35, 0.8, -0.3], radius: 0.08, height: 0.2, axis: [1, 1, 0]}}]'''
+NAMES = ['solid0_bowl', 'solid1_box', 'solid2_sphere', 'solid3_cylinder']
+VOLUMES = [2 / 3 * numpy.pi * (0.2 ** 3 - 0.1 ** 3), 0.006, 4 / 3 * numpy.pi * 0.12 ** 3, numpy.pi * 0.08 ** 2 * 0.2]
+
+
+def welded(points, triangles):
+    """The same with one vertex in each place; triangles that have lost a side are gone."""
+    places, number = numpy.unique(numpy.round(points, 6), axis=0, return_inverse=True)  # ends of a seam differ by rounding
+    triangles = number.reshape(-1)[numpy.array(triangles)]
+    return places, triangles[(triangles != numpy.roll(triangles, 1, 1)).all(1)]
+
+
+def block_at(time):
+    """Corners of the block of SOLIDS in the box's frame and their velocities, and the sphere's centre."""
+    corner = numpy.array([[x, y, z] for x in (-0.1, 0.1) for y in (-0.05, 0.05) for z in (-0.15, 0.15)])
+    corner = rotated([0, 0, numpy.sin(numpy.pi / 12), numpy.cos(numpy.pi / 12)], corner)
+    arm = rotated([0, numpy.sin(2 * time), 0, numpy.cos(2 * time)], corner)
+    return arm + [0.3, 0.7, 0.3], numpy.cross([0, 4, 0], arm), numpy.array([-0.3, 0.8 + 0.1 * numpy.sin(4 * numpy.pi * time), 0.3])
+
+
+def in_frame(group, position, velocity, frame):
+    """From the box's frame, by the pose of the step."""
+    return in_world({**dict(zip('xyz', position.T)), **{f'velocity_{k}': velocity[:, k] for k in range(3)}}, group.attrs) \
+        if frame == 'world' else (position, velocity)
 
 
 def read_obj(text):
@@ -58,6 +87,89 @@ class Obj(ExportTest):
             if k < 2:
                 self.assertLess(abs(enclosed(numpy.float32(points), triangles) / 0.5 - 1), 0.01)
         self.assertEqual(len(points), 0)
+
+    def test_solids(self):
+        """Objects of one file beside the fluid, each with its volume, in its colour."""
+        self.make('--time', '0.1', '--set', SOLIDS)
+        self.export('a.obj', '--surface', '--solids')
+        meshes = read_obj(self.read('a.obj').decode())
+        self.assertEqual(list(meshes), ['fluid', *NAMES])
+        for name, volume in zip(NAMES, VOLUMES):
+            points, normals, triangles, colors = meshes[name]
+            self.assertLess(abs(enclosed(*welded(points, triangles)) / volume - 1), 0.03, name)
+            numpy.testing.assert_allclose((normals ** 2).sum(1), 1, atol=1e-4)
+            self.assertEqual(len(numpy.unique(colors, axis=0)), 1)
+        numpy.testing.assert_allclose(meshes['solid2_sphere'][3][0], [1, 0, 0.2], atol=0.003)
+        self.export('a.obj', '--surface', '--solids', '--json', 'a.json')
+        self.assertEqual(json.loads(self.read('a.json'))['solids'], 4)
+
+
+class Solids(ParaViewTest):
+    def test_beside_particles(self):
+        """Blocks with names; those that move are where their motion has them, in either frame."""
+        self.make('--time', '0.2', '--every', '0.1', '--set', SOLIDS)
+        for frame in ('box', 'world'):
+            self.export('a.pvd', '--solids', '--frame', frame)
+            seen = self.read_with_paraview('a.pvd')
+            self.assertEqual(len(seen), 3)
+            self.assertEqual(len(os.listdir(self.path('a'))), 3 * 5)
+            with h5py.File(self.path('a.h5part'), 'r') as file:
+                for k, step in enumerate(seen):
+                    self.assert_step(step, file[f'Step#{k}'], frame)
+
+    def assert_step(self, step, group, frame):
+        time = group.attrs['TimeValue']
+        self.assertEqual((step['time'], step['blocks']), (time, ['particles', *NAMES]))
+        numpy.testing.assert_array_equal(step['parts'][0]['arrays']['id'], group['id'])
+        for part, volume in zip(step['parts'][1:], VOLUMES):
+            self.assertEqual((part['own_time'], part['vertices'], sorted(part['arrays'])), (time, 0, ['Normals', 'velocity']))
+            self.assertLess(abs(enclosed(*welded(part['points'], part['triangles'])) / volume - 1), 0.03)
+        corner, velocity, centre = block_at(time)
+        places, velocities = in_frame(group, corner, velocity, frame)
+        block, sphere = step['parts'][2], numpy.array(step['parts'][3]['points'])
+        found = numpy.unique(numpy.round(numpy.hstack([block['points'], block['arrays']['velocity']]), 4), axis=0)
+        wanted = numpy.hstack([places, velocities])
+        self.assertEqual(len(found), 8)
+        for row in wanted:
+            self.assertLess(numpy.abs(found - row).max(1).min(), 2e-4)
+        middle, _ = in_frame(group, centre[None], numpy.zeros((1, 3)), frame)
+        numpy.testing.assert_allclose(numpy.linalg.norm(sphere - middle, axis=1), 0.12, rtol=1e-5)
+
+    def test_beside_a_surface(self):
+        self.make('--time', '0', '--set', SOLIDS)
+        self.export('a.pvd', '--solids', '--surface')
+        step, = self.read_with_paraview('a.pvd')
+        self.assertEqual(step['blocks'], ['fluid', *NAMES])
+        self.assertLess(abs(enclosed(step['parts'][0]['points'], step['parts'][0]['triangles']) / 0.5 - 1), 0.004)
+        self.export('a.pvd')  # an older folder with parts is known to be ours
+        self.assert_whole_series('a', 1)
+
+
+class Bad(ExportTest):
+    def refused(self, output, *more, words, code=2):
+        before = self.entries()
+        self.assertRegex(self.export(output, *more, code=code), words)
+        self.assertEqual(self.entries(), before)
+
+    def test_solids(self):
+        self.make('--time', '0')
+        self.refused('a.pvd', '--solids', words='a.h5part: has no solids; export it without --solids')
+        for name in ('a.vtp', 'a.ply', 'a.ply.series'):
+            self.refused(name, '--solids', words=f'{name} has room for one mesh; for --solids name a FILE.pvd')
+        self.refused('a.obj', '--solids', words='add --surface')
+        with h5py.File(self.path('a.h5part'), 'r+') as file:
+            del file.attrs['settings']
+        self.refused('a.pvd', '--solids', words='(?s)says nothing of its settings.*has no solids')
+
+    def test_a_full_disk(self):
+        self.make('--time', '0', '--set', SOLIDS)
+        for size in (100, 20000, 40000):
+            for name in ('b.pvd', 'b.obj', 'b.obj.series'):
+                code, said = self.slosh('export', 'a.h5part', '-o', name, '--surface', '--solids', '--quiet',
+                                        before=command.limit_files(size))
+                self.assertEqual(code, 1, said)
+                self.assertIn(f'{name}: cannot be written: File too large', said)
+        self.assertEqual(self.entries(), ['a.h5part'])
 
 
 if __name__ == '__main__':
