@@ -112,6 +112,7 @@ const OptionRow option_rows[] = {
     {"--frame", FRAMES, EXPORT, OPTION_CHOICE, AT(frame), .min = FRAME_BOX,
      .help = "whose positions and velocities are written (box)"},
     {"--surface", NULL, EXPORT, OPTION_FLAG, AT(surface), .help = "the fluid's surface as a mesh instead of the particles"},
+    {"--fluids", NULL, EXPORT, OPTION_FLAG, AT(fluids), .help = "with --surface: a mesh of each fluid with a smooth border between them, as blocks of a .pvd or objects of a .obj"},
     {"--solids", NULL, EXPORT, OPTION_FLAG, AT(solids), .help = "beside them each solid as a mesh of its own that moves with it: a block of a .pvd, or with --surface an object of a .obj"},
     {"--level", "F", EXPORT, OPTION_NUMBER, AT(level), .max = 0.99, .flags = OPTION_OPEN_LOW,
      .help = "level of the field at the surface (the level that encloses the fluid's volume: about 0.5)"},

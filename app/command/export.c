@@ -20,11 +20,23 @@ static int fail_run(const Args *args, const Error *error)
     return fail(EXIT_FAILED, error);
 }
 
+static json_t *fluids_json(const Export *export)
+{
+    json_t *fluids = json_array();
+    for (size_t k = 0; k < export->scene.fluid_count; k++)
+        json_array_append_new(
+            fluids, json_pack("{s:s, s:f}", "name", export->fluids[k], "volume", export->volumes[k]));
+    return fluids;
+}
+
 static json_t *surface_json(const Export *export)
 {
-    return json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->level, "cell", export->surface->cell,
-                     "vertices", (json_int_t) export->vertices, "triangles", (json_int_t) export->triangles,
-                     "volume", export->volume);
+    json_t *json = json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->level, "cell",
+                             export->surface->cell, "vertices", (json_int_t) export->vertices, "triangles",
+                             (json_int_t) export->triangles, "volume", export->volume);
+    if (json && export->surface->each)
+        json_object_set_new(json, "fluids", fluids_json(export));
+    return json;
 }
 
 static bool write_json(const Export *export, const Args *args, double wall_seconds, Error *error)
@@ -106,35 +118,57 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
         return error_set(error, "%s is of a surface; add --surface", args->level > 0 ? "--level" : "--cell");
     if (!args->surface)
         return true;
-    *surface = (SurfaceDef){.level = args->level, .cell = args->cell > 0 ? args->cell : 0.5};
+    *surface =
+        (SurfaceDef){.level = args->level, .cell = args->cell > 0 ? args->cell : 0.5, .each = args->fluids};
     export->surface = surface;
     return snapshot_read_scene(export->reader, &export->scene, error) &&
            surface_check(surface, &export->scene, error);
 }
 
-/* A scene is only needed for what is not in the snapshots. */
-static bool understand_solids(Export *export, ExportSolids *solids, const Args *args, Error *error)
+/* What is not in the snapshots themselves. */
+static bool read_scene(const Export *export, const Args *args, Scene *scene, Error *error)
 {
     SnapshotScene numbers;
-    Scene scene;
     Notes notes = {0};
-    if (!args->solids)
-        return true;
-    if (!recorded_scene(export->reader, args->scenes[0], NULL, &numbers, &scene, &notes, error))
+    if (!recorded_scene(export->reader, args->scenes[0], NULL, &numbers, scene, &notes, error))
         return false;
     notes_print(&notes, stderr);
+    return true;
+}
+
+static void name_fluids(Export *export, const WorldDef *world)
+{
+    for (int k = 0; k < world->fluid_count; k++)
+        if (*world->fluids[k].name)
+            snprintf(export->fluids[k], NAME_SIZE, "%s", world->fluids[k].name);
+        else
+            snprintf(export->fluids[k], NAME_SIZE, "fluid%d", k);
+}
+
+static bool understand_parts(Export *export, ExportSolids *solids, const Args *args, Error *error)
+{
+    Scene scene;
+    if (!args->solids && !args->fluids)
+        return true;
+    if (!read_scene(export, args, &scene, error))
+        return false;
+    name_fluids(export, &scene.world);
+    if (!args->solids)
+        return true;
     if (scene.world.solid_count == 0)
         return error_set(error, "%s: has no solids; export it without --solids", args->scenes[0]);
     export->solids = solids;
     return export_solids_make(solids, &scene.world, error);
 }
 
-static bool check_solids(const Export *export, const Args *args, Error *error)
+static bool check_parts(const Export *export, const Args *args, Error *error)
 {
-    return !args->solids || export->kind == EXPORT_PVD || export_is_obj(export->kind) ||
-           error_set(error,
-                     "%s has room for one mesh; for --solids name a FILE.pvd, or with --surface a FILE.obj",
-                     args->output);
+    const char *option = args->solids ? "--solids" : args->fluids ? "--fluids" : NULL;
+    if (args->fluids && !args->surface)
+        return error_set(error, "--fluids is of a surface; add --surface");
+    return !option || export->kind == EXPORT_PVD || export_is_obj(export->kind) ||
+           error_set(error, "%s has room for one mesh; for %s name a FILE.pvd, or with --surface a FILE.obj",
+                     args->output, option);
 }
 
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
@@ -153,12 +187,11 @@ static bool understand(Export *export, SurfaceDef *surface, ExportSolids *solids
     if (export_is_obj(export->kind) && !args->surface)
         return error_set(error, "a .obj holds meshes, no particles: add --surface, or write %s as a .ply",
                          args->output);
-    if (!check_solids(export, args, error) || !export_open(args, &export->reader, error))
+    if (!check_parts(export, args, error) || !export_open(args, &export->reader, error))
         return false;
     export->flaws = snapshot_flaws(export->reader, args->surface);
     return understand_surface(export, surface, args, error) &&
-           understand_solids(export, solids, args, error) &&
-           export_choose(args, export->reader, index, error);
+           understand_parts(export, solids, args, error) && export_choose(args, export->reader, index, error);
 }
 
 int cmd_export(const Args *args)

@@ -121,6 +121,7 @@ static bool refuse_others(const Args *args, Error *error)
 {
     const char *option = args->surface                         ? "--surface"
                          : args->solids                        ? "--solids"
+                         : args->fluids                        ? "--fluids"
                          : args->trails                        ? "--trails"
                          : args->frame != FRAME_BOX            ? "--frame world"
                          : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"

@@ -38,6 +38,7 @@ static bool refuse_others(const Args *args, Error *error)
     const char *end = strrchr(args->output, '.');
     const char *option = args->surface                         ? "--surface"
                          : args->solids                        ? "--solids"
+                         : args->fluids                        ? "--fluids"
                          : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"
                          : args->level > 0                     ? "--level"
                          : args->cell > 0                      ? "--cell"

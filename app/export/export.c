@@ -146,48 +146,70 @@ static FILE *open_file(const Export *export, const char *name, Error *error)
 
 /* ---- the meshes of a snapshot ---- */
 
-static void note_surface(Export *export, const Surface *surface)
+/* Surfaces of fluids in a snapshot. */
+static int count_surfaces(const Export *export)
 {
-    export->vertices = surface->vertices.count;
-    export->triangles = surface->triangle_count;
-    export->level = surface->level;
-    export->volume = surface->volume;
-    export->empty += surface->triangle_count == 0;
+    if (!export->surface)
+        return 0;
+    return export->surface->each ? (int)export->scene.fluid_count : 1;
 }
 
-/* Which of the solids mesh `number` of a snapshot is; less than 0: it is a fluid's. */
-static int solid_of(const Export *export, int number)
+static void note_surfaces(Export *export, const Meshes *meshes)
 {
-    return number - (export->surface ? 1 : 0);
+    export->vertices = export->triangles = 0;
+    export->volume = 0;
+    for (int k = 0; k < count_surfaces(export); k++) {
+        export->vertices += meshes->mesh[k].vertices.count;
+        export->triangles += meshes->mesh[k].triangle_count;
+        export->volume += meshes->mesh[k].volume;
+        export->volumes[k] = meshes->mesh[k].volume;
+    }
+    export->level = meshes->mesh[0].level;
+    export->empty += export->triangles == 0;
 }
 
-static bool make_mesh(Export *export, int number, const SnapshotStep *step, Surface *mesh, Error *error)
+static bool make_surfaces(Export *export, const SnapshotStep *step, Meshes *meshes, Error *error)
 {
-    const int solid = solid_of(export, number);
-    if (solid >= 0)
-        return export_solid_at(export->solids, solid, step, mesh, error);
-    if (!surface_make(export->surface, &export->scene, step, mesh, error))
+    if (!export->surface)
+        return true;
+    if (!(export->surface->each ? surface_make_each : surface_make)(export->surface, &export->scene, step,
+                                                                    meshes->mesh, error))
         return false;
-    note_surface(export, mesh);
+    meshes->count = count_surfaces(export);
+    note_surfaces(export, meshes);
     return true;
 }
 
-static int count_meshes(const Export *export)
+static bool make_solids(const Export *export, const SnapshotStep *step, Meshes *meshes, Error *error)
 {
-    return (export->surface ? 1 : 0) + (export->solids ? export->solids->count : 0);
+    for (int k = 0; export->solids && k < export->solids->count; k++, meshes->count++)
+        if (!export_solid_at(export->solids, k, step, &meshes->mesh[meshes->count], error))
+            return false;
+    return true;
 }
 
 /* In the frame that is asked for. */
 static bool make_meshes(Export *export, const SnapshotStep *step, Meshes *meshes, Error *error)
 {
-    for (int k = 0; k < count_meshes(export); k++) {
-        if (!make_mesh(export, k, step, &meshes->mesh[k], error))
-            return false;
-        meshes->count++;
-        if (export->frame == FRAME_WORLD)
-            surface_to_world(&meshes->mesh[k]);
-    }
+    if (!make_surfaces(export, step, meshes, error) || !make_solids(export, step, meshes, error))
+        return false;
+    for (int k = 0; export->frame == FRAME_WORLD && k < meshes->count; k++)
+        surface_to_world(&meshes->mesh[k]);
     return true;
+}
+
+/* Which of the solids mesh `number` of a snapshot is; less than 0: it is a fluid's. */
+static int solid_of(const Export *export, int number)
+{
+    return number - count_surfaces(export);
+}
+
+static const char *mesh_name(const Export *export, int number)
+{
+    const int solid = solid_of(export, number);
+    if (solid >= 0)
+        return export->solids->solid[solid].name;
+    return export->surface->each ? export->fluids[number] : "fluid";
 }
 
 static void free_meshes(Meshes *meshes)
@@ -223,7 +245,7 @@ static bool write_obj(const Export *export, const char *name, const SnapshotStep
     ObjFile obj = obj_begin(file, step->time, snapshot_frame_name(export->frame), &export->colors);
     for (int k = 0; k < meshes->count; k++) {
         const int solid = solid_of(export, k);
-        obj_add(&obj, solid < 0 ? "fluid" : export->solids->solid[solid].name, &meshes->mesh[k],
+        obj_add(&obj, mesh_name(export, k), &meshes->mesh[k],
                 solid < 0 ? &export->colors : &export->solids->solid[solid].color);
     }
     return close_file(export, file, obj_end(&obj), error);
@@ -289,24 +311,26 @@ bool export_one(Export *export, size_t index, Error *error)
 
 /* ---- a series ---- */
 
-static void add_part(Export *export, const char *name, const char *suffix)
+static void add_part(Export *export, const char *name, const char *kind, int number)
 {
     IndexPart *part = &export->parts[export->part_count++];
     snprintf(part->name, sizeof part->name, "%s", name);
-    snprintf(part->suffix, sizeof part->suffix, "%s", suffix);
+    if (kind)
+        snprintf(part->suffix, sizeof part->suffix, "-%s%d", kind, number);
 }
 
-/* Of a .pvd; without solids it has one file at each time. */
+/* Of a .pvd; with neither solids nor surfaces of each fluid it has one file at each time. */
 static void name_parts(Export *export)
 {
-    if (export->kind != EXPORT_PVD || !export->solids)
+    const bool each = export->surface && export->surface->each;
+    if (export->kind != EXPORT_PVD || (!export->solids && !each))
         return;
-    add_part(export, export->surface ? "fluid" : "particles", "");
-    for (int k = 0; k < export->solids->count; k++) {
-        char suffix[sizeof export->parts->suffix];
-        snprintf(suffix, sizeof suffix, "-solid%d", k);
-        add_part(export, export->solids->solid[k].name, suffix);
-    }
+    if (!export->surface)
+        add_part(export, "particles", NULL, 0);
+    for (int k = 0; k < count_surfaces(export); k++)
+        add_part(export, mesh_name(export, k), each ? "fluid" : NULL, k);
+    for (int k = 0; export->solids && k < export->solids->count; k++)
+        add_part(export, export->solids->solid[k].name, "solid", k);
 }
 
 static bool write_one_of_all(void *user, size_t index, const char *name, double *time, Error *error)

@@ -41,18 +41,20 @@ typedef struct Export {
     const char *path;       /* of the output */
     ExportKind kind;
     SnapshotFrame frame;
-    const SurfaceDef *surface;  /* instead of the particles; NULL: the particles */
-    const ExportSolids *solids; /* beside them, in a .pvd or with a surface in a .obj; NULL: none */
-    SnapshotScene scene;        /* with a surface: that the snapshots are of */
-    SnapshotFlaws flaws;        /* see snapshot_flaws; what was found in those that were written */
-    PointColors colors;         /* of a .ply or a .obj: see export_colors */
-    size_t part_count;          /* of a .pvd: files of each snapshot; 0: one */
+    const SurfaceDef *surface;          /* instead of the particles; NULL: the particles */
+    char fluids[FLUIDS_MAX][NAME_SIZE]; /* names, of surfaces of each fluid */
+    const ExportSolids *solids;         /* beside them, in a .pvd or with a surface in a .obj; NULL: none */
+    SnapshotScene scene;                /* with a surface: that the snapshots are of */
+    SnapshotFlaws flaws;                /* see snapshot_flaws; what was found in those that were written */
+    PointColors colors;                 /* of a .ply or a .obj: see export_colors */
+    size_t part_count;                  /* of a .pvd: files of each snapshot; 0: one */
     IndexPart parts[EXPORT_PARTS_MAX];
     size_t snapshots;           /* written */
     size_t particles;           /* of the last one */
     double time;                /* of the last one, s */
     size_t vertices, triangles; /* of the last surface */
     double level, volume;       /* of its field; that it encloses, m3 */
+    double volumes[FLUIDS_MAX]; /* of each fluid's own */
     size_t empty;               /* surfaces without a triangle */
     bool interrupted;           /* by a signal, before the last snapshot of a series */
 } Export;

@@ -87,6 +87,7 @@ typedef struct Args {
     ClockChoice clock;
     SnapshotFrame frame;    /* export: that positions and velocities are in */
     bool surface;           /* export: the fluid's surface instead of the particles */
+    bool fluids;            /* export: of each fluid its own surface */
     bool solids;            /* export: beside them the solids */
     double level, cell;     /* of it; 0: not given */
     ColorChoice color_by;   /* export: of a .ply or a .obj */

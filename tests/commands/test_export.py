@@ -185,6 +185,24 @@ class ParaView(ParaViewTest):
         self.assertIn(seen['types']['id'], ('long long', 'vtkIdType', 'long'))
         self.assertEqual(seen['vertices'], len(group['id']))
 
+    def test_the_snapshots_themselves(self):
+        self.make()
+        seen = self.read_with_paraview('a.h5part')
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.assertEqual((len(seen), len(file)), (9, 9))
+            for k, step in enumerate(seen):
+                group = file[f'Step#{k}']
+                self.assertEqual((step['time'], len(step['points'])), (group.attrs['TimeValue'], 500))
+                position, velocity = in_box(group)
+                numpy.testing.assert_array_equal(numpy.float32(step['points']), position)
+                numpy.testing.assert_array_equal(numpy.float32(step['arrays']['velocity']), velocity)
+                for name in ('density', 'pressure', 'fluid', 'id'):
+                    numpy.testing.assert_array_equal(step['arrays'][name], group[name])
+        self.assertNotEqual(seen[0]['points'], seen[8]['points'])  # not the same frame nine times, and not zeros
+        self.assertEqual(sorted(seen[8]['arrays']['id']), list(range(500)))
+        self.assertEqual(set(seen[8]['arrays']['fluid']), {0, 1})
+        self.assertGreater(max(seen[8]['arrays']['density']), 900)
+
     def test_series(self):
         self.make()
         os.mkdir(self.path('in & out'))  # moved as a whole, the index finds its files

@@ -144,6 +144,44 @@ class Solids(ParaViewTest):
         self.export('a.pvd')  # an older folder with parts is known to be ours
         self.assert_whole_series('a', 1)
 
+    def test_fluids(self):
+        """Each closed, all of the fluid, with fields of their own; the border is where both say, and no staircase."""
+        self.make('--time', '0')
+        self.export('a.pvd', '--surface', '--fluids', '--json', 'a.json')
+        step, = self.read_with_paraview('a.pvd')
+        self.assertEqual(step['blocks'], ['water', 'oil'])
+        self.assertEqual(sorted(os.listdir(self.path('a'))), ['a-0000-fluid0.vtp', 'a-0000-fluid1.vtp'])
+        said = json.loads(self.read('a.json'))['surface']['fluids']
+        borders = []
+        for k, part in enumerate(step['parts']):
+            points = numpy.array(part['points'])
+            volume = enclosed(points, part['triangles'])
+            self.assertLess(abs(volume / 0.25 - 1), 0.01)
+            self.assertEqual(said[k]['name'], step['blocks'][k])
+            self.assertLess(abs(said[k]['volume'] / volume - 1), 1e-4)
+            self.assertEqual(set(part['arrays']['fluid']), {k})
+            self.assertLess(abs(numpy.median(part['arrays']['density']) / (1000, 900)[k] - 1), 0.1)
+            inside = (numpy.abs(points[:, 0]) < 0.1) & (points[:, 1] > 0.1) & (points[:, 1] < 0.4) & (abs(points[:, 2]) < 0.4)
+            borders.append(points[inside])
+            self.assertGreater(inside.sum(), 50)
+            self.assertLess(numpy.abs(points[inside, 0]).max(), 0.003)
+            normals = numpy.array(part['arrays']['Normals'])[inside]
+            self.assertGreater(normals[:, 0].min() if k == 0 else -normals[:, 0].max(), 0.99)
+        self.assertEqual(len(borders[0]), len(borders[1]))
+        self.export('a.obj', '--surface', '--fluids')
+        meshes = read_obj(self.read('a.obj').decode())
+        self.assertEqual(list(meshes), ['water', 'oil'])
+        for part, (points, _, triangles, _) in zip(step['parts'], meshes.values()):
+            numpy.testing.assert_array_equal(numpy.float32(points), numpy.float32(part['points']))
+            numpy.testing.assert_array_equal(triangles, part['triangles'])
+
+    def test_fluids_without_particles(self):
+        self.make('--time', '0')
+        self.empty_the_last()
+        self.assertIn('has no fluid at that level', self.export('a.pvd', '--surface', '--fluids'))
+        step, = self.read_with_paraview('a.pvd')
+        self.assertEqual([part['points'] for part in step['parts']], [[], []])
+
 
 class Bad(ExportTest):
     def refused(self, output, *more, words, code=2):
@@ -157,6 +195,8 @@ class Bad(ExportTest):
         for name in ('a.vtp', 'a.ply', 'a.ply.series'):
             self.refused(name, '--solids', words=f'{name} has room for one mesh; for --solids name a FILE.pvd')
         self.refused('a.obj', '--solids', words='add --surface')
+        self.refused('a.pvd', '--fluids', words='--fluids is of a surface; add --surface')
+        self.refused('a.ply', '--fluids', '--surface', words='a.ply has room for one mesh; for --fluids name a FILE.pvd')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             del file.attrs['settings']
         self.refused('a.pvd', '--solids', words='(?s)says nothing of its settings.*has no solids')
