@@ -2,8 +2,11 @@
    sizes. */
 #include "app/export/vtp.h"
 
+#include "sim/base/scalar.h"
+
 #include <inttypes.h>
 #include <stdbool.h>
+#include <string.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written as numbers lie in memory");
 
@@ -90,16 +93,44 @@ static uint64_t block_bytes(const Block *block)
     return (uint64_t)block->count * block->components * block->bytes;
 }
 
+/* As VTK's key for it, which ParaView keeps with the array; "": none. */
+static const char *unit_of(const char *name)
+{
+    if (strcmp(name, "Points") == 0)
+        return "m";
+    if (strcmp(name, "velocity") == 0)
+        return "m/s";
+    if (strcmp(name, "time") == 0)
+        return "s";
+    for (int k = 0; scalar_list[k].name; k++)
+        if (strcmp(name, scalar_list[k].name) == 0)
+            return scalar_list[k].unit;
+    return "";
+}
+
+static void print_array(FILE *file, const Block *block, uint64_t offset)
+{
+    const char *unit = unit_of(block->name);
+    fprintf(file,
+            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" "
+            "offset=\"%" PRIu64 "\"",
+            block->type, block->name, block->components, offset);
+    if (*unit)
+        fprintf(
+            file,
+            "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">%s</InformationKey></DataArray>\n",
+            unit);
+    else
+        fputs("/>\n", file);
+}
+
 static void print_section(FILE *file, const Contents *all, Section section)
 {
     uint64_t offset = 0;
     for (size_t i = 0; i < all->count; i++) {
         const Block *block = &all->block[i];
         if (block->section == section)
-            fprintf(file,
-                    "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" "
-                    "offset=\"%" PRIu64 "\"/>\n",
-                    block->type, block->name, block->components, offset);
+            print_array(file, block, offset);
         offset += sizeof(uint64_t) + block_bytes(block);
     }
 }

@@ -39,6 +39,8 @@ def seen_of(data, time):
                                      for k in range(of_cells.GetNumberOfArrays())},
            'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
            'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
+           'units': {name: arrays.GetArray(name).GetInformation().Get(data.GetPoints().GetData().UNITS_LABEL())
+                     for name in names if data.GetPoints()},
            'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
            'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}}
 def steps_of(path):
@@ -201,6 +203,10 @@ class ParaView(ParaViewTest):
         self.assertNotEqual(seen[0]['points'], seen[8]['points'])  # not the same frame nine times, and not zeros
         self.assertEqual(sorted(seen[8]['arrays']['id']), list(range(500)))
         self.assertEqual(set(seen[8]['arrays']['fluid']), {0, 1})
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            units = dict(line.split(' = ') for line in file.attrs['units'].decode().split('\n') if line)
+        self.assertEqual({name: units[name] for name in ('TimeValue', 'z', 'velocity_1', 'density', 'pressure')},
+                         {'TimeValue': 's', 'z': 'm', 'velocity_1': 'm/s', 'density': 'kg/m3', 'pressure': 'Pa'})
         self.assertGreater(max(seen[8]['arrays']['density']), 900)
 
     def test_series(self):
@@ -220,6 +226,7 @@ class ParaView(ParaViewTest):
                 numpy.testing.assert_array_equal(numpy.float32(step['points']), position)
                 numpy.testing.assert_array_equal(numpy.float32(step['arrays']['velocity']), velocity)
                 self.same_fields(step, group)
+                self.assertEqual(step['units'], {'velocity': 'm/s', 'density': 'kg/m3', 'pressure': 'Pa', 'fluid': None, 'id': None})
         self.assertNotEqual(seen[0]['points'], seen[8]['points'])
 
     def test_series_in_the_world(self):
