@@ -9,9 +9,9 @@ ObjFile obj_begin(FILE *file, double time, const char *frame, const PointColors 
     return (ObjFile){.file = file};
 }
 
-static void print_name(FILE *file, const char *name)
+static void print_name(FILE *file, const char *kind, const char *name)
 {
-    fputs("o ", file);
+    fprintf(file, "%s ", kind);
     for (; *name; name++)
         fputc((unsigned char)*name <= ' ' ? '_' : *name, file);
     fputc('\n', file);
@@ -33,7 +33,8 @@ void obj_add(ObjFile *obj, const char *name, const Surface *mesh, const PointCol
     const PointPainter painter = point_painter(colors);
     const size_t count = mesh->vertices.count, first = obj->vertices + 1;
     FILE *file = obj->file;
-    print_name(file, name);
+    print_name(file, "o", name);
+    print_name(file, "g", name);
     for (size_t i = 0; i < count; i++)
         print_vertex(file, &mesh->vertices, i, &painter);
     for (size_t i = 0; i < count; i++)

@@ -1,10 +1,10 @@
 /* Meshes as Wavefront OBJ, for Blender, Houdini and whatever else reads meshes: text, any number of named
    meshes in a file.
 
-   Each begins with `o NAME`; its vertices are `v x y z`, m, and behind them red green blue where they have a
-   colour (sRGB 0 to 1, which Blender and Houdini read), their normals `vn`, and its triangles `f`,
-   counter-clockwise seen from outside. y is up. Numbers are those of the snapshot to the last bit. The head
-   has time, frame and units. */
+   Each begins with `o NAME` and `g NAME`, an object for one reader and a group for another; its vertices are
+   `v x y z`, m, and behind them red green blue where they have a colour (sRGB 0 to 1, as Blender takes them),
+   their normals `vn`, and its triangles `f`, counter-clockwise seen from outside. y is up. Numbers are those
+   of the snapshot to the last bit. The head has time, frame and units. */
 #ifndef SLOSH_OBJ_H
 #define SLOSH_OBJ_H
 

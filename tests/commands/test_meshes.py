@@ -43,6 +43,8 @@ def read_obj(text):
     """{name: (points, normals, triangles, colours)} of what is between `o` and `o`; triangles count from the mesh's first."""
     meshes, before = {}, 0
     for name, part in zip(re.findall(r'^o (\S+)$', text, re.M), re.split(r'^o .*\n', text, flags=re.M)[1:]):
+        group, part = part.split('\n', 1)
+        assert group == f'g {name}'
         rows = {key: [line.split()[1:] for line in part.splitlines() if line.startswith(f'{key} ')] for key in ('v', 'vn', 'f')}
         assert sum(map(len, rows.values())) == len(part.splitlines()), part
         corners = [[corner.split('//') for corner in face] for face in rows['f']]
@@ -62,7 +64,7 @@ class Obj(ExportTest):
         self.export('a.obj', '--surface', '--frame', 'world')
         self.export('a.ply', '--surface', '--frame', 'world')
         text = self.read('a.obj').decode()
-        self.assertRegex(text, r'\A# slosh, time 0\.1\d* s, frame of the world; places in m, y up\no fluid\nv ')
+        self.assertRegex(text, r'\A# slosh, time 0\.1\d* s, frame of the world; places in m, y up\no fluid\ng fluid\nv ')
         (points, normals, triangles, colors), = read_obj(text).values()
         vertices, faces = read_ply(self.read('a.ply'))
         numpy.testing.assert_array_equal(numpy.float32(points), numpy.stack([vertices[axis] for axis in 'xyz'], 1))
