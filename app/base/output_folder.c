@@ -11,7 +11,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* NAME-DIGITS and the suffix. */
+/* What is behind a part's name, "-fluid0"; `at` itself where none is there. */
+static const char *skip_part(const char *at)
+{
+    if (*at != '-')
+        return at;
+    const size_t letters = strspn(at + 1, "abcdefghijklmnopqrstuvwxyz");
+    const size_t digits = strspn(at + 1 + letters, "0123456789");
+    return letters > 0 && digits > 0 ? at + 1 + letters + digits : at;
+}
+
+/* NAME-DIGITS, the name of a part if there are some, and the suffix. */
 static bool is_ours(const OutputFolder *folder, const char *file)
 {
     const char *slash = strrchr(folder->path, '/');
@@ -21,7 +31,7 @@ static bool is_ours(const OutputFolder *folder, const char *file)
         return false;
     const char *number = file + length + 1;
     const size_t digits = strspn(number, "0123456789");
-    return digits > 0 && strcmp(number + digits, folder->suffix) == 0;
+    return digits > 0 && strcmp(skip_part(number + digits), folder->suffix) == 0;
 }
 
 /* Whether nothing of someone else's would be lost with an older folder of that name. */

@@ -5,8 +5,8 @@
 #include "app/base/output_pending.h"
 #include "sim/base/error.h"
 
-/* One folder in the making. Zero-initialise it. Its files are called after it, NAME-0123.vtp in NAME, so that
-   an older one is known to be ours and can be replaced. */
+/* One folder in the making. Zero-initialise it. Its files are called after it, NAME-0123.vtp or
+   NAME-0123-part4.vtp in NAME, so that an older one is known to be ours and can be replaced. */
 typedef struct OutputFolder {
     char path[1024];             /* the name that was asked for */
     char target[1024];           /* where it leads when it is a link, which stays */

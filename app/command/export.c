@@ -1,8 +1,9 @@
-#include "app/output/export.h"
+#include "app/export/export.h"
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
+#include "app/playback/recorded_scene.h"
 #include "sim/base/stage.h"
 
 #include <stdio.h>
@@ -19,11 +20,23 @@ static int fail_run(const Args *args, const Error *error)
     return fail(EXIT_FAILED, error);
 }
 
+static json_t *fluids_json(const Export *export)
+{
+    json_t *fluids = json_array();
+    for (size_t k = 0; k < export->scene.fluid_count; k++)
+        json_array_append_new(
+            fluids, json_pack("{s:s, s:f}", "name", export->fluids[k], "volume", export->volumes[k]));
+    return fluids;
+}
+
 static json_t *surface_json(const Export *export)
 {
-    return json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->level, "cell", export->surface->cell,
-                     "vertices", (json_int_t) export->vertices, "triangles", (json_int_t) export->triangles,
-                     "volume", export->volume);
+    json_t *json = json_pack("{s:f, s:f, s:I, s:I, s:f}", "level", export->level, "cell",
+                             export->surface->cell, "vertices", (json_int_t) export->vertices, "triangles",
+                             (json_int_t) export->triangles, "volume", export->volume);
+    if (json && export->surface->each)
+        json_object_set_new(json, "fluids", fluids_json(export));
+    return json;
 }
 
 static bool write_json(const Export *export, const Args *args, double wall_seconds, Error *error)
@@ -38,6 +51,8 @@ static bool write_json(const Export *export, const Args *args, double wall_secon
                   export->time, "wall_seconds", wall_seconds, "stopped", export->interrupted);
     if (json && export->surface)
         json_object_set_new(json, "surface", surface_json(export));
+    if (json && export->solids)
+        json_object_set_new(json, "solids", json_integer(export->solids->count));
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);
     return written;
@@ -59,6 +74,8 @@ static void report(const Export *export, const Args *args)
     if (export->surface)
         fprintf(stderr, "a surface of %zu triangles around %.4g m3 at level %.3g, ", export->triangles,
                 export->volume, export->level);
+    if (export->solids)
+        fprintf(stderr, "%d solid%s, ", export->solids->count, plural((size_t) export->solids->count));
     fprintf(stderr, "in the frame of the %s\n", snapshot_frame_name(export->frame));
 }
 
@@ -101,34 +118,87 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
         return error_set(error, "%s is of a surface; add --surface", args->level > 0 ? "--level" : "--cell");
     if (!args->surface)
         return true;
-    *surface = (SurfaceDef){.level = args->level, .cell = args->cell > 0 ? args->cell : 0.5};
+    *surface =
+        (SurfaceDef){.level = args->level, .cell = args->cell > 0 ? args->cell : 0.5, .each = args->fluids};
     export->surface = surface;
     return snapshot_read_scene(export->reader, &export->scene, error) &&
            surface_check(surface, &export->scene, error);
 }
 
+/* What is not in the snapshots themselves. */
+static bool read_scene(const Export *export, const Args *args, Scene *scene, Error *error)
+{
+    SnapshotScene numbers;
+    Notes notes = {0};
+    if (!recorded_scene(export->reader, args->scenes[0], NULL, &numbers, scene, &notes, error))
+        return false;
+    notes_print(&notes, stderr);
+    return true;
+}
+
+static void name_fluids(Export *export, const WorldDef *world)
+{
+    for (int k = 0; k < world->fluid_count; k++)
+        if (*world->fluids[k].name)
+            snprintf(export->fluids[k], NAME_SIZE, "%s", world->fluids[k].name);
+        else
+            snprintf(export->fluids[k], NAME_SIZE, "fluid%d", k);
+}
+
+static bool understand_parts(Export *export, ExportSolids *solids, const Args *args, Error *error)
+{
+    Scene scene;
+    if (!args->solids && !args->fluids)
+        return true;
+    if (!read_scene(export, args, &scene, error))
+        return false;
+    name_fluids(export, &scene.world);
+    if (!args->solids)
+        return true;
+    if (scene.world.solid_count == 0)
+        return error_set(error, "%s: has no solids; export it without --solids", args->scenes[0]);
+    export->solids = solids;
+    return export_solids_make(solids, &scene.world, error);
+}
+
+static bool check_parts(const Export *export, const Args *args, Error *error)
+{
+    const char *option = args->solids ? "--solids" : args->fluids ? "--fluids" : NULL;
+    if (args->fluids && !args->surface)
+        return error_set(error, "--fluids is of a surface; add --surface");
+    return !option || export->kind == EXPORT_PVD || export_is_obj(export->kind) ||
+           error_set(error, "%s has room for one mesh; for %s name a FILE.pvd, or with --surface a FILE.obj",
+                     args->output, option);
+}
+
 /* What is to be done, before anything is: false is a mistake of the command line or of the input. */
-static bool understand(Export *export, SurfaceDef *surface, size_t *index, const Args *args, Error *error)
+static bool understand(Export *export, SurfaceDef *surface, ExportSolids *solids, size_t *index,
+                       const Args *args, Error *error)
 {
     if (!export_needs_slice(args, error) || !export_kind(args->output, &export->kind, error))
         return false;
     if (export_is_series(export->kind) && args->time_given)
-        return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vtp or a FILE.ply",
-                         args->output);
-    if (args->color_by != COLOR_CHOICE_AUTO && (export->kind == EXPORT_PVD || export->kind == EXPORT_VTP))
         return error_set(error,
-                         "--color-by is of a .ply; a .vtp has every scalar, and ParaView colours by any");
-    if (!export_open(args, &export->reader, error))
+                         "--time makes no sense for all snapshots, %s; name a FILE.vtp, FILE.ply or FILE.obj",
+                         args->output);
+    if (args->color_by != COLOR_CHOICE_AUTO && !export_is_colored(export->kind))
+        return error_set(
+            error, "--color-by is of a .ply or a .obj; a .vtp has every scalar, and ParaView colours by any");
+    if (export_is_obj(export->kind) && !args->surface)
+        return error_set(error, "a .obj holds meshes, no particles: add --surface, or write %s as a .ply",
+                         args->output);
+    if (!check_parts(export, args, error) || !export_open(args, &export->reader, error))
         return false;
     export->flaws = snapshot_flaws(export->reader, args->surface);
     return understand_surface(export, surface, args, error) &&
-           export_choose(args, export->reader, index, error);
+           understand_parts(export, solids, args, error) && export_choose(args, export->reader, index, error);
 }
 
 int cmd_export(const Args *args)
 {
     Export export = {.path = args->output, .frame = args->frame};
     SurfaceDef surface = {0};
+    ExportSolids solids = {0};
     Error error = {{0}};
     size_t index = 0;
     interrupt_install();
@@ -136,8 +206,10 @@ int cmd_export(const Args *args)
         return export_slice(args);
     if (args->trails)
         return export_trails(args);
-    const int code = understand(&export, &surface, &index, args, &error) ? run(&export, index, args, &error)
-                                                                         : fail(EXIT_USAGE, &error);
+    const int code = understand(&export, &surface, &solids, &index, args, &error)
+                         ? run(&export, index, args, &error)
+                         : fail(EXIT_USAGE, &error);
+    export_solids_free(&solids);
     snapshot_reader_close(export.reader);
     return code;
 }

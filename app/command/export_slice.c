@@ -4,8 +4,8 @@
 #include "app/base/suggest.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
-#include "app/output/series.h"
-#include "app/output/slice_table.h"
+#include "app/export/series.h"
+#include "app/export/slice_table.h"
 #include "app/output/snapshot_arrays.h"
 #include "app/output/snapshot_sift.h"
 #include "app/session/headless.h"
@@ -120,6 +120,8 @@ static bool choose_kernel(SliceExport *export, Error *error)
 static bool refuse_others(const Args *args, Error *error)
 {
     const char *option = args->surface                         ? "--surface"
+                         : args->solids                        ? "--solids"
+                         : args->fluids                        ? "--fluids"
                          : args->trails                        ? "--trails"
                          : args->frame != FRAME_BOX            ? "--frame world"
                          : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"

@@ -4,8 +4,8 @@
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
+#include "app/export/vtp.h"
 #include "app/output/step_buffers.h"
-#include "app/output/vtp.h"
 #include "app/session/headless.h"
 #include "app/trace/trace.h"
 #include "sim/base/stage.h"
@@ -37,6 +37,8 @@ static bool refuse_others(const Args *args, Error *error)
 {
     const char *end = strrchr(args->output, '.');
     const char *option = args->surface                         ? "--surface"
+                         : args->solids                        ? "--solids"
+                         : args->fluids                        ? "--fluids"
                          : args->color_by != COLOR_CHOICE_AUTO ? "--color-by"
                          : args->level > 0                     ? "--level"
                          : args->cell > 0                      ? "--cell"

@@ -1,7 +1,7 @@
 #include "app/base/json_file.h"
 #include "app/command/cmd.h"
+#include "app/export/export.h"
 #include "app/metric/metric_list.h"
-#include "app/output/export.h"
 #include "app/scene/json.h"
 #include "app/scene/keys.h"
 #include "app/scene/preset.h"

@@ -93,6 +93,10 @@ static bool write_settings(hid_t file, const Scene *scene)
     return written;
 }
 
+/* What the file does not name has none: numbers, and shares. */
+static const char units[] = "TimeValue = s\nx = m\ny = m\nz = m\nvelocity_0 = m/s\nvelocity_1 = m/s\n"
+                            "velocity_2 = m/s\ndensity = kg/m3\npressure = Pa\n";
+
 static bool write_root(hid_t file, const Scene *scene)
 {
     const WorldDef *def = &scene->world;
@@ -107,7 +111,7 @@ static bool write_root(hid_t file, const Scene *scene)
             colors[i][k] = linear_to_srgb(def->fluids[i].color[k]);
     }
     return write_texts(file, "title", SCALAR, sizeof scene->title, scene->title) &&
-           write_settings(file, scene) &&
+           write_settings(file, scene) && write_texts(file, SNAPSHOT_UNITS, SCALAR, sizeof units, units) &&
            write_texts(file, "slosh_version", SCALAR, sizeof SLOSH_VERSION, SLOSH_VERSION) &&
            write_texts(file, "method", SCALAR, NAME_SIZE, def->method) &&
            write_doubles(file, "spacing", SCALAR, &def->spacing) &&

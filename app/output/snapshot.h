@@ -5,7 +5,7 @@
    number, `restart` (the WorldNumbers of sim/world/world_state.h, from which with the particles a run goes
    on) and `complete`, which is written last. All in SI units and in the box's frame; pose and rates of the
    box in the world's. Attributes of the root say what scene it was, `settings` each key as slosh info prints
-   it. */
+   it, `units` the unit of each dataset. */
 #ifndef SLOSH_SNAPSHOT_H
 #define SLOSH_SNAPSHOT_H
 

@@ -24,6 +24,9 @@
 /* The settings of the scene, of the root: see scene_print. */
 #define SNAPSHOT_SETTINGS "settings"
 
+/* The units of the datasets, of the root: a line "NAME = UNIT" each. */
+#define SNAPSHOT_UNITS "units"
+
 /* What moved the box, of the root: see snapshot_note_hand. */
 #define SNAPSHOT_HAND "hand"
 

@@ -87,8 +87,10 @@ typedef struct Args {
     ClockChoice clock;
     SnapshotFrame frame;    /* export: that positions and velocities are in */
     bool surface;           /* export: the fluid's surface instead of the particles */
+    bool fluids;            /* export: of each fluid its own surface */
+    bool solids;            /* export: beside them the solids */
     double level, cell;     /* of it; 0: not given */
-    ColorChoice color_by;   /* export: of a .ply */
+    ColorChoice color_by;   /* export: of a .ply or a .obj */
     double error, frame_ms; /* fit: percent, ms; 0: not given */
     const char *slice;  /* export: "{point: ..., normal: ...}"; NULL: no slice, and none of the next three */
     const char *trails; /* export: "{stride: 20, ...}"; NULL: no trails */

@@ -158,7 +158,7 @@ static void slips_are_named(void **state)
     refuse("info --backend=", "slosh info: --backend needs a name or number after it");
     refuse("export -o a.ply", "slosh export: the snapshot file is missing; write slosh export IN.h5part -o");
     refuse("export a.h5part",
-           "slosh export: -o is missing; add -o with OUT.pvd, OUT.vtp, OUT.ply, or of a slice");
+           "slosh export: -o is missing; add -o with OUT.pvd, OUT.vtp, OUT.ply, OUT.obj, or of a slice");
     refuse("export a.h5part -o a.ply --frame moon",
            "slosh export: --frame must be one of box|world, not 'moon'");
     refuse("export a.h5part -o a.ply --frame wor",

@@ -1,10 +1,10 @@
 /* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
 #include "tests/app/output_fixture.h"
 
-#include "app/output/export.h"
-#include "app/output/export_index.h"
-#include "app/output/ply.h"
-#include "app/output/vtp.h"
+#include "app/export/export.h"
+#include "app/export/export_index.h"
+#include "app/export/ply.h"
+#include "app/export/vtp.h"
 
 #include <jansson.h>
 #include <math.h>
@@ -69,7 +69,7 @@ static void the_worlds_frame_by_hand(void **state)
     snapshot_step_free(&step);
 }
 
-static void write_ply(const SnapshotStep *step, const PlyColors *colors)
+static void write_ply(const SnapshotStep *step, const PointColors *colors)
 {
     FILE *file = fopen("a.ply", "wb");
     assert_true(ply_write(file, step, "world", colors));
@@ -101,12 +101,12 @@ static void a_ply_is_read_back(void **state)
                                "property uint id\n";
     static const char color[] = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     /* of the third fluid nothing is known; a number that is none, or out of range, does no harm */
-    static const PlyColors colors = {.count = 2, .color = {{0, 0.5, 1}, {-1, 2, NAN}}};
+    static const PointColors colors = {.count = 2, .color = {{0, 0.5, 1}, {-1, 2, NAN}}};
     static const unsigned char bytes[3][3] = {{0, 128, 255}, {0, 255, 0}, {128, 128, 128}};
     SnapshotStep step = some_step(1000);
     for (int colored = 0; colored < 2; colored++) {
         size_t size, at = strlen(head), width = colored ? 43 : 40;
-        write_ply(&step, colored ? &colors : &(PlyColors){0});
+        write_ply(&step, colored ? &colors : &(PointColors){0});
         char *file = read_all("a.ply", &size);
         assert_memory_equal(file, head, at);
         if (colored) {
@@ -132,7 +132,7 @@ static void a_ply_is_coloured_by_a_scalar(void **state)
     (void)state;
     static const unsigned char first[3] = {0x44, 0x01, 0x54}, last[3] = {0xfd, 0xe7, 0x25};
     static const float density[4] = {950, 1000, 1100, NAN};
-    const PlyColors colors = {.mapped = true, .scalar = SCALAR_DENSITY, .low = 1000, .high = 1100};
+    const PointColors colors = {.mapped = true, .scalar = SCALAR_DENSITY, .low = 1000, .high = 1100};
     size_t size;
     SnapshotStep step = some_step(4);
     memcpy(step.density, density, sizeof density);
@@ -145,8 +145,9 @@ static void a_ply_is_coloured_by_a_scalar(void **state)
     step.velocity[0][1] = 3;
     step.velocity[1][1] = 0;
     step.velocity[2][1] = -4;
-    assert_true(ply_scalar(&step, 1, SCALAR_SPEED) == 5);
-    assert_true(ply_scalar(&step, 2, SCALAR_PRESSURE) == -10 && ply_scalar(&step, 1, SCALAR_DENSITY) == 1000);
+    assert_true(point_scalar(&step, 1, SCALAR_SPEED) == 5);
+    assert_true(point_scalar(&step, 2, SCALAR_PRESSURE) == -10 &&
+                point_scalar(&step, 1, SCALAR_DENSITY) == 1000);
     free(file);
     snapshot_step_free(&step);
 }
@@ -252,7 +253,7 @@ static void a_surface_as_ply_is_read_back(void **state)
                                "property float density\nproperty float pressure\nproperty int fluid\n"
                                "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                                "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
-    static const PlyColors colors = {.count = 1, .color = {{0, 0.5, 1}}};
+    static const PointColors colors = {.count = 1, .color = {{0, 0.5, 1}}};
     enum { VERTEX = 51, FACE = 13 };
     size_t size;
     Surface surface = some_surface();
@@ -318,7 +319,7 @@ static void a_series_of_ply_has_an_index_in_json(void **state)
     static const double times[] = {0, 0.1};
     char text[1024] = "";
     FILE *file = fopen("a.ply.series", "w+");
-    assert_true(export_index_series(file, "x/a \"b\"", ".ply", 2, times));
+    assert_true(export_index_series(file, &(ExportIndex){"x/a \"b\"", ".ply", 2, times, 0, NULL}));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);
@@ -330,11 +331,12 @@ static void a_series_of_ply_has_an_index_in_json(void **state)
     assert_true(json_real_value(json_object_get(second, "time")) == 0.1);
     json_decref(index);
     file = fopen("a.ply.series", "w+");
-    assert_false(export_index_series(file, "\xff", ".ply", 2, times)); /* not UTF-8 */
+    assert_false(
+        export_index_series(file, &(ExportIndex){"\xff", ".ply", 2, times, 0, NULL})); /* not UTF-8 */
     fclose(file);
     file = fopen("/dev/full", "w");
     setbuf(file, NULL);
-    assert_false(export_index_series(file, "a", ".ply", 2, times));
+    assert_false(export_index_series(file, &(ExportIndex){"a", ".ply", 2, times, 0, NULL}));
     fclose(file);
 }
 
@@ -348,7 +350,7 @@ static void the_index_names_its_files(void **state)
     export_index_name("fluid", 12345, ".ply", name, sizeof name);
     assert_string_equal(name, "fluid-12345.ply");
     FILE *file = fopen("a.pvd", "w+");
-    assert_true(export_index_pvd(file, "x/a&<b>\"", ".vtp", 2, times));
+    assert_true(export_index_pvd(file, &(ExportIndex){"x/a&<b>\"", ".vtp", 2, times, 0, NULL}));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);
@@ -365,14 +367,14 @@ static void a_failed_stream_is_told(void **state)
     assert_false(vtp_write(file, &step));
     fclose(file);
     file = fopen("/dev/full", "wb");
-    assert_false(ply_write(file, &step, "box", &(PlyColors){0}));
+    assert_false(ply_write(file, &step, "box", &(PointColors){0}));
     fclose(file);
     Surface surface = some_surface();
     for (int k = 0; k < 2; k++) {
         file = fopen("/dev/full", "wb");
         setbuf(file, NULL);
         assert_false(k == 0 ? vtp_write_surface(file, &surface)
-                            : ply_write_surface(file, &surface, "box", &(PlyColors){0}));
+                            : ply_write_surface(file, &surface, "box", &(PointColors){0}));
         fclose(file);
     }
     surface_free(&surface);

@@ -1,6 +1,6 @@
 /* Surfaces of particles placed by hand: closed, of the fluid's volume, at the level, with the particles'
  * fields. */
-#include "app/output/surface.h"
+#include "app/export/surface.h"
 #include "sim/kernel/lattice.h"
 #include "sim/mesh/field.h"
 #include "tests/closed_mesh.h"
@@ -333,6 +333,61 @@ static void what_does_not_fit_is_refused(void **state)
     snapshot_step_free(&step);
 }
 
+/* A ball of two fluids with a slanting border between them, which the lattice gives as steps of a spacing. */
+static SnapshotStep slanting_step(void)
+{
+    SnapshotStep step = some_step(ball);
+    for (size_t i = 0; i < step.count; i++) {
+        step.fluid[i] =
+            step.position[0][i] + 0.6F * (step.position[1][i] - 1) + 0.3F * step.position[2][i] > 0.031F;
+        step.density[i] = step.fluid[i] ? 500 : 1000;
+    }
+    return step;
+}
+
+/* How far vertex i is behind the border that slanting_step means, m. */
+static double behind_border(const Surface *surface, size_t i)
+{
+    float *const *x = surface->vertices.position;
+    return (x[0][i] + 0.6 * (x[1][i] - 1) + 0.3 * x[2][i] - 0.031) / sqrt(1 + 0.36 + 0.09);
+}
+
+static bool deep_inside(const Surface *surface, size_t i)
+{
+    float *const *x = surface->vertices.position;
+    return hypot(hypot(x[0][i], x[1][i] - 1), x[2][i]) < 0.55;
+}
+
+static void fluids_share_a_smooth_border(void **state)
+{
+    (void)state;
+    SurfaceDef def = usual;
+    def.level = 0;
+    def.each = true;
+    Error error = {{0}};
+    Surface each[FLUIDS_MAX];
+    SnapshotStep step = slanting_step();
+    size_t border[2] = {0, 0};
+    assert_true(surface_make_each(&def, &scene, &step, each, &error));
+    for (int k = 0; k < 2; k++) {
+        assert_closed(each[k].triangle, each[k].triangle_count, each[k].vertices.count);
+        for (size_t i = 0; i < each[k].vertices.count; i++) {
+            assert_true(each[k].vertices.density[i] > 0.999 * (k ? 500 : 1000) &&
+                        each[k].vertices.density[i] < 1.001 * (k ? 500 : 1000));
+            if (deep_inside(&each[k], i)) {
+                border[k]++;
+                assert_true(fabs(behind_border(&each[k], i)) < 0.025);
+            }
+        }
+    }
+    assert_true(border[0] > 200 && border[0] == border[1]);
+    const double volume = (double)step.count * 1e-3;
+    assert_true(fabs((each[0].volume + each[1].volume) / volume - 1) < 0.01);
+    for (int k = 0; k < 2; k++)
+        surface_free(&each[k]);
+    snapshot_step_free(&step);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -344,6 +399,7 @@ int main(void)
         cmocka_unit_test(vertices_have_the_particles_fields),
         cmocka_unit_test(a_fluid_at_rest_keeps_its_mesh),
         cmocka_unit_test(the_worlds_frame_by_hand),
+        cmocka_unit_test(fluids_share_a_smooth_border),
         cmocka_unit_test(what_does_not_fit_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -23,29 +23,37 @@ import json, os
 from paraview.simple import OpenDataFile
 from paraview import servermanager
 from vtk.util.numpy_support import vtk_to_numpy
+def seen_of(data, time):
+    arrays = data.GetPointData()
+    names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
+    own = data.GetFieldData().GetArray('TimeValue')
+    of_cells = data.GetCellData()
+    lines, order = [], data.GetLines().GetData()
+    order = vtk_to_numpy(order).tolist() if data.GetNumberOfLines() else []
+    while order:
+        lines.append(order[1:1 + order[0]])
+        order = order[1 + order[0]:]
+    cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
+    return {'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
+           'lines': lines, 'cells': {of_cells.GetArrayName(k): vtk_to_numpy(of_cells.GetArray(k)).tolist()
+                                     for k in range(of_cells.GetNumberOfArrays())},
+           'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
+           'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
+           'units': {name: arrays.GetArray(name).GetInformation().Get(data.GetPoints().GetData().UNITS_LABEL())
+                     for name in names if data.GetPoints()},
+           'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
+           'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}}
 def steps_of(path):
     reader = OpenDataFile(path)
     reader.UpdatePipelineInformation()
     for time in list(reader.TimestepValues) or [None]:
         reader.UpdatePipeline() if time is None else reader.UpdatePipeline(time)
         data = servermanager.Fetch(reader)
-        arrays = data.GetPointData()
-        names = [arrays.GetArrayName(k) for k in range(arrays.GetNumberOfArrays())]
-        own = data.GetFieldData().GetArray('TimeValue')
-        of_cells = data.GetCellData()
-        lines, order = [], data.GetLines().GetData()
-        order = vtk_to_numpy(order).tolist() if data.GetNumberOfLines() else []
-        while order:
-            lines.append(order[1:1 + order[0]])
-            order = order[1 + order[0]:]
-        cells = vtk_to_numpy(data.GetPolys().GetData()).tolist() if data.GetNumberOfPolys() else []
-        yield {'time': time, 'own_time': own and own.GetValue(0), 'vertices': data.GetNumberOfVerts(),
-               'lines': lines, 'cells': {of_cells.GetArrayName(k): vtk_to_numpy(of_cells.GetArray(k)).tolist()
-                                         for k in range(of_cells.GetNumberOfArrays())},
-               'triangles': [cells[k + 1:k + 4] for k in range(0, len(cells), 4)],
-               'points': vtk_to_numpy(data.GetPoints().GetData()).tolist() if data.GetNumberOfPoints() else [],
-               'types': {name: arrays.GetArray(name).GetDataTypeAsString() for name in names},
-               'arrays': {name: vtk_to_numpy(arrays.GetArray(name)).tolist() for name in names}}
+        if data.IsA('vtkMultiBlockDataSet'):
+            names = [data.GetMetaData(k).Get(data.NAME()) for k in range(data.GetNumberOfBlocks())]
+            yield {'time': time, 'blocks': names, 'parts': [seen_of(data.GetBlock(k).GetBlock(0), time) for k in range(len(names))]}
+        else:
+            yield seen_of(data, time)
 for line in open(0):
     path, out = json.loads(line)
     with open(out, 'w') as file:
@@ -101,12 +109,13 @@ def in_box(group):
             numpy.stack([group[f'velocity_{k}'] for k in range(3)], 1))
 
 
-def in_world(group):
+def in_world(group, pose=None):
+    """By the attributes of the group, or by those of another."""
+    pose = group.attrs if pose is None else pose
     position, velocity = (numpy.float64(values) for values in in_box(group))
-    arm = rotated(group.attrs['box_orientation'], position)
-    return (group.attrs['box_position'] + arm, group.attrs['box_velocity']
-            + numpy.cross(group.attrs['box_angular_velocity'], arm)
-            + rotated(group.attrs['box_orientation'], velocity))
+    arm = rotated(pose['box_orientation'], position)
+    return (pose['box_position'] + arm, pose['box_velocity'] + numpy.cross(pose['box_angular_velocity'], arm)
+            + rotated(pose['box_orientation'], velocity))
 
 
 class ExportTest(CommandTest):
@@ -147,7 +156,7 @@ class ExportTest(CommandTest):
             self.assertTrue(self.read(file).endswith(b'</AppendedData>\n</VTKFile>\n'))
 
 
-class ParaView(ExportTest):
+class ParaViewTest(ExportTest):
     @classmethod
     def setUpClass(cls):
         if not shutil.which('pvpython'):
@@ -168,6 +177,8 @@ class ParaView(ExportTest):
         self.assertEqual((answer, self.complaints.read()), ('read\n', ''))
         return json.loads(self.read('read.json'))
 
+
+class ParaView(ParaViewTest):
     def same_fields(self, seen, group):
         for name in ('density', 'pressure', 'fluid', 'id'):
             numpy.testing.assert_array_equal(seen['arrays'][name], group[name])
@@ -175,6 +186,28 @@ class ParaView(ExportTest):
                                          'id': seen['types']['id']})
         self.assertIn(seen['types']['id'], ('long long', 'vtkIdType', 'long'))
         self.assertEqual(seen['vertices'], len(group['id']))
+
+    def test_the_snapshots_themselves(self):
+        self.make()
+        seen = self.read_with_paraview('a.h5part')
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            self.assertEqual((len(seen), len(file)), (9, 9))
+            for k, step in enumerate(seen):
+                group = file[f'Step#{k}']
+                self.assertEqual((step['time'], len(step['points'])), (group.attrs['TimeValue'], 500))
+                position, velocity = in_box(group)
+                numpy.testing.assert_array_equal(numpy.float32(step['points']), position)
+                numpy.testing.assert_array_equal(numpy.float32(step['arrays']['velocity']), velocity)
+                for name in ('density', 'pressure', 'fluid', 'id'):
+                    numpy.testing.assert_array_equal(step['arrays'][name], group[name])
+        self.assertNotEqual(seen[0]['points'], seen[8]['points'])  # not the same frame nine times, and not zeros
+        self.assertEqual(sorted(seen[8]['arrays']['id']), list(range(500)))
+        self.assertEqual(set(seen[8]['arrays']['fluid']), {0, 1})
+        with h5py.File(self.path('a.h5part'), 'r') as file:
+            units = dict(line.split(' = ') for line in file.attrs['units'].decode().split('\n') if line)
+        self.assertEqual({name: units[name] for name in ('TimeValue', 'z', 'velocity_1', 'density', 'pressure')},
+                         {'TimeValue': 's', 'z': 'm', 'velocity_1': 'm/s', 'density': 'kg/m3', 'pressure': 'Pa'})
+        self.assertGreater(max(seen[8]['arrays']['density']), 900)
 
     def test_series(self):
         self.make()
@@ -193,6 +226,7 @@ class ParaView(ExportTest):
                 numpy.testing.assert_array_equal(numpy.float32(step['points']), position)
                 numpy.testing.assert_array_equal(numpy.float32(step['arrays']['velocity']), velocity)
                 self.same_fields(step, group)
+                self.assertEqual(step['units'], {'velocity': 'm/s', 'density': 'kg/m3', 'pressure': 'Pa', 'fluid': None, 'id': None})
         self.assertNotEqual(seen[0]['points'], seen[8]['points'])
 
     def test_series_in_the_world(self):
@@ -585,7 +619,7 @@ class Bad(ExportTest):
 
     def test_output(self):
         self.make('--time', '0')
-        for name in ('b.h5part', 'a.obj', 'a', 'a.pvd/', '.ply'):
+        for name in ('b.h5part', 'a.abc', 'a', 'a.pvd/', '.ply', '.obj.series'):
             self.refused('a.h5part', name, words='use .pvd, .vtp or .ply')
         self.refused('a.h5part', 'no/a.vtp', words='No such file or directory; create it first', code=1)
         self.refused('a.h5part', 'no/a.pvd', words='No such file or directory; create it first', code=1)
@@ -605,7 +639,10 @@ class Bad(ExportTest):
         for cell in ('0', '0.01', '5'):
             self.refused('a.h5part', 'a.ply', '--surface', '--cell', cell, words='--cell must be 0.05 to 4')
         self.refused('a.h5part', 'a.ply.series', '--surface', '--time', '0', words='--time makes no sense')
-        self.refused('a.h5part', 'a.vtp', '--color-by', 'speed', words='--color-by is of a .ply')
+        self.refused('a.h5part', 'a.vtp', '--color-by', 'speed', words='--color-by is of a .ply or a .obj')
+        self.refused('a.h5part', 'a.obj', words='a .obj holds meshes, no particles: add --surface')
+        self.refused('a.h5part', 'a.obj.series', words='a .obj holds meshes, no particles: add --surface')
+        self.refused('a.h5part', 'a.obj.series', '--surface', '--time', '0', words='--time makes no sense')
         self.refused('a.h5part', 'a.ply', '--color-by', 'mood', words='must be one of fluid|speed|density|pressure')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             file.attrs['box_size'] = [1000., 1000., 1000.]
@@ -765,7 +802,7 @@ class FullDisk(ExportTest):
         for output in ('b.pvd', 'b.vtp', 'b.ply'):
             for size in (100, 5000, 20000):
                 self.full(output, size)
-        for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series'):
+        for output in ('b.pvd', 'b.vtp', 'b.ply', 'b.ply.series', 'b.obj', 'b.obj.series'):
             for size in (2000, 20000, 50000):  # LLVM's OpenMP, in the sanitized build, makes a file of 1 kB
                 self.full(output, size, '--surface')
         self.assertEqual(self.entries(), ['a.h5part'])
@@ -801,7 +838,7 @@ class TinyDisk(TinyDiskTest, ExportTest):
         for size, output in (('60k', 'a.pvd'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
             left = self.full(size, f'export a.h5part -o disk/{output}')
             self.assertEqual(left, ['a.h5part'])
-        for size, output in (('60k', 'a.pvd'), ('60k', 'a.ply.series'), ('16k', 'a.vtp'), ('16k', 'a.ply')):
+        for size, output in (('60k', 'a.pvd'), ('60k', 'a.ply.series'), ('16k', 'a.vtp'), ('16k', 'a.ply'), ('16k', 'a.obj')):
             left = self.full(size, f'export a.h5part --surface -o disk/{output}')
             self.assertEqual(left, ['a.h5part'])
 

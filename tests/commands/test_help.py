@@ -25,7 +25,8 @@ VALUES = {
 
 # What does not go with the rest, or needs a display: by command.
 APART = {'bench': {'--play', '--micro', '--ablate', '--seconds', '--table', '-o'},
-         'export': {'--slice', '--trails', '--scalar', '--kernel', '--raw', '--size'},  # test_slice.py, test_export.py
+         'export': {'--slice', '--trails', '--scalar', '--kernel', '--raw', '--size',  # test_slice.py, test_export.py
+                    '--solids', '--fluids'},  # test_meshes.py
          'devices': {'--mapping', '--write-mapping', '--record'}}
 
 

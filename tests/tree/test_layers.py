@@ -65,6 +65,7 @@ APP = {
     "output": "base yaml scene",
     "session": "base metric probe outcome scene recording hand held output",
     "playback": "base yaml scene output session",
+    "export": "base yaml scene output playback",
     "trace": "base yaml scene output",
     "beside": "base scene recording output session playback",
     "shelf": "base yaml scene output session beside",
@@ -79,7 +80,7 @@ APP = {
     "play": "base scene recording hand device held output session playback beside shelf lab window panel",
     "manual": "base scene session",
     "film": "base scene recording output session playback beside",
-    "command": "base metric probe outcome yaml scene recording hand device held output session playback beside shelf trace case lab stability fit ablate gallery play manual film",
+    "command": "base metric probe outcome yaml scene recording hand device held output session playback export beside shelf trace case lab stability fit ablate gallery play manual film",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]

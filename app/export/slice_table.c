@@ -1,4 +1,4 @@
-#include "app/output/slice_table.h"
+#include "app/export/slice_table.h"
 
 #include "app/yaml/value.h"
 #include "app/yaml/yaml.h"

@@ -11,6 +11,7 @@ typedef struct SurfaceDef {
     double level; /* less than 1; 0: for each step the one at which the mesh encloses the fluid's volume at
                      rest, spacing^3 a particle, to 0.3 %: about 0.5, and within 0.25 .. 0.75 */
     double cell;  /* of the grid, in spacings; 0: 0.5, finer shows little more */
+    bool each;    /* of several fluids: one a fluid, by surface_make_each */
 } SurfaceDef;
 
 typedef struct Surface {
@@ -31,6 +32,14 @@ bool surface_check(const SurfaceDef *def, const SnapshotScene *scene, Error *err
    to free. */
 bool surface_make(const SurfaceDef *def, const SnapshotScene *scene, const SnapshotStep *step,
                   Surface *surface, Error *error);
+
+/* A surface of each of the scene's fluids, all at the level that surface_make finds for them together. A
+   fluid's is where there is fluid, F at the level or more, and that fluid's share of F is the largest: where
+   two touch both meshes have the same smooth border, the zero of the difference of their shares. `volume` is
+   what each encloses; fields are means over its own particles. A drop of another fluid that has nowhere the
+   larger share has no mesh. As surface_make; fluid_count of `surfaces` are to be freed. */
+bool surface_make_each(const SurfaceDef *def, const SnapshotScene *scene, const SnapshotStep *step,
+                       Surface surfaces[FLUIDS_MAX], Error *error);
 
 /* As snapshot_step_to_world. */
 void surface_to_world(Surface *surface);

@@ -8,30 +8,17 @@
 #ifndef SLOSH_PLY_H
 #define SLOSH_PLY_H
 
-#include "app/output/snapshot.h"
-#include "app/output/surface.h"
-#include "sim/base/scalar.h"
+#include "app/export/point_color.h"
+#include "app/export/surface.h"
 
 #include <stdio.h>
-
-/* What the points are coloured by: their fluid, or a scalar. */
-typedef struct PlyColors {
-    size_t count;                /* fluids that have a colour; 0: none are written */
-    double color[FLUIDS_MAX][3]; /* sRGB 0 to 1 */
-    bool mapped;                 /* by the scalar instead: speed, density or pressure */
-    Scalar scalar;
-    double low, high; /* values of the first and the last colour of the default colormap */
-} PlyColors;
-
-/* The speed (m/s), density (kg/m3) or pressure (Pa) of point i. */
-double ply_scalar(const SnapshotStep *step, size_t i, Scalar scalar);
 
 /* Whether PLY can hold the step; false with the reason: an id of more than 32 bits. */
 bool ply_check(const SnapshotStep *step, Error *error);
 
 /* `frame` and the step's time go into a comment, and so does what a colormap is of. A fluid that has no
    colour among others that have is grey. False when the stream fails (errno tells why). */
-bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PlyColors *colors);
-bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, const PlyColors *colors);
+bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PointColors *colors);
+bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, const PointColors *colors);
 
 #endif

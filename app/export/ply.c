@@ -1,10 +1,7 @@
 /* After: Greg Turk, "The PLY polygon file format", 1994. */
-#include "app/output/ply.h"
-
-#include "render/frame/colormap.h"
+#include "app/export/ply.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <string.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written as numbers lie in memory");
@@ -17,14 +14,12 @@ bool ply_check(const SnapshotStep *step, Error *error)
     return true;
 }
 
-static void print_head(FILE *file, const SnapshotStep *step, const char *frame, const PlyColors *colors)
+static void print_head(FILE *file, const SnapshotStep *step, const char *frame, const PointColors *colors)
 {
     fprintf(file,
             "ply\nformat binary_little_endian 1.0\ncomment slosh, time %.17g s, frame of the %s, SI units\n",
             step->time, frame);
-    if (colors->mapped)
-        fprintf(file, "comment colours: %s, %s from %g to %g %s\n", colormap_list[0],
-                scalar_name(colors->scalar), colors->low, colors->high, scalar_unit(colors->scalar));
+    point_colors_print(file, "comment ", colors);
     fprintf(file, "element vertex %zu\n", step->count);
 }
 
@@ -38,27 +33,6 @@ static const char *const places[] = {"x", "y", "z", NULL}, *const normals[] = {"
                          *const fields[] = {"vx", "vy", "vz", "density", "pressure", NULL},
                          *const fluids[] = {"fluid", NULL}, *const ids[] = {"id", NULL},
                          *const channels[] = {"red", "green", "blue", NULL};
-
-static bool colored(const PlyColors *colors)
-{
-    return colors->mapped || colors->count > 0;
-}
-
-static void fluid_color(const PlyColors *colors, int32_t fluid, uint8_t rgb[3])
-{
-    static const double grey[3] = {0.5, 0.5, 0.5};
-    const double *color = fluid >= 0 && (size_t)fluid < colors->count ? colors->color[fluid] : grey;
-    for (int k = 0; k < 3; k++)
-        rgb[k] = (uint8_t)lround(255 * fmin(fmax(color[k], 0), 1));
-}
-
-double ply_scalar(const SnapshotStep *step, size_t i, Scalar scalar)
-{
-    const double x = step->velocity[0][i], y = step->velocity[1][i], z = step->velocity[2][i];
-    if (scalar == SCALAR_SPEED)
-        return sqrt(x * x + y * y + z * z);
-    return scalar == SCALAR_DENSITY ? step->density[i] : step->pressure[i];
-}
 
 /* A row in the making. */
 typedef struct Row {
@@ -87,44 +61,25 @@ static void put_fields(Row *row, const SnapshotStep *step, size_t i)
     put(row, &step->fluid[i], sizeof(int32_t));
 }
 
-/* Colours of points: of their fluids, or of a colormap. */
-typedef struct Painter {
-    const PlyColors *colors;
-    uint8_t map[3 * COLORMAP_SIZE];
-} Painter;
-
-static Painter painter_begin(const PlyColors *colors)
+static void put_color(Row *row, const PointPainter *painter, const SnapshotStep *step, size_t i)
 {
-    Painter painter = {.colors = colors};
-    colormap_fill(colormap_list[0], painter.map);
-    return painter;
-}
-
-static void put_color(Row *row, const Painter *painter, const SnapshotStep *step, size_t i)
-{
-    const PlyColors *colors = painter->colors;
     uint8_t rgb[3];
-    if (!colored(colors))
+    if (!point_colored(painter->colors))
         return;
-    fluid_color(colors, step->fluid[i], rgb);
-    if (colors->mapped) {
-        const double above = ply_scalar(step, i, colors->scalar) - colors->low;
-        const double at = fmin(fmax(above / fmax(colors->high - colors->low, 1e-30), 0), 1);
-        memcpy(rgb, painter->map + 3 * lround((COLORMAP_SIZE - 1) * at), sizeof rgb);
-    }
+    point_paint(painter, step, i, rgb);
     put(row, rgb, sizeof rgb);
 }
 
-bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PlyColors *colors)
+bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const PointColors *colors)
 {
     print_head(file, step, frame, colors);
     print_properties(file, "float", places);
     print_properties(file, "float", fields);
     print_properties(file, "int", fluids);
     print_properties(file, "uint", ids);
-    print_properties(file, "uchar", colored(colors) ? channels : channels + 3);
+    print_properties(file, "uchar", point_colored(colors) ? channels : channels + 3);
     fputs("end_header\n", file);
-    const Painter painter = painter_begin(colors);
+    const PointPainter painter = point_painter(colors);
     for (size_t i = 0; i < step->count; i++) {
         const uint32_t id = (uint32_t)step->id[i];
         Row row = {.size = 0};
@@ -137,7 +92,7 @@ bool ply_write(FILE *file, const SnapshotStep *step, const char *frame, const Pl
     return !ferror(file);
 }
 
-bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, const PlyColors *colors)
+bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, const PointColors *colors)
 {
     const SnapshotStep *step = &surface->vertices;
     print_head(file, step, frame, colors);
@@ -145,10 +100,10 @@ bool ply_write_surface(FILE *file, const Surface *surface, const char *frame, co
     print_properties(file, "float", normals);
     print_properties(file, "float", fields);
     print_properties(file, "int", fluids);
-    print_properties(file, "uchar", colored(colors) ? channels : channels + 3);
+    print_properties(file, "uchar", point_colored(colors) ? channels : channels + 3);
     fprintf(file, "element face %zu\nproperty list uchar int vertex_indices\nend_header\n",
             surface->triangle_count);
-    const Painter painter = painter_begin(colors);
+    const PointPainter painter = point_painter(colors);
     for (size_t i = 0; i < step->count; i++) {
         Row row = {.size = 0};
         put_vector(&row, step->position, i);

@@ -1,4 +1,4 @@
-#include "app/output/surface.h"
+#include "app/export/surface.h"
 
 #include "app/base/physical.h"
 #include "app/output/snapshot_frame.h"
@@ -14,9 +14,9 @@
 
 /* The grid around low .. high, with h and a cell more on each side, so that its outermost values are 0. Its
    cells are those of one lattice for all steps of a scene, so that a fluid at rest has the same mesh in each.
-   False when two numbers a cell, the field and a mean, need more memory than there is. */
-static bool grid_around(const double low[3], const double high[3], const SnapshotScene *scene, double cell,
-                        VolumeGrid *grid)
+   False when so many numbers a cell need more memory than there is. */
+static bool grid_around(const double low[3], const double high[3], const SnapshotScene *scene, size_t fields,
+                        double cell, VolumeGrid *grid)
 {
     double cells = 1;
     grid->cell = cell;
@@ -29,7 +29,7 @@ static bool grid_around(const double low[3], const double high[3], const Snapsho
         grid->corner[k] = first * cell;
         grid->size[k] = (int)size;
     }
-    return cells * 2 * sizeof(float) < physical_bytes();
+    return cells * (double)(fields * sizeof(float)) < physical_bytes();
 }
 
 static double cell_side(const SurfaceDef *def, const SnapshotScene *scene)
@@ -37,22 +37,29 @@ static double cell_side(const SurfaceDef *def, const SnapshotScene *scene)
     return (def->cell > 0 ? def->cell : 0.5) * scene->spacing;
 }
 
-static bool box_grid(const SnapshotScene *scene, double cell, VolumeGrid *grid)
+/* The field and a mean; of each fluid its share, and the region of one. */
+static size_t count_fields(const SurfaceDef *def, const SnapshotScene *scene)
+{
+    return 2 + (def->each ? 1 + scene->fluid_count : 0);
+}
+
+static bool box_grid(const SnapshotScene *scene, size_t fields, double cell, VolumeGrid *grid)
 {
     const double *size = scene->box_size;
     const double low[3] = {-size[0] / 2, 0, -size[2] / 2}, high[3] = {size[0] / 2, size[1], size[2] / 2};
-    return grid_around(low, high, scene, cell, grid);
+    return grid_around(low, high, scene, fields, cell, grid);
 }
 
 bool surface_check(const SurfaceDef *def, const SnapshotScene *scene, Error *error)
 {
     VolumeGrid grid;
+    const size_t fields = count_fields(def, scene);
     double fits = cell_side(def, scene);
     if (scene->dimensions != 3)
         return error_set(error, "a scene of two dimensions has no surface; export it without --surface");
-    if (box_grid(scene, fits, &grid))
+    if (box_grid(scene, fields, fits, &grid))
         return true;
-    while (!box_grid(scene, fits, &grid))
+    while (!box_grid(scene, fields, fits, &grid))
         fits *= 1.1;
     return error_set(error,
                      "the grid of a surface needs more memory than this machine has (%.3g GB); use a --cell "
@@ -65,12 +72,14 @@ bool surface_check(const SurfaceDef *def, const SnapshotScene *scene, Error *err
 typedef struct Work {
     const SnapshotScene *scene;
     const SnapshotStep *step;
+    size_t fields; /* numbers a cell */
     VolumeGrid grid;
     FieldSlabs slabs;
     FieldParticles particles;
-    float *position;         /* of the particles, as a field wants them */
-    float *field, *weighted; /* the grid's values */
-    float *scalar;           /* of each particle: whether it is of a fluid */
+    float *position;          /* of the particles, as a field wants them */
+    float *field, *weighted;  /* the grid's values */
+    float *scalar;            /* of each particle: whether it is of a fluid, or what it has of it */
+    float *share[FLUIDS_MAX]; /* of surface_make_each: the grid's values of each fluid's particles alone */
     IsoMesh mesh;
     Surface *surface;
 } Work;
@@ -83,6 +92,8 @@ static void work_free(Work *work)
     free(work->field);
     free(work->weighted);
     free(work->scalar);
+    for (int k = 0; k < FLUIDS_MAX; k++)
+        free(work->share[k]);
 }
 
 static bool take_particles(Work *work)
@@ -110,16 +121,21 @@ static bool sum_weighted(Work *work, const float *scalar, Error *error)
                      error);
 }
 
-/* The mean of the particles' scalar at each vertex, weighted by V W. */
-static bool mean(Work *work, const float *scalar, float *out, Error *error)
+/* The mean of the particles' scalar at each vertex, weighted by V W; `weights`: the sums of these. */
+static bool mean_over(Work *work, const float *scalar, const float *weights, float *out, Error *error)
 {
     if (!sum_weighted(work, scalar, error))
         return false;
     for (size_t i = 0; i < work->mesh.vertex_count; i++) {
-        const float weight = isosurface_value(&work->mesh, i, work->field);
+        const float weight = isosurface_value(&work->mesh, i, weights);
         out[i] = weight > 0 ? isosurface_value(&work->mesh, i, work->weighted) / weight : 0;
     }
     return true;
+}
+
+static bool mean(Work *work, const float *scalar, float *out, Error *error)
+{
+    return mean_over(work, scalar, work->field, out, error);
 }
 
 /* The fluid that has the most of V W at each vertex. `most` has room for a number a vertex. */
@@ -154,15 +170,15 @@ static bool find_means(Work *work, Error *error)
            mean(work, step->pressure, vertices->pressure, error);
 }
 
-/* The field falls outwards. */
-static void place_vertices(Work *work)
+/* The values fall outwards. */
+static void place_vertices(Work *work, const float *values)
 {
     Surface *surface = work->surface;
     for (size_t i = 0; i < work->mesh.vertex_count; i++) {
         double place[3];
         float slope[3];
         isosurface_place(&work->mesh, i, place);
-        isosurface_slope(&work->mesh, i, work->field, slope);
+        isosurface_slope(&work->mesh, i, values, slope);
         const float steep = sqrtf(slope[0] * slope[0] + slope[1] * slope[1] + slope[2] * slope[2]);
         for (int k = 0; k < 3; k++) {
             surface->vertices.position[k][i] =
@@ -226,7 +242,7 @@ static bool cross_level(Work *work, double level, Error *error)
     double low[3], high[3];
     if (!field_bounds(&work->particles, low, high))
         return true;
-    if (!grid_around(low, high, work->scene, work->grid.cell, &work->grid))
+    if (!grid_around(low, high, work->scene, work->fields, work->grid.cell, &work->grid))
         return error_set(error, "at %g s particles are too far apart for a surface of such small cells",
                          work->step->time);
     const size_t cells = volume_grid_cells(&work->grid);
@@ -239,34 +255,151 @@ static bool cross_level(Work *work, double level, Error *error)
     return level > 0 ? march(work, level, error) : march_to_volume(work, error);
 }
 
-static bool make(Work *work, double level, Error *error)
+/* Gives the surface the mesh, placed where `values` cross the level; without its fields. */
+static bool take_mesh(Work *work, const float *values, Error *error)
 {
     Surface *surface = work->surface;
-    if (!take_particles(work))
-        return error_set(error, "no memory for a surface of %zu particles", work->step->count);
-    if (!cross_level(work, level, error))
-        return false;
     if (work->mesh.triangle_count > INT32_MAX / 3) /* what files count their numbers with */
         return error_set(error, "a surface of %zu triangles fits into no file; use a larger --cell",
                          work->mesh.triangle_count);
     if (!allocate(surface, work))
         return error_set(error, "no memory for a surface of %zu vertices", work->mesh.vertex_count);
-    place_vertices(work);
+    place_vertices(work, values);
     surface->triangle_count = work->mesh.triangle_count;
     surface->triangle = work->mesh.triangle;
     work->mesh.triangle = NULL;
-    return surface->triangle_count == 0 || find_means(work, error);
+    return true;
+}
+
+static bool begin(Work *work, double level, Error *error)
+{
+    if (!take_particles(work))
+        return error_set(error, "no memory for a surface of %zu particles", work->step->count);
+    return cross_level(work, level, error);
+}
+
+static bool make(Work *work, double level, Error *error)
+{
+    return begin(work, level, error) && take_mesh(work, work->field, error) &&
+           (work->surface->triangle_count == 0 || find_means(work, error));
 }
 
 bool surface_make(const SurfaceDef *def, const SnapshotScene *scene, const SnapshotStep *step,
                   Surface *surface, Error *error)
 {
     *surface = (Surface){0};
-    Work work = {.scene = scene, .step = step, .grid.cell = cell_side(def, scene), .surface = surface};
+    Work work = {.scene = scene,
+                 .step = step,
+                 .fields = count_fields(def, scene),
+                 .grid.cell = cell_side(def, scene),
+                 .surface = surface};
     const bool made = make(&work, def->level, error);
     work_free(&work);
     if (!made)
         surface_free(surface);
+    return made;
+}
+
+/* ---- a surface of each fluid ---- */
+
+static bool sum_shares(Work *work, Error *error)
+{
+    const size_t cells = volume_grid_cells(&work->grid);
+    for (size_t fluid = 0; fluid < work->scene->fluid_count; fluid++) {
+        work->share[fluid] = malloc(cells * sizeof(float));
+        if (!work->share[fluid])
+            return error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+        for (size_t i = 0; i < work->step->count; i++)
+            work->scalar[i] = work->step->fluid[i] == (int32_t)fluid;
+        work->particles.scalar = work->scalar;
+        if (!field_sum(&work->particles, &work->grid, world_processors(), &work->slabs, NULL,
+                       work->share[fluid], error))
+            return false;
+    }
+    return true;
+}
+
+/* More than 0 where the fluid is: what F is above the level, or, if that is less, the fluid's share above the
+   largest of another. Both are smooth, and so is the border; its other side has the same values with the
+   other sign. */
+static void find_region(const Work *work, size_t fluid, double level, float *region)
+{
+    const size_t cells = volume_grid_cells(&work->grid);
+    for (size_t i = 0; i < cells; i++) {
+        float other = 0;
+        for (size_t k = 0; k < work->scene->fluid_count; k++)
+            if (k != fluid)
+                other = fmaxf(other, work->share[k][i]);
+        const float above = work->field[i] - (float)level;
+        region[i] = work->scene->fluid_count > 1 ? fminf(above, work->share[fluid][i] - other) : above;
+    }
+}
+
+/* The mean over the fluid's own particles. */
+static bool own_mean(Work *work, size_t fluid, const float *scalar, float *out, Error *error)
+{
+    for (size_t i = 0; i < work->step->count; i++)
+        work->scalar[i] = work->step->fluid[i] == (int32_t)fluid ? scalar[i] : 0;
+    return mean_over(work, work->scalar, work->share[fluid], out, error);
+}
+
+static bool own_means(Work *work, size_t fluid, Error *error)
+{
+    const SnapshotStep *step = work->step;
+    SnapshotStep *vertices = &work->surface->vertices;
+    for (size_t i = 0; i < vertices->count; i++)
+        vertices->fluid[i] = (int32_t)fluid;
+    for (int k = 0; k < 3; k++)
+        if (!own_mean(work, fluid, step->velocity[k], vertices->velocity[k], error))
+            return false;
+    return own_mean(work, fluid, step->density, vertices->density, error) &&
+           own_mean(work, fluid, step->pressure, vertices->pressure, error);
+}
+
+/* `region` is scratch. */
+static bool make_one(Work *work, size_t fluid, double level, float *region, Error *error)
+{
+    const double side = work->grid.cell;
+    find_region(work, fluid, level, region);
+    isosurface_free(&work->mesh);
+    if (!isosurface(work->grid.size, region, 0, &work->mesh, error))
+        return false;
+    work->surface->level = level;
+    work->surface->volume = isosurface_volume(&work->mesh) * side * side * side;
+    return take_mesh(work, region, error) && own_means(work, fluid, error);
+}
+
+/* From the surface of all, which says the level. */
+static bool make_each(Work *work, const Surface *whole, Surface surfaces[FLUIDS_MAX], Error *error)
+{
+    const size_t cells = work->field ? volume_grid_cells(&work->grid) : 0;
+    float *region = malloc((cells + 1) * sizeof *region);
+    bool made = region ? cells == 0 || sum_shares(work, error)
+                       : error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+    for (size_t fluid = 0; made && fluid < work->scene->fluid_count; fluid++) {
+        work->surface = &surfaces[fluid];
+        made = cells > 0 ? make_one(work, fluid, whole->level, region, error)
+                         : take_mesh(work, NULL, error); /* no particles: no vertices */
+    }
+    free(region);
+    return made;
+}
+
+bool surface_make_each(const SurfaceDef *def, const SnapshotScene *scene, const SnapshotStep *step,
+                       Surface surfaces[FLUIDS_MAX], Error *error)
+{
+    Surface whole = {.level = 0};
+    Work work = {.scene = scene,
+                 .step = step,
+                 .fields = count_fields(def, scene),
+                 .grid.cell = cell_side(def, scene),
+                 .surface = &whole};
+    for (size_t fluid = 0; fluid < scene->fluid_count; fluid++)
+        surfaces[fluid] = (Surface){0};
+    const bool made = begin(&work, def->level, error) && make_each(&work, &whole, surfaces, error);
+    work_free(&work);
+    for (size_t fluid = 0; !made && fluid < scene->fluid_count; fluid++)
+        surface_free(&surfaces[fluid]);
     return made;
 }
 

@@ -1,9 +1,12 @@
 /* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, raw appended data with 64-bit
    sizes. */
-#include "app/output/vtp.h"
+#include "app/export/vtp.h"
+
+#include "sim/base/scalar.h"
 
 #include <inttypes.h>
 #include <stdbool.h>
+#include <string.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written as numbers lie in memory");
 
@@ -90,16 +93,44 @@ static uint64_t block_bytes(const Block *block)
     return (uint64_t)block->count * block->components * block->bytes;
 }
 
+/* As VTK's key for it, which ParaView keeps with the array; "": none. */
+static const char *unit_of(const char *name)
+{
+    if (strcmp(name, "Points") == 0)
+        return "m";
+    if (strcmp(name, "velocity") == 0)
+        return "m/s";
+    if (strcmp(name, "time") == 0)
+        return "s";
+    for (int k = 0; scalar_list[k].name; k++)
+        if (strcmp(name, scalar_list[k].name) == 0)
+            return scalar_list[k].unit;
+    return "";
+}
+
+static void print_array(FILE *file, const Block *block, uint64_t offset)
+{
+    const char *unit = unit_of(block->name);
+    fprintf(file,
+            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" "
+            "offset=\"%" PRIu64 "\"",
+            block->type, block->name, block->components, offset);
+    if (*unit)
+        fprintf(
+            file,
+            "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">%s</InformationKey></DataArray>\n",
+            unit);
+    else
+        fputs("/>\n", file);
+}
+
 static void print_section(FILE *file, const Contents *all, Section section)
 {
     uint64_t offset = 0;
     for (size_t i = 0; i < all->count; i++) {
         const Block *block = &all->block[i];
         if (block->section == section)
-            fprintf(file,
-                    "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" "
-                    "offset=\"%" PRIu64 "\"/>\n",
-                    block->type, block->name, block->components, offset);
+            print_array(file, block, offset);
         offset += sizeof(uint64_t) + block_bytes(block);
     }
 }
@@ -192,19 +223,33 @@ bool vtp_write(FILE *file, const SnapshotStep *step)
     return write_all(file, &all);
 }
 
+/* The points and triangles of a mesh. */
+static Contents begin_mesh(const Surface *mesh, const char *shown)
+{
+    const SnapshotStep *step = &mesh->vertices;
+    Contents all = {
+        .time = step->time, .points = step->count, .triangles = mesh->triangle_count, .shown = shown};
+    add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
+    add_numbers(&all, SECTION_POLYS, "connectivity", "UInt32", 4, 3 * mesh->triangle_count, mesh->triangle);
+    add_ramp(&all, SECTION_POLYS, "offsets", mesh->triangle_count, 3, 3);
+    return all;
+}
+
 bool vtp_write_surface(FILE *file, const Surface *surface)
 {
     const SnapshotStep *step = &surface->vertices;
-    Contents all = {.time = step->time,
-                    .points = step->count,
-                    .triangles = surface->triangle_count,
-                    .shown = "Vectors=\"velocity\" Scalars=\"density\" Normals=\"Normals\""};
-    add_vectors(&all, SECTION_POINTS, "Points", step->count, step->position);
-    add_numbers(&all, SECTION_POLYS, "connectivity", "UInt32", 4, 3 * surface->triangle_count,
-                surface->triangle);
-    add_ramp(&all, SECTION_POLYS, "offsets", surface->triangle_count, 3, 3);
+    Contents all = begin_mesh(surface, "Vectors=\"velocity\" Scalars=\"density\" Normals=\"Normals\"");
     add_fields(&all, step);
     add_vectors(&all, SECTION_DATA, "Normals", step->count, surface->normal);
+    return write_all(file, &all);
+}
+
+bool vtp_write_solid(FILE *file, const Surface *solid)
+{
+    const SnapshotStep *step = &solid->vertices;
+    Contents all = begin_mesh(solid, "Vectors=\"velocity\" Normals=\"Normals\"");
+    add_vectors(&all, SECTION_DATA, "velocity", step->count, step->velocity);
+    add_vectors(&all, SECTION_DATA, "Normals", step->count, solid->normal);
     return write_all(file, &all);
 }
 

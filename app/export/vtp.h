@@ -1,13 +1,14 @@
 /* States for ParaView: VTK's polygonal data in XML. Particles are points and the fields velocity, density,
    pressure, fluid and id, in the numbers that SnapshotStep has, with a vertex each, without which ParaView
-   draws none; a surface is points, the same fields but for the id, Normals, and triangles. The time is
-   TimeValue; trails are points with their times and a scalar, and lines with the id of their particle. The
-   numbers stand in binary behind the XML. ParaView 5.11 opens all three. */
+   draws none; a surface is points, the same fields but for the id, Normals, and triangles; a solid the same
+   with the velocity alone. The time is TimeValue; trails are points with their times and a scalar, and lines
+   with the id of their particle. The numbers stand in binary behind the XML. Arrays have their units as VTK's
+   key UNITS_LABEL. ParaView 5.11 opens all. */
 #ifndef SLOSH_VTP_H
 #define SLOSH_VTP_H
 
+#include "app/export/surface.h"
 #include "app/output/snapshot.h"
-#include "app/output/surface.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -15,6 +16,7 @@
 /* False when the stream fails (errno tells why). */
 bool vtp_write(FILE *file, const SnapshotStep *step);
 bool vtp_write_surface(FILE *file, const Surface *surface);
+bool vtp_write_solid(FILE *file, const Surface *solid);
 
 typedef struct VtpLines {
     double time; /* s, of all */

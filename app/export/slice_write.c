@@ -1,6 +1,6 @@
 /* After: VTK file formats, "XML file formats", https://docs.vtk.org: ImageData, raw appended data with 64-bit
    sizes. */
-#include "app/output/slice_table.h"
+#include "app/export/slice_table.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,7 +1,7 @@
-#include "app/output/series.h"
+#include "app/export/series.h"
 
 #include "app/base/interrupt.h"
-#include "app/output/export_index.h"
+#include "app/export/export_index.h"
 
 #include <errno.h>
 #include <stdio.h>
@@ -15,13 +15,13 @@ typedef struct Series {
     double *times; /* of each file, s */
 } Series;
 
-typedef bool IndexWriter(FILE *file, const char *folder, const char *extension, size_t count,
-                         const double times[]);
+typedef bool IndexWriter(FILE *file, const ExportIndex *index);
 
 static const struct {
     const char *extension;
     IndexWriter *write;
-} indices[] = {{".pvd", export_index_pvd}, {".ply.series", export_index_series}};
+} indices[] = {
+    {".pvd", export_index_pvd}, {".ply.series", export_index_series}, {".obj.series", export_index_series}};
 
 /* By the end of the name; the first where it is none of them. */
 static size_t index_of(const char *path)
@@ -66,8 +66,13 @@ static bool write_files(Series *series, const SeriesJob *job, Progress *progress
 static bool write_index(const Series *series, const SeriesJob *job, size_t count, Error *error)
 {
     FILE *file = fopen(series->index.temp, "wb");
-    bool written = file && indices[index_of(job->path)].write(file, series->folder.path, job->extension,
-                                                              count, series->times);
+    const ExportIndex index = {.folder = series->folder.path,
+                               .extension = job->extension,
+                               .count = count,
+                               .times = series->times,
+                               .part_count = job->part_count,
+                               .parts = job->parts};
+    bool written = file && indices[index_of(job->path)].write(file, &index);
     int reason = errno;
     if (file && fclose(file) != 0 && written) {
         reason = errno;

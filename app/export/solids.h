@@ -1,0 +1,33 @@
+/* The solids of a recorded scene as meshes, each where its motion has carried it at the time of a snapshot.
+ */
+#ifndef SLOSH_EXPORT_SOLIDS_H
+#define SLOSH_EXPORT_SOLIDS_H
+
+#include "app/export/point_color.h"
+#include "app/export/surface.h"
+#include "app/scene/scene.h"
+#include "render/frame/solid_mesh.h"
+
+/* In the order of the scene. */
+typedef struct ExportSolids {
+    int count;
+    struct {
+        char name[NAME_SIZE]; /* "solid0_bowl", the number as in --set solids[0] */
+        SolidDef def;
+        SolidMesh mesh; /* in the solid's own frame */
+        PointColors color;
+    } solid[SOLIDS_MAX];
+} ExportSolids;
+
+/* The meshes; in two dimensions as deep as the particles. False when memory is short; to be freed in either
+   case. */
+bool export_solids_make(ExportSolids *solids, const WorldDef *world, Error *error);
+
+/* Solid `k` at the step's time in the box's frame: places, normals, and as velocities those of its surface.
+   What fluids have is 0. The caller frees it; false, and nothing to free, when memory is short. */
+bool export_solid_at(const ExportSolids *solids, int k, const SnapshotStep *step, Surface *mesh,
+                     Error *error);
+
+void export_solids_free(ExportSolids *solids); /* a zeroed one is allowed */
+
+#endif
