@@ -154,7 +154,9 @@ void camera_make(const ViewDef *def, const double box_size[3], const BoxState *b
 {
     const double open = 1 - covered.left;
     *camera = (Camera){.centre = {(float)covered.left}};
-    make_free(def, box_size, box, aspect * open, covered.right / open, camera);
+    /* beside a panel a legend over a corner of the box is better than a box that is a speck */
+    const bool narrow = covered.left > 0 && covered.right > 0.4 * open;
+    make_free(def, box_size, box, aspect * open, narrow ? 0 : covered.right / open, camera);
     camera->tangent[0] = (float)(camera->tangent[1] * aspect); /* and more of the same on the left */
 }
 
