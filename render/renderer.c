@@ -32,6 +32,7 @@ struct Renderer {
     bool late;          /* what a picture wants to know of its own state may be of the one before: */
     bool behind;        /* and is in this one, */
     bool showed_behind; /* as it was in the last picture */
+    bool flat;          /* Frame.flat of the last picture */
     Covered covered;
     Title title;
     char note[96];
@@ -542,6 +543,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     draw_over(renderer, particles, &frame);
     picture_probe_drawn(&renderer->probe, particles, &frame, renderer->uniforms);
     renderer->showed_behind = renderer->behind;
+    renderer->flat = frame.flat;
     renderer->behind = false;
 }
 
@@ -640,6 +642,11 @@ void renderer_set_more(Renderer *renderer, bool more)
     renderer->more = more;
     if (changes && !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
         fprintf(stderr, "%s\n", error.message);
+}
+
+bool renderer_is_flat(const Renderer *renderer)
+{
+    return renderer->flat;
 }
 
 bool renderer_unfinished(const Renderer *renderer)

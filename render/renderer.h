@@ -94,6 +94,9 @@ void renderer_set_plain(Renderer *renderer, bool plain);
    better from picture to picture, each in its time. Else each picture is all that it can be. */
 void renderer_set_more(Renderer *renderer, bool more);
 
+/* Whether the last picture was no look into space: Frame.flat. */
+bool renderer_is_flat(const Renderer *renderer);
+
 /* Whether a further picture of the same would be better than the last. */
 bool renderer_unfinished(const Renderer *renderer);
 

@@ -85,6 +85,7 @@ uint64_t hand_post_look(HandPost *post, const HandInput *input, const double box
     memset(own->move_drag, 0, sizeof own->move_drag);
     memset(own->turn_drag, 0, sizeof own->turn_drag);
     *news = post->news;
+    news->target = post->held.hand.told;
     post->news = (HandNews){.command_count = 0};
     pthread_mutex_unlock(&post->lock);
     return number;

@@ -38,6 +38,7 @@ typedef struct HandNews {
         double when_ms; /* of the report */
         uint64_t number;
     } sent[NEWS_SENT_MAX]; /* commands that reports became */
+    BoxTarget target;      /* where the box shall be, as it was last sent */
     int words_count;
     struct {
         bool wrong;

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float WIDTH_EM = 25, MARGIN_EM = 0.75F, LABEL_SHARE = 0.44F;
+static const float WIDTH_EM = 25, LEAST_EM = 15, SHARE = 0.5F, MARGIN_EM = 0.75F, LABEL_SHARE = 0.44F;
 
 struct Panel {
     Scene start; /* the scene as it was when it was opened */
@@ -33,7 +33,9 @@ static float margin_of(const Ui *ui)
 float panel_width(const Ui *ui, int width)
 {
     const float margin = margin_of(ui);
-    return fminf(floorf(WIDTH_EM * ui_pixels(ui)), fmaxf((float)width - 2 * margin, 1)) + 2 * margin;
+    const float share = fmaxf(SHARE * (float)width - 2 * margin, LEAST_EM * ui_pixels(ui));
+    const float wanted = floorf(fminf(WIDTH_EM * ui_pixels(ui), share));
+    return fminf(wanted, fmaxf((float)width - 2 * margin, 1)) + 2 * margin;
 }
 
 static void follow_scene(Panel *panel, const Scene *scene)

@@ -70,7 +70,8 @@ typedef struct PanelEvents {
 Panel *panel_create(void);
 void panel_destroy(Panel *panel); /* NULL is allowed */
 
-/* How wide the panel is, in a picture that wide; with its margin. */
+/* How wide the panel is, in a picture that wide; with its margin. Half of a small picture, and not too narrow
+   for its words. */
 float panel_width(const Ui *ui, int width);
 
 /* Both stand between ui_begin and ui_end, when ui_begin returned true. */

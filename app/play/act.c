@@ -27,6 +27,8 @@ static void follow_scene(Play *play)
     input_begin(&play->input);
     grip_begin(&play->grip);
     readout_begin(&play->readout);
+    play->wanted = hand_at_rest().told;
+    play->outlined = false;
     play->camera.held = false;
     views_open(&play->views, &play->model.open.scene, &play->model.file_scene);
     meter_forget(&play->meter);

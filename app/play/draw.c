@@ -18,12 +18,59 @@ static void draw_overlay(Play *play)
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
 }
 
-/* What the mouse may take, and what is under it. */
+/* Whether the box follows the hand later than an eye expects it to. */
+static bool box_lags(const Model *model)
+{
+    static const double SLOW = 0.5;
+    const SimulatorStatus *status = &model->status;
+    const double pace = status->real_time_factor; /* 0: not known yet */
+    return model->paused || (status->realtime && model->speed <= SLOW) || (pace > 0 && pace < SLOW);
+}
+
+/* Where the box goes, as the hand has it. */
+static void follow_outline(Play *play, BoxState *pose)
+{
+    const Model *model = &play->model;
+    const WorldDef *def = &model->open.scene.world;
+    const ParticleBuffers *state = &model->particles;
+    outline_pose(def->motions, def->motion_count, def->box_size[1], state->time, &play->wanted, pose);
+    play->outlined =
+        model->open.source->simulates && !model->status.failed &&
+        outline_follow(play->outlined, box_lags(model), outline_apart(&state->box, pose, def->box_size));
+}
+
+/* In a picture of the scene's own state. */
+static void draw_outline(const Look *look, const BoxState *pose, Text *text)
+{
+    static const uint32_t COLOR = 0xff6ad5ff, SHADE = 0x101418a0; /* in no colormap, and seen on any ground */
+    static const float THICK = 0.11F;                             /* of letters' height */
+    const float em = text_height(text);
+    Sight sight = look->sight;
+    sight.box = *pose;
+    text_begin_within(text, look->width, look->height,
+                      (int[]){look->at.x, look->at.y, look->at.width, look->at.height});
+    for (int i = 0; i < 2 * OUTLINE_EDGES; i++) { /* all the shade below all the lines */
+        double a[3], b[3], from[2], to[2];
+        const bool shade = i < OUTLINE_EDGES;
+        outline_edge(look->particles->box_size, i % OUTLINE_EDGES, a, b);
+        if (sight_pixel(&sight, a, from) && sight_pixel(&sight, b, to))
+            text_line(text, (float)from[0], (float)from[1], (float)to[0], (float)to[1],
+                      (shade ? 2 : 1) * THICK * em, shade ? SHADE : COLOR);
+    }
+    text_end(text);
+}
+
+/* What the mouse may take, where the box goes, and what is under the mouse. */
 static void draw_marks(Play *play)
 {
     Picture *picture = &play->picture;
+    BoxState goal;
+    follow_outline(play, &goal);
     for (int i = 0; i < panels_count(picture->panels); i++) {
         const Look look = play_look(play, i);
+        if (play->outlined && look.particles == &play->model.particles &&
+            !renderer_is_flat(panels_renderer(picture->panels, i)))
+            draw_outline(&look, &goal, picture->text);
         grip_draw(&play->grip, &look, picture->text);
     }
     picture->over |= readout_draw(&play->readout, picture->panels, picture->width, picture->height,

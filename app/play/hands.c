@@ -3,6 +3,7 @@
 #include "app/play/parts.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
 
@@ -15,8 +16,16 @@ static void steer(AskQueue *asks, const double rates[3])
                          .amount = {CAMERA_TURN * rates[0], CAMERA_TURN * rates[1], CAMERA_ZOOM * rates[2]}});
 }
 
+/* While time is paused nothing else asks for a picture of what the hand does. */
+static void follow_target(Play *play, const BoxTarget *target)
+{
+    play->picture.over |= memcmp(&play->wanted, target, sizeof *target) != 0;
+    play->wanted = *target;
+}
+
 static void take_news(Play *play, const HandNews *news)
 {
+    follow_target(play, &news->target);
     for (int i = 0; i < news->words_count; i++)
         if (news->words[i].wrong)
             notice_error(&play->notice, news->words[i].text);

@@ -181,7 +181,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
 double overlay_covered_left(const Overlay *overlay, int width)
 {
     const double part = overlay->panel ? panel_width(overlay->ui, width) / fmax(width, 1) : 0;
-    return part < 0.5 ? part : 0;
+    return part < 0.6 ? part : 0;
 }
 
 /* Bars of a motion device are live, as often as an eye can tell. */

@@ -77,7 +77,8 @@ bool overlay_shown(const Overlay *overlay, const Model *model);
 /* How high the time line stands over the lower edge, pixels; 0: it is not shown. */
 float overlay_covered_below(const Overlay *overlay, const Model *model);
 
-/* How much of the width the panel takes from the box, 0 .. 1: one that leaves less than half takes nothing.
+/* How much of the width the panel takes from the box, 0 .. 1: one that leaves less than two fifths takes
+ * nothing.
  */
 double overlay_covered_left(const Overlay *overlay, int width);
 

@@ -3,6 +3,7 @@
 #ifndef SLOSH_PLAY_PARTS_H
 #define SLOSH_PLAY_PARTS_H
 
+#include "app/hand/outline.h"
 #include "app/play/ask.h"
 #include "app/play/camera.h"
 #include "app/play/files.h"
@@ -26,6 +27,8 @@ typedef struct Play {
     Model model;
     PlayCamera camera;
     Grip grip;
+    BoxTarget wanted; /* where the hand wants the box, */
+    bool outlined;    /* and an outline shows it */
     Readout readout;
     PlayViews views;
     Picture picture;

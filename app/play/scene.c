@@ -11,6 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+static bool refuse_session(const char *path, Error *error)
+{
+    return error_set(
+        error,
+        "%s: a recorded session; `slosh replay %s` simulates it again, `slosh render %s -o OUT.mp4` "
+        "films it",
+        path, path, path);
+}
+
 static bool read_scene(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                        Error *error)
 {
@@ -19,6 +28,8 @@ static bool read_scene(PlayScene *open, const char *name, const SceneSettings *s
     applied.purpose = SCENE_FOR_WINDOW;
     char path[SCENE_PATH_SIZE];
     size_t size;
+    if (recording_is_file(name))
+        return refuse_session(name, error);
     if (!scene_path_find(name, path, error))
         return false;
     char *text = scene_file_read(path, &size, error);

@@ -47,6 +47,7 @@ static void make_key(const Frame *frame, double key[BACKDROP_KEY_SIZE])
     key = append(key, camera->eye, 3);
     key = append(key, camera->view, 16);
     key = append(key, camera->tangent, 2);
+    key = append(key, camera->centre, 2);
     key = append(key, &camera->near_plane, 1);
     key = append(key, &frame->floor_height, 1);
     key = append(key, frame->floor_center, 2);

@@ -9,7 +9,7 @@
 #include "render/frame/shadow.h"
 #include "sim/base/error.h"
 
-enum { BACKDROP_KEY_SIZE = 30 };
+enum { BACKDROP_KEY_SIZE = 32 };
 
 typedef struct Backdrop {
     unsigned program, shadow_program, vertex_array;

@@ -69,14 +69,12 @@ typedef struct Room {
     float left, right, high;
 } Room;
 
-static Room make_room(Covered covered)
+static Room make_room(double covered_right)
 {
     Room room = {-0.80F, 0.80F, 0.80F};
-    const float right = (float)(1 - 2 * covered.right - 0.04), left = (float)(1 - 2 * covered.left - 0.04);
+    const float right = (float)(1 - 2 * covered_right - 0.04);
     if (right < room.right) /* too narrow beside the legend: out of its way, and nearer to the left side */
         room.left = -0.92F, room.right = fmaxf(right, -0.5F);
-    if (left < -room.left)
-        room.left = fminf(-left, room.right - 0.4F);
     return room;
 }
 
@@ -110,10 +108,10 @@ void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3
 
 static const double FLAT = 0.1; /* of width and height */
 
-static void look_at_box(Camera *camera, const double size[3], const BoxState *box, Covered covered)
+static void look_at_box(Camera *camera, const double size[3], const BoxState *box, double covered_right)
 {
     vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
-    Room room = make_room(covered);
+    Room room = make_room(covered_right);
     if (size[2] < FLAT * fmin(size[0], size[1])) /* a picture, not a thing: seen as one */
         back[0] = back[1] = 0;
     glm_vec3_normalize(back);
@@ -128,8 +126,9 @@ static void look_at_box(Camera *camera, const double size[3], const BoxState *bo
     look(camera, eye, at);
 }
 
-void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                 Covered covered, Camera *camera)
+/* For what is free of the picture, without what is covered on its left. */
+static void make_free(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
+                      double covered_right, Camera *camera)
 {
     static const double auto_fov_deg = 32; /* long enough a lens that the box looks calm */
     double fov = def->camera_auto ? auto_fov_deg : def->camera.fov_deg;
@@ -139,7 +138,7 @@ void camera_make(const ViewDef *def, const double box_size[3], const BoxState *b
     camera->near_plane =
         (float)(1e-3 * diagonal); /* infinite reversed float depth loses nothing by a near one */
     if (def->camera_auto) {
-        look_at_box(camera, box_size, box, covered);
+        look_at_box(camera, box_size, box, covered_right);
         return;
     }
     vec3 eye, at;
@@ -150,6 +149,24 @@ void camera_make(const ViewDef *def, const double box_size[3], const BoxState *b
     look(camera, eye, at);
 }
 
+void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
+                 Covered covered, Camera *camera)
+{
+    const double open = 1 - covered.left;
+    *camera = (Camera){.centre = {(float)covered.left}};
+    /* beside a panel a legend over a corner of the box is better than a box that is a speck */
+    const bool narrow = covered.left > 0 && covered.right > 0.4 * open;
+    make_free(def, box_size, box, aspect * open, narrow ? 0 : covered.right / open, camera);
+    camera->tangent[0] = (float)(camera->tangent[1] * aspect); /* and more of the same on the left */
+}
+
+float camera_slant_square(const Camera *camera)
+{
+    const float x = camera->tangent[0] * (1 + fabsf(camera->centre[0])),
+                y = camera->tangent[1] * (1 + fabsf(camera->centre[1]));
+    return x * x + y * y;
+}
+
 bool camera_project(const Camera *camera, const double world[3], int width, int height, double pixel[2],
                     double *depth)
 {
@@ -157,8 +174,8 @@ bool camera_project(const Camera *camera, const double world[3], int width, int 
     matrix_transform(camera->view, x, eye);
     if (eye[2] > -camera->near_plane)
         return false;
-    pixel[0] = (0.5 + 0.5 * eye[0] / (-eye[2] * camera->tangent[0])) * width;
-    pixel[1] = (0.5 - 0.5 * eye[1] / (-eye[2] * camera->tangent[1])) * height;
+    pixel[0] = (0.5 + 0.5 * (eye[0] / (-eye[2] * camera->tangent[0]) + camera->centre[0])) * width;
+    pixel[1] = (0.5 - 0.5 * (eye[1] / (-eye[2] * camera->tangent[1]) + camera->centre[1])) * height;
     *depth = camera->near_plane / -eye[2];
     return true;
 }

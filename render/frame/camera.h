@@ -9,13 +9,20 @@ typedef struct Camera {
     float eye[3];     /* m, world */
     float view[16];   /* world to eye */
     float tangent[2]; /* of half the field of view, in x and y */
+    float centre[2];  /* where in the picture the axis is, -1 .. 1 to the right and up: off its middle where
+                         something covers a side */
     float near_plane; /* m */
 } Camera;
 
-/* What lies over a picture at its sides, a panel and a legend: parts of its width, 0 .. 1. */
+/* What lies over a picture at its sides, a panel and a legend: parts of its width, 0 .. 1. What is covered on
+   the left moves the view's axis to the middle of the rest, by any camera; an automatic one also makes room
+   for what is on the right. */
 typedef struct Covered {
     double left, right;
 } Covered;
+
+/* The tangent of the greatest angle between a ray and the axis, squared. */
+float camera_slant_square(const Camera *camera);
 
 /* The def's camera, or with camera_auto one that shows the whole box from the front, the right and above, for
    a picture `aspect` times as wide as high, beside what is covered. It stays while the box moves about, and

@@ -127,7 +127,7 @@ static void make_floor(Frame *frame, const double size[3], const BoxState *box, 
 /* Of the box and a radius around it: a cube around each sphere is inside. */
 static void make_bounds(Frame *frame, const double size[3])
 {
-    const float r = frame->particle_reach, *tangent = frame->camera.tangent;
+    const float r = frame->particle_reach, *tangent = frame->camera.tangent, *centre = frame->camera.centre;
     float box_to_eye[16], low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
     matrix_multiply(frame->camera.view, frame->box_to_world, box_to_eye);
     frame->nearest = INFINITY;
@@ -140,8 +140,8 @@ static void make_bounds(Frame *frame, const double size[3])
         frame->nearest = fminf(frame->nearest, -at[2]);
         frame->farthest = fmaxf(frame->farthest, -at[2]);
         for (int k = 0; k < 2; k++) {
-            low[k] = fminf(low[k], at[k] / (-at[2] * tangent[k]));
-            high[k] = fmaxf(high[k], at[k] / (-at[2] * tangent[k]));
+            low[k] = fminf(low[k], at[k] / (-at[2] * tangent[k]) + centre[k]);
+            high[k] = fmaxf(high[k], at[k] / (-at[2] * tangent[k]) + centre[k]);
         }
     }
     bool before = frame->nearest > frame->camera.near_plane;
@@ -276,6 +276,7 @@ static void fill_view(FrameBlock *block, const Frame *frame)
 {
     const Camera *camera = &frame->camera;
     set2(block->view_tangent, camera->tangent[0], camera->tangent[1]);
+    set2(block->view_centre, camera->centre[0], camera->centre[1]);
     block->near_plane = camera->near_plane;
     set2(block->picture_size, frame->width, frame->height);
     set2(block->pixel_size, 1.0 / frame->width, 1.0 / frame->height);

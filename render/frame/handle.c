@@ -44,8 +44,8 @@ bool sight_pixel(const Sight *sight, const double at[3], double pixel[2])
 void sight_ray(const Sight *sight, const double pixel[2], SightRay *ray)
 {
     const Camera *camera = &sight->camera;
-    const double eye[3] = {(2 * pixel[0] / sight->width - 1) * camera->tangent[0],
-                           (1 - 2 * pixel[1] / sight->height) * camera->tangent[1], -1};
+    const double eye[3] = {(2 * pixel[0] / sight->width - 1 - camera->centre[0]) * camera->tangent[0],
+                           (1 - 2 * pixel[1] / sight->height - camera->centre[1]) * camera->tangent[1], -1};
     double from[3];
     for (int k = 0; k < 3; k++) { /* the view's rows are the picture's axes */
         const float *column = &camera->view[4 * k];

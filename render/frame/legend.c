@@ -16,6 +16,26 @@ typedef struct Layout {
     uint32_t ink, faint, panel;
 } Layout;
 
+static bool looks_like_water(const FluidDef *fluid)
+{
+    const float *color = fluid->color;
+    return strstr(fluid->name, "water") || strstr(fluid->name, "Water") ||
+           (color[2] > 2 * color[0] && color[2] > color[1]);
+}
+
+/* Its name; with the viscosity of what is taken for water and flows far otherwise. One that changes with time
+ * is not told: the legend would change its width, and the camera its place. */
+static void fluid_words(const FluidDef *fluid, char words[NAME_SIZE + 32])
+{
+    static const double WATER = 1.0e-3, FAR = 10; /* Pa s, at 20 degrees */
+    const double mu = fluid->viscosity;
+    const bool told = looks_like_water(fluid) && fluid->viscosity_table.rows == 0 && mu > 0 &&
+                      (mu >= FAR * WATER || mu <= WATER / FAR);
+    snprintf(words, NAME_SIZE + 32, "%s", fluid->name);
+    if (told)
+        snprintf(words + strlen(words), 32, ", %.3g Pa s", mu);
+}
+
 float legend_text_pixels(int height)
 {
     float pixels = floorf((float)height / 40);
@@ -27,8 +47,11 @@ double legend_width_pixels(const ViewDef *def, const WorldDef *world, int height
     double letters = 0;
     if (!def->legend || (view_color_by(def) == SCALAR_FLUID && world->fluid_count == 0))
         return 0;
-    for (int i = 0; i < world->fluid_count; i++)
-        letters = fmax(letters, (double)strlen(world->fluids[i].name));
+    for (int i = 0; i < world->fluid_count; i++) {
+        char words[NAME_SIZE + 32];
+        fluid_words(&world->fluids[i], words);
+        letters = fmax(letters, (double)strlen(words));
+    }
     double width_em = view_color_by(def) == SCALAR_FLUID ? 3.3 + 0.6 * letters : SCALAR_WIDTH_EM;
     return (width_em + 1) * legend_text_pixels(height);
 }
@@ -184,8 +207,11 @@ static float draw_fluids(Text *text, const Frame *frame)
 {
     const WorldDef *world = frame->world;
     float widest = 0;
-    for (int i = 0; i < world->fluid_count; i++)
-        widest = fmaxf(widest, text_width(text, 1, world->fluids[i].name) / text_height(text));
+    char words[FLUIDS_MAX][NAME_SIZE + 32];
+    for (int i = 0; i < world->fluid_count; i++) {
+        fluid_words(&world->fluids[i], words[i]);
+        widest = fmaxf(widest, text_width(text, 1, words[i]) / text_height(text));
+    }
     const float height = 1.6F * (float)world->fluid_count + 0.9F;
     Layout layout = make_layout(text, frame, widest + 3.3F, height);
     float em = layout.em, x = layout.left + 0.8F * em;
@@ -193,7 +219,7 @@ static float draw_fluids(Text *text, const Frame *frame)
     for (int i = 0; i < world->fluid_count; i++) {
         float y = layout.top + (0.75F + 1.6F * (float)i) * em;
         text_rectangle(text, x, y, x + em, y + em, 0.5F * em, fluid_rgba(world->fluids[i].color));
-        text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, world->fluids[i].name);
+        text_draw(text, x + 1.6F * em, y, 1, layout.ink, TEXT_LEFT, words[i]);
     }
     return height;
 }

@@ -145,8 +145,9 @@ static SetSight sight_of(const Average *average, const Frame *frame)
     for (int k = 0; k < 4; k++) {
         const float w = -to_eye[4 * k + 2];
         for (int axis = 0; axis < 2; axis++)
-            sight.row[axis][k] = to_eye[4 * k + axis] * size[axis] / (2 * tangent[axis]) +
-                                 w * (size[axis] / 2 - (float)average->part[axis]);
+            sight.row[axis][k] =
+                to_eye[4 * k + axis] * size[axis] / (2 * tangent[axis]) +
+                w * (size[axis] * (1 + frame->camera.centre[axis]) / 2 - (float)average->part[axis]);
         sight.row[2][k] = w;
     }
     sight.edges = (float)pbsr_def(frame->def)->edges;

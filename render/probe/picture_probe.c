@@ -18,7 +18,7 @@ static bool same_camera(const Camera *a, const Camera *b)
     for (int k = 0; k < 16; k++)
         same &= a->view[k] == b->view[k];
     for (int k = 0; k < 2; k++)
-        same &= a->tangent[k] == b->tangent[k];
+        same &= a->tangent[k] == b->tangent[k] && a->centre[k] == b->centre[k];
     return same;
 }
 

@@ -128,7 +128,7 @@ static bool points_will_do(const Spheres *spheres, const Frame *frame)
     const float *tangent = frame->camera.tangent, r = frame->particle_reach, nearest = frame->nearest + r;
     if (!frame->all_in_view || nearest <= 2 * r)
         return false;
-    float slant = sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    float slant = sqrtf(1 + camera_slant_square(&frame->camera));
     float half = r * slant / (nearest - r) / tangent[1] * (float)frame->height / 2;
     return 2 * half + 1 <= spheres->point_limit;
 }

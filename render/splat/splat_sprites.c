@@ -36,8 +36,7 @@ bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite)
 /* An upper bound of the pixels across of the largest sphere, at the rim of the picture. */
 SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height)
 {
-    const float *tangent = frame->camera.tangent;
-    const float slant = 1 + tangent[0] * tangent[0] + tangent[1] * tangent[1];
+    const float *tangent = frame->camera.tangent, slant = 1 + camera_slant_square(&frame->camera);
     if (sprites->def.sprite != SPLAT_AUTO)
         return sprites->def.sprite;
     if (sprites->point_limit <= 0 || frame->nearest <= radius)

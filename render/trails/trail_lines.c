@@ -45,6 +45,7 @@ static TrailSight sight_of(const TrailStore *store, const Frame *frame)
     TrailSight sight;
     matrix_multiply(frame->camera.view, frame->box_to_world, sight.box_to_eye);
     memcpy(sight.tangent, frame->camera.tangent, sizeof sight.tangent);
+    memcpy(sight.centre, frame->camera.centre, sizeof sight.centre);
     sight.near_plane = frame->camera.near_plane;
     sight.half_width = (float)(trails_def(frame->def)->width / 2);
     for (int k = 0; k < 3; k++)
@@ -75,8 +76,8 @@ static bool same_numbers(const float *a, const float *b, int count)
 static bool same_sight(const TrailSight *a, const TrailSight *b)
 {
     return same_numbers(a->box_to_eye, b->box_to_eye, 16) && same_numbers(a->tangent, b->tangent, 2) &&
-           same_numbers(a->wrap, b->wrap, 3) && a->near_plane == b->near_plane &&
-           a->half_width == b->half_width;
+           same_numbers(a->centre, b->centre, 2) && same_numbers(a->wrap, b->wrap, 3) &&
+           a->near_plane == b->near_plane && a->half_width == b->half_width;
 }
 
 static bool same_look(const TrailLook *a, const TrailLook *b)

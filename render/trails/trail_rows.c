@@ -8,7 +8,7 @@
 
 enum { STRIPE = TRAIL_TILE, SEEN_FLOATS = 5 }; /* a tile is of one thread alone */
 
-/* A column as the eye sees it: x y z in its frame, and pixels from the middle of the picture. */
+/* A column as the eye sees it: x y z in its frame, and pixels from where its axis is in the picture. */
 typedef struct Seen {
     float *x, *y, *z, *px, *py;
 } Seen;
@@ -197,7 +197,8 @@ static void draw_piece(const Part *part, size_t i)
     const float start = cut(sight, za, zb), stop = 1 - cut(sight, zb, za), reach = sight->half_width + 0.5F;
     Ink ink = {.half = sight->half_width, .known = pieces->known};
     const Corner first = end_of(part, i, start, &ink.depth[0]), last = end_of(part, i, stop, &ink.depth[1]);
-    const float middle[2] = {0.5F * (float)picture->width, 0.5F * (float)picture->height};
+    const float middle[2] = {0.5F * (float)picture->width * (1 + sight->centre[0]),
+                             0.5F * (float)picture->height * (1 + sight->centre[1])};
     const Corner a = {first.x + middle[0], first.y + middle[1]}, b = {last.x + middle[0], last.y + middle[1]};
     if (is_elsewhere(part, a, b, reach))
         return;

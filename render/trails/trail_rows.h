@@ -23,7 +23,7 @@ typedef struct TrailPicture {
 
 /* What all pieces have in common. */
 typedef struct TrailSight {
-    float box_to_eye[16], tangent[2], near_plane, half_width, wrap[3];
+    float box_to_eye[16], tangent[2], centre[2], near_plane, half_width, wrap[3];
 } TrailSight;
 
 /* A column's points: `slots` of them; the owners as in TrailStore. */

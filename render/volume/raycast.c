@@ -190,8 +190,7 @@ static void fill_matrices(RaycastBlock *block, const VolumeGrid *grid, const Fra
  */
 static bool near_is_inside(const RaycastBlock *block, const Frame *frame)
 {
-    const float *tangent = frame->camera.tangent, near = frame->camera.near_plane;
-    const float reach = near * sqrtf(1 + tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+    const float reach = frame->camera.near_plane * sqrtf(1 + camera_slant_square(&frame->camera));
     bool inside = true;
     for (int k = 0; k < 3; k++) {
         const float at = block->eye_to_volume[12 + k],

@@ -17,7 +17,7 @@ vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
 // then.
 vec3 behind_at(vec3 place, float surface, vec2 straight)
 {
-    vec2 at = 0.5 + 0.5 * place.xy / (-place.z * view_tangent);
+    vec2 at = 0.5 + 0.5 * ndc_of_eye(place);
     if (is_nan(at.xyxy) || place.z >= -near_plane || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         return environment(vec3(0.0), place);
 #ifdef SOLIDS

@@ -60,5 +60,5 @@ vec4 sphere_bounds(Sphere s)
     if (s.inverse == 0.0 || w + s.radius <= near_plane)
         return vec4(0.0);
     vec4 bounds = vec4(sphere_slopes(s.centre.x, w, s.radius) / view_tangent.x, sphere_slopes(s.centre.y, w, s.radius) / view_tangent.y);
-    return clamp(bounds, -1.0, 1.0);
+    return clamp(bounds + view_centre.xxyy, -1.0, 1.0);
 }

@@ -30,8 +30,8 @@ void main()
     gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
     if (nearest < 2.0 * near_plane || long_is <= 0.0)
         return;
-    vec2 half_size = 0.5 * picture_size, from = foot.xy / (-foot.z * view_tangent) * half_size;
-    vec2 to = tip.xy / (-tip.z * view_tangent) * half_size, dir = to - from;
+    vec2 half_size = 0.5 * picture_size, from = ndc_of_eye(foot) * half_size;
+    vec2 to = ndc_of_eye(tip) * half_size, dir = to - from;
     dir = length(dir) > 1e-3 ? normalize(dir) : vec2(1.0, 0.0);
     // balls at both ends: off the axis of the view they are longer by its slant
     float slant = 1.0 + max(dot(foot.xy, foot.xy) / (foot.z * foot.z), dot(tip.xy, tip.xy) / (tip.z * tip.z));

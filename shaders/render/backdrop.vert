@@ -16,7 +16,7 @@ void main()
 #ifdef FLOOR_SHADOW
     vec2 xz = floor_map_corner + floor_map_size * vec2(gl_VertexID & 1, gl_VertexID >> 1);
     vec3 at = (vec3(xz.x, floor_height, xz.y) - eye_to_world[3].xyz) * turn;
-    gl_Position = vec4(at.xy / view_tangent, near_plane, -at.z);
+    gl_Position = clip_of_eye(at);
 #else
     gl_Position = vec4(2.0 * vec2((gl_VertexID << 1) & 2, gl_VertexID & 2) - 1.0, 0.0, 1.0);
 #endif

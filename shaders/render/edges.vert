@@ -32,7 +32,7 @@ void main()
         gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
         return;
     }
-    vec2 here = from.xy / (-from.z * view_tangent), there = to.xy / (-to.z * view_tangent);
+    vec2 here = ndc_of_eye(from), there = ndc_of_eye(to);
     vec2 along = (there - here) * picture_size;
     vec2 normal = vec2(-along.y, along.x) / max(length(along), 1e-6) * (end == 0 ? 1.0 : -1.0);
     across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 1.0);

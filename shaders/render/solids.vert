@@ -14,5 +14,5 @@ void main()
     in_eye = (to_eye * vec4(position, 1.0)).xyz;
     normal_in_eye = mat3(to_eye) * normal;
     albedo = solids[solid].color.rgb;
-    gl_Position = vec4(in_eye.xy / view_tangent, near_plane, -in_eye.z);
+    gl_Position = clip_of_eye(in_eye);
 }

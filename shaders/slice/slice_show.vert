@@ -11,5 +11,5 @@ void main()
     share = vec2(gl_VertexID & 1, gl_VertexID >> 1);
     dvec2 squares = dvec2(share * plane_samples * plane_side * plane_side); // the axes are as long as 1 / side
     vec3 at = (box_to_eye * vec4(plane_corner + squares.x * plane_along + squares.y * plane_up, 1.0)).xyz;
-    gl_Position = is_flat != 0u ? vec4(share * 2.0 - 1.0, 0.5, 1.0) : vec4(at.xy / view_tangent, near_plane, -at.z);
+    gl_Position = is_flat != 0u ? vec4(share * 2.0 - 1.0, 0.5, 1.0) : clip_of_eye(at);
 }

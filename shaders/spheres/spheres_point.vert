@@ -30,7 +30,7 @@ void main()
     vec2 unit = vec2(size, -size) * pixel; // gl_PointCoord counts from the top
     axes = vec4(direction * unit / half_axes.x, vec2(-direction.y, direction.x) * unit / half_axes.y);
     rest = uvec4(floatBitsToUint(near_plane / q * vec3(w, r * slant * outwards, r * slant * root)), index);
-    gl_Position = !is_nan(q + out2) && w > r + near_plane ? vec4(centre.xy * w / (q * view_tangent), 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
+    gl_Position = !is_nan(q + out2) && w > r + near_plane ? vec4(centre.xy * w / (q * view_tangent) + view_centre, 0.5, 1.0) : vec4(2.0, 2.0, 0.5, 1.0);
     gl_PointSize = size;
 #ifdef DROPS
     if (r <= 0.0)

@@ -33,7 +33,7 @@ Disc disc_of(uint index)
 #else
     float slant = (length(centre.xy) + radius) / w;
 #endif
-    return Disc(centre.xy * scale + 0.5 * cull_pixels, whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
+    return Disc(centre.xy * scale + 0.5 * cull_pixels * (1.0 + view_centre), whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
 }
 
 // A ray that is r away from the centre in the disc's plane meets the sphere the latest when it leans outwards: as

@@ -56,7 +56,7 @@ vec4 body_bounds(Body body)
         return vec4(0.0);
     vec4 bounds = vec4(ellipsoid_slopes(c.x, w, dot(x, x), dot(x, z), szz, around) / view_tangent.x,
                        ellipsoid_slopes(c.y, w, dot(y, y), dot(y, z), szz, around) / view_tangent.y);
-    return clamp(bounds, -1.0, 1.0);
+    return clamp(bounds + view_centre.xxyy, -1.0, 1.0);
 }
 #else
 Body body_of(uint index)
@@ -77,7 +77,8 @@ vec4 body_bounds(Body body)
     float w = -centre.z;
     if (is_nan(centre.xyzz) || w <= near_plane)
         return vec4(0.0);
-    return clamp((centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * view_tangent.xxyy), -1.0, 1.0);
+    vec4 bounds = (centre.xxyy + drawn_radius(body.radius, centre) * vec4(-1.0, 1.0, -1.0, 1.0)) / (w * view_tangent.xxyy);
+    return clamp(bounds + view_centre.xxyy, -1.0, 1.0);
 #else
     return sphere_bounds(sphere_at(body.centre, drawn_radius(body.radius, body.centre)));
 #endif

@@ -66,5 +66,6 @@ void main()
     vec3 here = mix(from, to, share);
     across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 0.5);
     stamp = vec2(mix(times.x, times.y, share), mix(places[a].w, places[b].w, share));
-    gl_Position = vec4(here.xy / view_tangent + side * across * 2.0 * pixel_size * -here.z, near_plane, -here.z);
+    gl_Position = clip_of_eye(here);
+    gl_Position.xy += side * across * 2.0 * pixel_size * -here.z;
 }

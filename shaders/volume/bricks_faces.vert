@@ -14,5 +14,5 @@ void main()
     corner[(axis + 1u) % 3u] += up == 1u ? across.x : across.y;
     corner[(axis + 2u) % 3u] += up == 1u ? across.y : across.x;
     vec3 in_eye = (volume_to_eye * vec4(brick_corner(corner), 1.0)).xyz;
-    gl_Position = vec4(in_eye.xy / view_tangent, near_plane, -in_eye.z);
+    gl_Position = clip_of_eye(in_eye);
 }

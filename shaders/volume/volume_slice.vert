@@ -14,5 +14,5 @@ void main()
     box_point = volume_corner + share * vec3(volume_size) / cells_per_m;
     box_point[axis] = place;
     vec3 at = (box_to_eye * vec4(box_point, 1.0)).xyz;
-    gl_Position = vec4(at.xy / view_tangent, near_plane, -at.z);
+    gl_Position = clip_of_eye(at);
 }

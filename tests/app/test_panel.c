@@ -173,7 +173,7 @@ static void open_sections(Desk *desk)
 
 static Desk *all_open(Session *session, const char *scene)
 {
-    Desk *desk = session_open(session, scene, 400, TALL, 13);
+    Desk *desk = session_open(session, scene, 700, TALL, 13);
     open_sections(desk);
     return desk;
 }
@@ -226,7 +226,7 @@ static void test_the_shown_view_has_its_keys_and_no_other(void **state)
 {
     (void)state;
     Session session;
-    Desk *desk = session_open(&session, "two_oils", 400, TALL, 13);
+    Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
     assert_non_null(desk_find(desk, "view.kind")); /* open at first */
     assert_null(desk_find(desk, "view.splat.weights"));
     assert_true(desk_find(desk, "View")->rect[1] < desk_find(desk, "Colours")->rect[1]);
@@ -478,7 +478,7 @@ static void test_motion_devices(void **state)
 {
     (void)state;
     Session session;
-    Desk *desk = session_open(&session, "box_slosh", 400, 1600, 13);
+    Desk *desk = session_open(&session, "box_slosh", 700, 1600, 13);
     assert_null(desk_find(desk, "Motion device"));
     add_devices(&session);
     desk->input.changed = true;
@@ -628,7 +628,7 @@ static void test_terms_have_switches(void **state)
 {
     (void)state;
     Session session;
-    Desk *desk = session_open(&session, "two_oils", 400, TALL, 13);
+    Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
     panel_destroy(session.panel);
     session.panel = panel_create(); /* another start */
     session.scene.world.wall_slip = SLIP_NONE;
@@ -649,7 +649,7 @@ static void test_terms_have_switches(void **state)
     assert_non_null(desk_find(desk, "box slip none: needs a new start to go, with --set box.slip=free"));
     assert_nothing_is_cut(desk);
     session_close(&session, desk);
-    desk = session_open(&session, "impact", 400, TALL, 13); /* long names */
+    desk = session_open(&session, "impact", 700, TALL, 13); /* long names */
     desk_click_at(desk, "Terms", 0.3F);
     desk_frames(desk, 30);
     assert_non_null(desk_find(desk, "solver artificial viscosity 0.05: needs a new start to go, with --set "
@@ -664,7 +664,7 @@ static void test_a_long_term_comes_back(void **state)
     (void)state;
     static const char table[] = "fluids[1].viscosity=[[0, 0.11], [1, 0.12], [2, 0.13], [3, 0.14], [4, 0.15]]";
     Session session;
-    Desk *desk = session_open(&session, "two_oils", 400, TALL, 13);
+    Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
     panel_destroy(session.panel);
     session.panel = panel_create();
     assert_true(scene_set_live(&session.scene, table, NULL, NULL));

@@ -430,6 +430,10 @@ class Keys(Window):
         self.assertEqual(len(kept), 1)
         for name in (*kept, 'a.rec'):
             self.assertEqual(self.slosh('replay', name, '--quiet'), (0, ''))
+        code, said = self.slosh('play', 'a.rec')  # one that is dropped comes the same way
+        self.assertEqual(code, 2)
+        self.assertIn('a.rec: a recorded session; `slosh replay a.rec` simulates it again', said)
+        self.assertEqual(said.count('\n'), 1)
 
     def test_fullscreen(self):
         self.open('still.yaml')
@@ -590,6 +594,27 @@ class Mouse(Window):
         code, said = self.slosh('replay', 'b.recording')
         self.assertEqual(code, 1)
         self.assertIn('different after', said)
+
+    def outline(self):
+        """Pixels of the colour of the outline."""
+        picture = self.display.picture(self.window)
+        return sum(picture[i + 2] > 230 and 70 < picture[i + 1] < 140 and 180 < picture[i] < 230 for i in range(0, len(picture), 4))
+
+    def test_a_paused_box_shows_where_it_goes(self):
+        """By an outline, as long as it is not there."""
+        self.open('still.yaml', '--record', 'a.recording')
+        self.keys('space')
+        self.assertEqual(self.outline(), 0)
+        self.drag(1, [(200, 200), (230, 200), (260, 200)], 'shift')
+        self.wait_for(lambda: self.outline() > 50, self.process)
+        self.keys('b')  # home, where it is
+        self.wait_for(lambda: self.outline() == 0, self.process)
+        self.drag(1, [(200, 200), (220, 200), (250, 210)], 'ctrl')
+        self.wait_for(lambda: self.outline() > 50, self.process)
+        self.keys('space')
+        self.wait_for(lambda: self.outline() == 0, self.process)
+        out = self.quit()
+        self.assertLess(out['box_orientation'][3], 0.999)
 
     def test_box_turns_and_comes_home(self):
         self.open('still.yaml', '--record', 'a.recording')

@@ -46,15 +46,42 @@ static void assert_near(const double found[3], const double wanted[3], double bo
 static void a_ray_goes_through_what_its_pixel_shows(void **state)
 {
     (void)state;
-    const Sight sight = sight_from(1.5, 1, 2);
+    Sight sight = sight_from(1.5, 1, 2);
     const double places[][3] = {{0, 0, 0}, {0.4, 0.7, -0.3}, {-0.5, 0.2, 0.5}};
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 6; i++) { /* the last three off the picture's middle */
+        const double *place = places[i % 3];
+        memcpy(sight.camera.centre, (float[]){i < 3 ? 0 : 0.3F, i < 3 ? 0 : -0.2F},
+               sizeof sight.camera.centre);
         double pixel[2], hit[3];
         SightRay ray;
-        assert_true(sight_pixel(&sight, places[i], pixel));
+        assert_true(sight_pixel(&sight, place, pixel));
         sight_ray(&sight, pixel, &ray);
-        assert_true(sight_ray_plane(&ray, places[i], ray.along, hit));
-        assert_near(hit, places[i], 1e-5); /* cameras are floats */
+        assert_true(sight_ray_plane(&ray, place, ray.along, hit));
+        assert_near(hit, place, 1e-5); /* cameras are floats */
+    }
+}
+
+/* What a camera looks at is in the middle of what is free, as large as without anything over the picture. */
+static void what_is_looked_at_is_in_the_middle_of_what_is_free(void **state)
+{
+    (void)state;
+    const double size[3] = {1, 1, 1}, aspect = (double)WIDE / HIGH;
+    const BoxState box = {.orientation = {0, 0, 0, 1}};
+    ViewDef def = view_def_default();
+    def.camera_auto = false;
+    def.camera = (CameraDef){{1.5, 1, 2}, {0.1, 0.4, 0}, 45};
+    for (int i = 0; i < 2; i++) {
+        const double left = i * 0.4;
+        double at[2], up[2], depth;
+        Camera camera;
+        camera_make(&def, size, &box, aspect, (Covered){left, 0.2}, &camera);
+        assert_true(camera_project(&camera, def.camera.to, WIDE, HIGH, at, &depth));
+        assert_true(camera_project(&camera, (double[]){0.1, 0.6, 0}, WIDE, HIGH, up, &depth));
+        if (fabs(at[0] - WIDE * (1 + left) / 2) > 1e-3 || fabs(at[1] - HIGH / 2.0) > 1e-3)
+            fail_msg("it is at %g %g", at[0], at[1]);
+        static double first;
+        first = i == 0 ? at[1] - up[1] : first;
+        assert_true(fabs(at[1] - up[1] - first) < 1e-3);
     }
 }
 
@@ -180,6 +207,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_ray_goes_through_what_its_pixel_shows),
+        cmocka_unit_test(what_is_looked_at_is_in_the_middle_of_what_is_free),
         cmocka_unit_test(what_is_behind_the_eye_has_no_pixel),
         cmocka_unit_test(the_nearest_handle_is_found),
         cmocka_unit_test(a_handle_stays_under_the_mouse),

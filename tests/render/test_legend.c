@@ -83,6 +83,27 @@ static void test_camera_leaves_room_for_the_legend(void **state)
     assert_true(rightmost > 60);
 }
 
+static double fluid_legend(const char *name, double blue, double viscosity)
+{
+    ViewDef def = view_def_default();
+    WorldDef world = {.fluid_count = 1};
+    def.color_by = SCALAR_FLUID;
+    text_set(world.fluids[0].name, name);
+    world.fluids[0].color[2] = (float)blue;
+    world.fluids[0].viscosity = viscosity;
+    return legend_width_pixels(&def, &world, 720);
+}
+
+/* A water that flows like honey says so, by its name or its colour; others, and water itself, do not. */
+static void test_legend_tells_what_is_no_water(void **state)
+{
+    (void)state;
+    assert_true(fluid_legend("water", 0, 5) > fluid_legend("water", 0, 1e-3) + 20);
+    assert_true(fluid_legend("fluid", 0.6, 5) > fluid_legend("fluid", 0.6, 2e-3) + 20);
+    assert_true(fluid_legend("honey", 0, 5) == fluid_legend("honey", 0, 1e-3));
+    assert_true(fluid_legend("water", 0, 0) == fluid_legend("water", 0, 1e-3)); /* without friction */
+}
+
 /* Nor beside a panel on the left, with and without a legend. */
 static void test_camera_leaves_room_for_a_panel(void **state)
 {
@@ -155,6 +176,7 @@ int main(void)
         cmocka_unit_test(test_units_as_people_write_them),
         cmocka_unit_test(test_camera_shows_the_box),
         cmocka_unit_test(test_camera_leaves_room_for_the_legend),
+        cmocka_unit_test(test_legend_tells_what_is_no_water),
         cmocka_unit_test(test_camera_leaves_room_for_a_panel),
         cmocka_unit_test(test_camera_follows_late),
         cmocka_unit_test_teardown(test_legend_is_drawn, no_gl_errors),

@@ -1,5 +1,8 @@
 /* The box in the hand: within its limits, without overshoot, without a force that is not the world's. */
 #include "fixture.h"
+#include "tests/near.h"
+
+#include <string.h>
 
 static const BoxTarget home = {.orientation = {0, 0, 0, 1}};
 
@@ -163,6 +166,56 @@ static void shaking_lets_nothing_out(void **state)
     world_destroy(world);
 }
 
+/* Of the box's centre, which is what the hand moves. */
+static void centre_velocity(const BoxState *box, const double size[3], double v[3])
+{
+    double arm[3], swirl[3];
+    quat_rotate(box->orientation, (double[]){0, 0.5 * size[1], 0}, arm);
+    cross_product(box->angular_velocity, arm, swirl);
+    for (int k = 0; k < 3; k++)
+        v[k] = box->velocity[k] + swirl[k];
+}
+
+static double change_of(const double before[3], const double after[3], double dt)
+{
+    return norm((double[]){after[0] - before[0], after[1] - before[1], after[2] - before[2]}) / dt;
+}
+
+/* A hand that moves while time is paused gives many targets and no step. When time goes on the last one alone
+ * counts, and the box goes there within its limits: no leap is felt. */
+static void what_waited_comes_within_the_limits(void **state)
+{
+    (void)state;
+    const WorldDef def = tank();
+    World *dragged = fixture_world(&def), *told = fixture_world(&def);
+    BoxTarget target = home;
+    WorldInfo info;
+    double most = 0, most_turn = 0, v[2][3] = {{0}}, spin[3] = {0}, time = 0;
+    for (int i = 1; i <= 100; i++) {
+        target = turned(0.03 * i, 0, 0, (double[3]){0, 0, 1}, 0.9 * i);
+        world_set_target(dragged, &target);
+    }
+    world_set_target(told, &target);
+    for (int frame = 0; frame < 250; frame++) {
+        fixture_step(dragged, 1);
+        fixture_step(told, 1);
+        world_info(dragged, &info);
+        centre_velocity(&info.box, def.box_size, v[1]);
+        most = fmax(most, change_of(v[0], v[1], info.time - time));
+        most_turn = fmax(most_turn, change_of(spin, info.box.angular_velocity, info.time - time));
+        memcpy(v[0], v[1], sizeof v[0]);
+        memcpy(spin, info.box.angular_velocity, sizeof spin);
+        time = info.time;
+    }
+    check_near(most, def.limits.acceleration, 0.01 * def.limits.acceleration, "the greatest acceleration");
+    check_near(most_turn * 180 / M_PI, def.limits.turn_acceleration_deg,
+               0.01 * def.limits.turn_acceleration_deg, "that of turning");
+    check_near(info.hand.position[0], 3, 1e-3, "where it comes to rest");
+    assert_int_equal(world_hash(dragged), world_hash(told));
+    world_destroy(dragged);
+    world_destroy(told);
+}
+
 /* A box that is carried away takes its fluid along: not a bit of it changes, and it goes on as if nothing had
  * been. */
 static void carry_is_not_felt(void **state)
@@ -214,6 +267,7 @@ int main(void)
         cmocka_unit_test(rates_are_derivatives),
         cmocka_unit_test(lone_particle_ignores_the_hand),
         cmocka_unit_test(shaking_lets_nothing_out),
+        cmocka_unit_test(what_waited_comes_within_the_limits),
         cmocka_unit_test(carry_is_not_felt),
         cmocka_unit_test(nonsense_is_not_taken),
     };
