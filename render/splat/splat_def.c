@@ -73,7 +73,7 @@ const Key splat_keys[] = {
 /* clang-format on */
 
 const ViewGrade splat_grades[] = {
-    {"view.splat.shape", {"paper", "perspective"}, NULL, NULL, false},
+    {"view.splat.shape", {"paper", "auto"}, NULL, NULL, false},
     {"view.splat.sprite", {"point", "quad"}, NULL, NULL, false},
     {"view.splat.cull", {"false", "true"}, NULL, NULL, true},
     {"view.splat.filter_iterations", {"1", "2", "4"}, "view.splat.filter", "narrow_range", false},

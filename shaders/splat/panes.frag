@@ -1,7 +1,7 @@
 // The surface cut to the box, for render/splat/panes.h: fluid that a ray enters by a wall is seen from that wall on.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
-#include "splat/panes.glsl"
+#include "common/within_box.glsl"
 
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(location = 0) out float cut;

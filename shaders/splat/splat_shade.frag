@@ -11,7 +11,7 @@
 #include "common/surface.glsl"
 #include "common/clear.glsl"
 #ifdef PANES
-#include "splat/panes.glsl"
+#include "common/within_box.glsl"
 #endif
 
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
