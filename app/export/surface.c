@@ -121,9 +121,12 @@ static bool sum_weighted(Work *work, const float *scalar, Error *error)
                      error);
 }
 
-/* The mean of the particles' scalar at each vertex, weighted by V W; `weights`: the sums of these. */
-static bool mean_over(Work *work, const float *scalar, const float *weights, float *out, Error *error)
+enum { ALL_FLUIDS = -1 };
+
+/* The mean of the scalar of a fluid's particles at each vertex, weighted by V W. */
+static bool mean_over(Work *work, const float *scalar, int fluid, float *out, Error *error)
 {
+    const float *weights = fluid == ALL_FLUIDS ? work->field : work->share[fluid];
     if (!sum_weighted(work, scalar, error))
         return false;
     for (size_t i = 0; i < work->mesh.vertex_count; i++) {
@@ -135,7 +138,7 @@ static bool mean_over(Work *work, const float *scalar, const float *weights, flo
 
 static bool mean(Work *work, const float *scalar, float *out, Error *error)
 {
-    return mean_over(work, scalar, work->field, out, error);
+    return mean_over(work, scalar, ALL_FLUIDS, out, error);
 }
 
 /* The fluid that has the most of V W at each vertex. `most` has room for a number a vertex. */
@@ -248,8 +251,10 @@ static bool cross_level(Work *work, double level, Error *error)
     const size_t cells = volume_grid_cells(&work->grid);
     work->field = malloc(cells * sizeof *work->field);
     work->weighted = malloc(cells * sizeof *work->weighted);
-    if (!work->field || !work->weighted)
-        return error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+    if (!work->field || !work->weighted) {
+        error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+        return false;
+    }
     if (!field_sum(&work->particles, &work->grid, world_processors(), &work->slabs, work->field, NULL, error))
         return false;
     return level > 0 ? march(work, level, error) : march_to_volume(work, error);
@@ -340,7 +345,7 @@ static bool own_mean(Work *work, size_t fluid, const float *scalar, float *out, 
 {
     for (size_t i = 0; i < work->step->count; i++)
         work->scalar[i] = work->step->fluid[i] == (int32_t)fluid ? scalar[i] : 0;
-    return mean_over(work, work->scalar, work->share[fluid], out, error);
+    return mean_over(work, work->scalar, (int)fluid, out, error);
 }
 
 static bool own_means(Work *work, size_t fluid, Error *error)
@@ -374,8 +379,9 @@ static bool make_each(Work *work, const Surface *whole, Surface surfaces[FLUIDS_
 {
     const size_t cells = work->field ? volume_grid_cells(&work->grid) : 0;
     float *region = malloc((cells + 1) * sizeof *region);
-    bool made = region ? cells == 0 || sum_shares(work, error)
-                       : error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+    if (!region)
+        return error_set(error, "no memory for a grid of %zu cells; use a larger --cell", cells);
+    bool made = cells == 0 || sum_shares(work, error);
     for (size_t fluid = 0; made && fluid < work->scene->fluid_count; fluid++) {
         work->surface = &surfaces[fluid];
         made = cells > 0 ? make_one(work, fluid, whole->level, region, error)

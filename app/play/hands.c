@@ -3,7 +3,6 @@
 #include "app/play/parts.h"
 
 #include <math.h>
-#include <string.h>
 
 static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
 
@@ -16,10 +15,19 @@ static void steer(AskQueue *asks, const double rates[3])
                          .amount = {CAMERA_TURN * rates[0], CAMERA_TURN * rates[1], CAMERA_ZOOM * rates[2]}});
 }
 
+static bool differs(const double *a, const double *b, int count)
+{
+    bool differ = false;
+    for (int i = 0; i < count; i++)
+        differ |= a[i] != b[i];
+    return differ;
+}
+
 /* While time is paused nothing else asks for a picture of what the hand does. */
 static void follow_target(Play *play, const BoxTarget *target)
 {
-    play->picture.over |= memcmp(&play->wanted, target, sizeof *target) != 0;
+    play->picture.over |= differs(play->wanted.position, target->position, 3) ||
+                          differs(play->wanted.orientation, target->orientation, 4);
     play->wanted = *target;
 }
 
