@@ -70,7 +70,8 @@ const HelpTopic help_topics[] = {
     {"keys", "every key of a scene", scene_keys_print},
     {"window", "what keys, mouse and gamepad do in the window", play_commands_print},
     {"man", NULL, manual_print},
-    {"bash", NULL, completion_print},
+    {"bash", NULL, completion_print_bash},
+    {"zsh", NULL, completion_print_zsh},
     {0},
 };
 

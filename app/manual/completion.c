@@ -34,7 +34,7 @@ static void put_values(FILE *file, const OptionRow *option)
     char value[64];
     if (!option->value)
         return;
-    fprintf(file, "        %s) options='' scenes=''", option->name);
+    fprintf(file, "        %s) offered='' scenes=''", option->name);
     for (int i = 0; value_at(option, i, value); i++)
         fprintf(file, "%s%s", i ? " " : " values='", value);
     fprintf(file, "%s ;;\n",
@@ -45,7 +45,7 @@ static void put_values(FILE *file, const OptionRow *option)
 
 static void put_command(FILE *file, const CommandRow *row, const char *pattern)
 {
-    fprintf(file, "    %s)\n        options='", pattern);
+    fprintf(file, "    %s)\n        offered='", pattern);
     for (const OptionRow *option = option_rows; option->name; option++)
         if (option_listed(option, row->command))
             fprintf(file, "%s ", option->name);
@@ -70,7 +70,7 @@ static void put_lists(FILE *file)
 {
     SceneNames scenes;
     scene_path_names(&scenes);
-    fputs("    local commands='", file);
+    fputs("    local verbs='", file);
     for (const CommandRow *row = command_rows; row->name; row++)
         fprintf(file, "%s ", row->name);
     fputs("' topics='", file);
@@ -84,35 +84,65 @@ static void put_lists(FILE *file)
     fputs("'\n", file);
 }
 
-static const char head[] = "# Completion for bash: made by `slosh help bash`.\n"
-                           "_slosh()\n{\n"
-                           "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
-                           "    local options='' values='' end=' '\n";
-
-/* Without words to offer bash offers files: `-o default` below. */
-static const char tail[] = "    esac\n"
-                           "    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-                           "        values=\"$commands --version --help\"\n"
-                           "    elif [ \"${COMP_WORDS[1]}\" = help ]; then\n"
-                           "        values=\"$commands $topics\" options='' scenes=''\n"
-                           "    fi\n"
-                           "    [ \"$before\" = = ] && options='' values='' scenes=''\n"
-                           "    [ \"$end\" ] || compopt -o nospace 2>/dev/null\n"
-                           "    case $word in\n"
-                           "    -*) COMPREPLY=($(compgen -W \"$options $values\" -- \"$word\")) ;;\n"
-                           "    *) COMPREPLY=($(compgen -W \"$values $scenes\" -- \"$word\")) ;;\n"
-                           "    esac\n"
-                           "}\n"
-                           "complete -o default -F _slosh slosh\n";
-
-void completion_print(FILE *file)
+/* Lists and the choice between them are the same for both shells. zsh has `commands`, `options` and `words`
+   of its own: ours have other names. */
+static void put_choice(FILE *file, const char *verb)
 {
-    fputs(head, file);
     put_lists(file);
-    fputs("    case ${COMP_WORDS[1]} in\n", file);
+    fprintf(file, "    case %s in\n", verb);
     for (const CommandRow *row = command_rows; row->name; row++)
         if (row->command != COMMAND_PLAY)
             put_command(file, row, row->name);
     put_command(file, command_row(COMMAND_PLAY), "*");
-    fputs(tail, file);
+    fputs("    esac\n", file);
+}
+
+void completion_print_bash(FILE *file)
+{
+    fputs("# Completion for bash: made by `slosh help bash`.\n"
+          "_slosh()\n{\n"
+          "    local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]}\n"
+          "    local offered='' values='' end=' '\n",
+          file);
+    put_choice(file, "${COMP_WORDS[1]}");
+    /* Without words to offer bash offers files: `-o default`. */
+    fputs("    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+          "        values=\"$verbs --version --help\"\n"
+          "    elif [ \"${COMP_WORDS[1]}\" = help ]; then\n"
+          "        values=\"$verbs $topics\" offered='' scenes=''\n"
+          "    fi\n"
+          "    [ \"$before\" = = ] && offered='' values='' scenes=''\n"
+          "    [ \"$end\" ] || compopt -o nospace 2>/dev/null\n"
+          "    case $word in\n"
+          "    -*) COMPREPLY=($(compgen -W \"$offered $values\" -- \"$word\")) ;;\n"
+          "    *) COMPREPLY=($(compgen -W \"$values $scenes\" -- \"$word\")) ;;\n"
+          "    esac\n"
+          "}\n"
+          "complete -o default -F _slosh slosh\n",
+          file);
+}
+
+void completion_print_zsh(FILE *file)
+{
+    fputs("#compdef slosh\n"
+          "# Completion for zsh: made by `slosh help zsh`.\n"
+          "_slosh()\n{\n"
+          "    local before=${words[CURRENT - 1]} offered='' values='' end=' '\n",
+          file);
+    put_choice(file, "${words[2]}");
+    fputs("    if (( CURRENT == 2 )); then\n"
+          "        values=\"$verbs --version --help\"\n"
+          "    elif [[ ${words[2]} == help ]]; then\n"
+          "        values=\"$verbs $topics\" offered='' scenes=''\n"
+          "    fi\n"
+          "    local -a found=(${=values})\n"
+          "    if [[ $PREFIX == -* ]]; then\n"
+          "        found+=(${=offered})\n"
+          "    else\n"
+          "        found+=(${=scenes})\n"
+          "    fi\n"
+          "    compadd -S \"$end\" -- $found || _files\n"
+          "}\n"
+          "_slosh \"$@\"\n",
+          file);
 }

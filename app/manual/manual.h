@@ -1,5 +1,5 @@
-/* The table of commands and options as other programs read it: `slosh help man` and `slosh help bash`, which
-   are installed (tools/package). */
+/* The table of commands and options as other programs read it: `slosh help man`, `slosh help bash` and
+   `slosh help zsh`, which are installed (tools/package). */
 #ifndef SLOSH_MANUAL_H
 #define SLOSH_MANUAL_H
 
@@ -8,7 +8,8 @@
 /* The manual page, for man(1). */
 void manual_print(FILE *file);
 
-/* What bash asks for when Tab is pressed: commands, scenes, options, their values, keys of a scene. */
-void completion_print(FILE *file);
+/* What a shell asks for when Tab is pressed: commands, scenes, options, their values, keys of a scene. */
+void completion_print_bash(FILE *file);
+void completion_print_zsh(FILE *file);
 
 #endif

@@ -14,7 +14,7 @@ from command import CommandTest
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 INSTALLED = ['bin/slosh', 'share/man/man1/slosh.1.gz', 'share/bash-completion/completions/slosh',
-             'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
+             'share/zsh/vendor-completions/_slosh', 'share/metainfo/slosh.metainfo.xml', 'lib/udev/rules.d/70-slosh.rules', 'share/applications/slosh.desktop',
              'share/icons/hicolor/256x256/apps/slosh.png', 'share/mime/packages/slosh.xml',
              'share/doc/slosh/copyright', 'share/doc/slosh/docs/validation.json', 'share/slosh/scenes/dam_break.yaml',
              'share/slosh/scenes/cases/couette.yaml',
@@ -123,7 +123,7 @@ class Installed(InstalledTest):
 
 
 class Listed(InstalledTest):
-    """The manual page and the completion of bash have each option that help lists, and what it may be."""
+    """The manual page and the completion of the shells have each option that help lists, and what it may be."""
 
     @classmethod
     def setUpClass(cls):
@@ -137,11 +137,23 @@ class Listed(InstalledTest):
     def printed(cls, *topic):
         return subprocess.run([f'{cls.prefix}/bin/slosh', 'help', *topic], capture_output=True, text=True, check=True).stdout
 
-    def complete(self, *words):
+    def complete_bash(self, *words):
         """What bash offers for the last word."""
         script = 'source "$0"; COMP_WORDS=(slosh "$@"); COMP_CWORD=$#; _slosh; printf "%s\\n" "${COMPREPLY[@]}"'
-        done = subprocess.run(['bash', '-c', script, f'{self.prefix}/share/bash-completion/completions/slosh', *words],
-                              capture_output=True, text=True, check=True)
+        return self.offered('bash', '-c', script, f'{self.prefix}/share/bash-completion/completions/slosh', *words)
+
+    def complete_zsh(self, *words):
+        """What zsh offers, with a list of words in place of its own that shows them."""
+        script = """zmodload zsh/parameter
+        compadd() { while [[ $1 != -- ]] shift; shift; print -l -- ${(M)@:#$PREFIX*}; [[ -n ${(M)@:#$PREFIX*} ]] }
+        _files() {}
+        file=$0 words=(slosh "$@") CURRENT=$(($# + 1)) PREFIX=${@[-1]}
+        set --
+        source $file"""
+        return self.offered('zsh', '-f', '-c', script, f'{self.prefix}/share/zsh/vendor-completions/_slosh', *words)
+
+    def offered(self, *words):
+        done = subprocess.run(words, capture_output=True, text=True, check=True)
         self.assertEqual(done.stderr, '')
         return set(done.stdout.split())
 
@@ -165,17 +177,25 @@ class Listed(InstalledTest):
         self.assertEqual(done.stderr, '')
 
     def test_completion(self):
-        self.assertGreaterEqual(self.complete(''), {*self.commands, 'dam_break', '--version'})
-        for name, options in self.help.items():
-            self.assertEqual(self.complete(name, '-'), set(options), name)
-        self.assertEqual(self.complete('dam_break', '-'), set(self.help['play']))
-        self.assertEqual(self.complete('render', 'dam_b'), {'dam_break', 'dam_break_2d'})
-        self.assertEqual(self.complete('run', 'drop', '--backend', ''), {'cpu', 'compute', 'fragment'})
-        self.assertEqual(self.complete('bench', '--clock', 'f'), {'finish'})
-        self.assertEqual(self.complete('run', 'drop', '--set', 'solver.step.d'), {'solver.step.dt='})
-        self.assertEqual(self.complete('run', 'drop', '--set', 'solver.step.dt', '=', ''), set())
-        self.assertEqual(self.complete('render', 'drop', '-o', ''), set())  # bash then offers files
-        self.assertEqual(self.complete('help', 'k'), {'keys'})
+        for complete in (self.complete_bash, self.complete_zsh):
+            with self.subTest(shell=complete.__name__):
+                self.assertGreaterEqual(complete(''), {*self.commands, 'dam_break', '--version'})
+                for name, options in self.help.items():
+                    self.assertEqual(complete(name, '-'), set(options), name)
+                self.assertEqual(complete('dam_break', '-'), set(self.help['play']))
+                self.assertEqual(complete('render', 'dam_b'), {'dam_break', 'dam_break_2d'})
+                self.assertEqual(complete('run', 'drop', '--backend', ''), {'cpu', 'compute', 'fragment'})
+                self.assertEqual(complete('bench', '--clock', 'f'), {'finish'})
+                self.assertEqual(complete('run', 'drop', '--set', 'solver.step.d'), {'solver.step.dt='})
+                self.assertEqual(complete('render', 'drop', '-o', ''), set())  # the shell then offers files
+                self.assertEqual(complete('help', 'k'), {'keys'})
+        self.assertEqual(self.complete_bash('run', 'drop', '--set', 'solver.step.dt', '=', ''), set())
+
+    def test_what_software_centres_show(self):
+        """Of what is checked only the identifier is let through: the authors have no domain to name it by."""
+        done = subprocess.run(['appstreamcli', 'validate', '--no-net', '--pedantic', '--override=cid-desktopapp-is-not-rdns=info',
+                               f'{self.prefix}/share/metainfo/slosh.metainfo.xml'], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
 
 class Library(CommandTest):
