@@ -88,7 +88,7 @@ static void scenes_stay_with_the_cpu(void **state)
         substeps(cpu, 300);
         copy_state(cpu, gpu);
         compare_one_step(names[n], cpu, gpu);
-        compare_run(&def, names[n], cpu, gpu, 200);
+        compare_run(&def, names[n], cpu, gpu, 100);
         assert_true(least_clearance(gpu, &def) > -1e-5);
         world_destroy(cpu);
         world_destroy(gpu);
@@ -204,7 +204,7 @@ static void shake(bool exact)
     const size_t guarded = info_of(world).guarded;
     uint32_t seed = 2;
     WorldSums sums;
-    for (int i = 0; i < 250; i++) {
+    for (int i = 0; i < 150; i++) {
         if (i % 25 == 0) {
             BoxTarget target = {.orientation = {0, 0, 0, 1}};
             double turn[3];

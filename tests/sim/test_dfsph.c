@@ -135,7 +135,7 @@ static void dam_breaks(void **state)
     const WorldDef def = dam_def(2);
     World *world = fixture_world(&def);
     double worst = 0, energy = 0, start = 0;
-    for (int frame = 0; frame < fixture_count(20, 10); frame++) {
+    for (int frame = 0; frame < fixture_count(20, 6); frame++) {
         fixture_step(world, 20);
         State s = fixture_read(world);
         double mean = 0;

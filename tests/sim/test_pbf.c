@@ -403,7 +403,7 @@ static void solids_keep_fluid_out(void **state)
             .motions = {{.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.3, .frequency = 2}}};
         World *world = fixture_world(&def);
         double deep = 0, speed = 0;
-        for (int step = 0; step < fixture_count(90, 45); step++) {
+        for (int step = 0; step < fixture_count(90, 25); step++) {
             fixture_step(world, 1);
             speed = fmax(speed, within(world));
             deep = fmax(deep, deepest(world));

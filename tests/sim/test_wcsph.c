@@ -465,7 +465,7 @@ static void column_rests(double diffusion, int steps)
 static void column_at_rest(void **state)
 {
     (void)state;
-    column_rests(0, fixture_count(3000, 600));
+    column_rests(0, fixture_count(3000, 400));
     if (fixture_on_cpu())
         column_rests(delta, 1500);
 }
@@ -483,7 +483,7 @@ static double light_height(bool light_above, double *heavy_height)
     fixture_block(&def, !light_above, -0.5, 0, -0.5, 0.5, 0.7, 0.5);
     fixture_block(&def, light_above, -0.5, 0.7, -0.5, 0.5, 1.4, 0.5);
     World *world = fixture_world(&def);
-    fixture_step(world, fixture_count(2000, 500));
+    fixture_step(world, fixture_count(2000, 350));
     State s = fixture_read(world);
     double mean[2] = {0}, count[2] = {0}, worst = 0;
     for (size_t i = 0; i < s.count; i++) {
