@@ -68,15 +68,6 @@ static double from_walls(const Through *sight, double depth)
                 WALL[2] - fabs(sight->from[2] + depth * sight->way[2]));
 }
 
-/* Walls within reach of the field. */
-static int walls_at(const Through *sight, double depth)
-{
-    int walls = height_at(sight, depth) < 2.1 * SPACING;
-    for (int k = 0; k < 3; k += 2)
-        walls += WALL[k] - fabs(sight->from[k] + depth * sight->way[k]) < 2.1 * SPACING;
-    return walls;
-}
-
 static void check_depth(const Through *sight, double depth, int x, int y, Tally *tally)
 {
     const double to_level = (LEVEL - sight->from[1]) / sight->way[1];
@@ -137,8 +128,8 @@ static double thickness_seen(const uint8_t *rgba)
     return 0.4 * log(linear_of(rgba[0]) / linear_of(230)) / log((double)COLOUR[0]);
 }
 
-/* From the pane to the wall behind, within 2 %; but beside a third wall, where the field is less. Nowhere
-   more than that. */
+/* From the pane to the wall behind, within 2 %, also beside other walls and edges, where the field is less.
+   Nowhere more than that. */
 static void absorption_ends_at_the_walls(void **state)
 {
     (void)state;
@@ -154,11 +145,10 @@ static void absorption_ends_at_the_walls(void **state)
         if (way > 0 && thickness_seen(&rgba[4 * i]) > 1.02 * way + 0.1 * SPACING)
             fail_msg("pixel %d %d: %g spacings of fluid, of %g in the box", i % SIDE, i / SIDE,
                      thickness_seen(&rgba[4 * i]) / SPACING, way / SPACING);
-        if (way < 0 || walls_at(&sight, sight.enter) > 1 || walls_at(&sight, sight.leave) > 1 ||
-            height_at(&sight, sight.enter) > LEVEL - 2 * SPACING)
+        if (way < 1.5 * SPACING || height_at(&sight, sight.enter) > LEVEL - 2 * SPACING)
             continue;
         compared++;
-        if (fabs(thickness_seen(&rgba[4 * i]) - way) > 0.02 * way)
+        if (fabs(thickness_seen(&rgba[4 * i]) - way) > 0.02 * way + 0.03 * SPACING)
             fail_msg("pixel %d %d: %g spacings of fluid, not %g", i % SIDE, i / SIDE,
                      thickness_seen(&rgba[4 * i]) / SPACING, way / SPACING);
     }
