@@ -253,8 +253,8 @@ static void draw_spray(SplatView *splat, SprayPart part, SplatSprite sprite, con
         GL_STAGE(frame->timer, STAGE_SHADE)
         {
             color_table_bind(&splat->colors, &frame->def->color_curve); /* other passes have its unit */
-            spray_draw(&splat->spray, part, splat->shown.nearest, &splat->shade.behind, &splat->sprites,
-                       sprite, particles, frame);
+            spray_draw(&splat->spray, part, splat->shown.nearest, &splat->shade.behind, &splat->shade.edges,
+                       &splat->sprites, sprite, particles, frame);
         }
 }
 

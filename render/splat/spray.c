@@ -29,12 +29,13 @@ void spray_destroy(Spray *spray)
         glDeleteProgram(spray->program[sprite]);
 }
 
-void spray_draw(const Spray *spray, SprayPart part, unsigned nearest, Behind *behind, SplatSprites *sprites,
-                SplatSprite sprite, const ParticleBuffers *particles, const Frame *frame)
+void spray_draw(const Spray *spray, SprayPart part, unsigned nearest, Behind *behind, const Edges *edges,
+                SplatSprites *sprites, SplatSprite sprite, const ParticleBuffers *particles,
+                const Frame *frame)
 {
     const SplatDef *def = splat_def(frame->def);
     const GLuint program = spray->program[sprite];
-    behind_take(behind, frame);
+    behind_take(behind, edges, frame);
     glProgramUniform1f(program, REFRACTION_INDEX_AT, (float)def->ior);
     glProgramUniform1f(program, ATTENUATION_AT,
                        def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);

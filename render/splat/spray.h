@@ -26,7 +26,8 @@ typedef enum SprayPart {
 } SprayPart;
 
 /* Draws drops over the target, seen through them what it holds now, which `behind` takes. */
-void spray_draw(const Spray *spray, SprayPart part, unsigned nearest, Behind *behind, SplatSprites *sprites,
-                SplatSprite sprite, const ParticleBuffers *particles, const Frame *frame);
+void spray_draw(const Spray *spray, SprayPart part, unsigned nearest, Behind *behind, const Edges *edges,
+                SplatSprites *sprites, SplatSprite sprite, const ParticleBuffers *particles,
+                const Frame *frame);
 
 #endif
