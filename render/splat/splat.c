@@ -120,7 +120,7 @@ static bool create_passes(SplatView *splat, const Subject *subject, Error *error
     const SplatDef *own = &splat->def;
     return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
            (!splat_clear(own) || panes_create(&splat->panes, error)) &&
-           (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)) &&
+           (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, splat_clear(own), error)) &&
            (!splat_sprays(own) || spray_create(&splat->spray, &splat->sprites, subject, error)) &&
            (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, subject, error)) &&
            create_shading(splat, subject, error);
