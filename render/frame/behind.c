@@ -20,6 +20,7 @@ static GLuint create_copy(GLenum format, const Target *target, GLint filter, con
 void behind_destroy(Behind *behind)
 {
     glDeleteTextures(2, (GLuint[]){behind->color, behind->depth});
+    glDeleteFramebuffers(1, &behind->framebuffer);
     *behind = (Behind){0};
 }
 
@@ -32,6 +33,10 @@ static void follow(Behind *behind, const Frame *frame)
     behind->color = create_copy(GL_SRGB8_ALPHA8, frame->target, GL_LINEAR, "behind");
     if (solids)
         behind->depth = create_copy(GL_DEPTH_COMPONENT32F, frame->target, GL_NEAREST, "behind, depth");
+    glCreateFramebuffers(1, &behind->framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, behind->framebuffer, -1, "behind");
+    glNamedFramebufferTexture(behind->framebuffer, GL_COLOR_ATTACHMENT0, behind->color, 0);
+    glNamedFramebufferTexture(behind->framebuffer, GL_DEPTH_ATTACHMENT, frame->target->depth, 0);
     behind->target_number = frame->target->number;
 }
 
@@ -41,12 +46,16 @@ static void copy(GLuint from, GLuint to, const Frame *frame)
                        frame->height, 1);
 }
 
-void behind_take(Behind *behind, const Frame *frame)
+void behind_take(Behind *behind, const Edges *edges, const Frame *frame)
 {
     follow(behind, frame);
     copy(frame->target->color, behind->color, frame);
     if (behind->depth)
         copy(frame->target->depth, behind->depth, frame);
+    if (edges && frame->def->box && !frame->flat) {
+        glViewport(0, 0, frame->width, frame->height);
+        edges_draw_behind(edges, frame, behind->framebuffer);
+    }
     glBindTextureUnit(BEHIND_COLOR_UNIT, behind->color);
     glBindTextureUnit(BEHIND_DEPTH_UNIT, behind->depth);
     glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);

@@ -39,10 +39,10 @@ void edges_destroy(Edges *edges)
     *edges = (Edges){0};
 }
 
-void edges_draw(const Edges *edges, const Frame *frame)
+static void draw(const Edges *edges, const Frame *frame, unsigned framebuffer, bool behind)
 {
     float width = fmaxf(1.5F, 1.5F * (float)frame->height / 720); /* pixels */
-    glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(frame->depths);
@@ -50,7 +50,18 @@ void edges_draw(const Edges *edges, const Frame *frame)
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glUseProgram(edges->program);
     glProgramUniform1f(edges->program, HALF_WIDTH_AT, width / 2);
+    glProgramUniform1ui(edges->program, EDGES_BEHIND_AT, behind);
     glBindVertexArray(edges->vertex_array);
     glDrawElements(GL_TRIANGLES, 6 * EDGE_COUNT, GL_UNSIGNED_SHORT, NULL);
     glDisable(GL_BLEND);
+}
+
+void edges_draw(const Edges *edges, const Frame *frame)
+{
+    draw(edges, frame, frame->target->framebuffer, false);
+}
+
+void edges_draw_behind(const Edges *edges, const Frame *frame, unsigned framebuffer)
+{
+    draw(edges, frame, framebuffer, true);
 }

@@ -15,4 +15,7 @@ bool edges_create(Edges *edges, Error *error);
 void edges_destroy(Edges *edges);
 void edges_draw(const Edges *edges, const Frame *frame);
 
+/* Those that are seen through the box only, between two sides that face away from the eye. */
+void edges_draw_behind(const Edges *edges, const Frame *frame, unsigned framebuffer);
+
 #endif

@@ -14,7 +14,8 @@
 const char *ellipsoids_defines(const SplatDef *def)
 {
     if (ellipsoids_stretched(def))
-        return LEAST "#define ELLIPSOID 1\n";
+        return splat_sprays(def) ? LEAST "#define ELLIPSOID 1\n#define APART 1\n"
+                                 : LEAST "#define ELLIPSOID 1\n";
     const bool paper = splat_shape(def) == SPLAT_PAPER;
     if (ellipsoids_wanted(def))
         return paper ? "#define PAPER 1\n#define DROPS 1\n" : "#define DROPS 1\n";

@@ -21,7 +21,7 @@ typedef struct Ellipsoids {
     size_t capacity;
 } Ellipsoids;
 
-/* For shaders that include common/ball.glsl; none is longer than 40 characters. */
+/* For shaders that include common/ball.glsl; none is longer than 60 characters. */
 const char *ellipsoids_defines(const SplatDef *def);
 
 /* What the radius of a view whose sizes go with a scalar is multiplied by: it is then that of the largest,

@@ -15,16 +15,17 @@ static GLuint create_smoothing(const char *label, const char *defines, Error *er
     return program_create(label, stages, all, error);
 }
 
-bool narrow_range_create(NarrowRange *filter, Error *error)
+bool narrow_range_create(NarrowRange *filter, bool panes, Error *error)
 {
+    static const char *const normals[] = {"common/screen.vert", "splat/narrow_range_normals.frag", NULL};
     *filter = (NarrowRange){0};
     glCreateVertexArrays(1, &filter->screen);
     filter->along = create_smoothing("narrow range", "", error);
     if (filter->along)
         filter->clean = create_smoothing("narrow range, clean-up", "#define CLEAN 1\n", error);
     if (filter->clean)
-        filter->normals = program_create_pair("narrow range, normals", "common/screen.vert",
-                                              "splat/narrow_range_normals.frag", error);
+        filter->normals =
+            program_create("narrow range, normals", normals, panes ? "#define PANES 1\n" : NULL, error);
     return filter->normals != 0;
 }
 

@@ -27,8 +27,9 @@ typedef struct NarrowRange {
     unsigned depth_framebuffer[2], normal_framebuffer;
 } NarrowRange;
 
-/* False when a shader does not compile; narrow_range_destroy is needed in either case. */
-bool narrow_range_create(NarrowRange *filter, Error *error);
+/* `panes`: the maps have some (render/splat/panes.h). False when a shader does not compile;
+ * narrow_range_destroy is needed in either case. */
+bool narrow_range_create(NarrowRange *filter, bool panes, Error *error);
 void narrow_range_destroy(NarrowRange *filter); /* one of zeros is allowed */
 
 /* The maps with `nearest` and `normal` replaced by the filter's own, which it keeps. Settings are those of

@@ -10,9 +10,9 @@
 #include "sim/base/error.h"
 
 typedef struct Panes {
-    unsigned program;
-    unsigned target_number;    /* of the target that the map was made for */
-    unsigned map, framebuffer; /* R32F, m */
+    unsigned cut, brim;              /* programs */
+    unsigned target_number;          /* of the target that the maps were made for */
+    unsigned map[2], framebuffer[2]; /* R32F, m: cut; and with a smooth brim, by most of the pixels around */
 } Panes;
 
 /* False when the shader does not compile; panes_destroy is needed in either case. */

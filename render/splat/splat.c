@@ -8,6 +8,7 @@
 #include "render/splat/splat_level.h"
 #include "render/splat/splat_shade.h"
 #include "render/splat/splat_sprites.h"
+#include "render/splat/spray.h"
 #include "render/splat/thickness.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
@@ -33,6 +34,7 @@ typedef struct SplatView {
     SplatMaps shown;     /* what is shaded: maps, or what panes and the filter made of them */
     SplatShade shade;
     SplatLevel level;      /* where splat_level_wanted */
+    Spray spray;           /* where splat_sprays */
     Silhouette silhouette; /* where it smooths outlines */
 } SplatView;
 
@@ -71,6 +73,7 @@ static void splat_destroy(void *state)
     panes_destroy(&splat->panes);
     narrow_range_destroy(&splat->filter);
     silhouette_destroy(&splat->silhouette);
+    spray_destroy(&splat->spray);
     splat_sprites_destroy(&splat->sprites);
     ellipsoids_destroy(&splat->ellipsoids);
     thickness_destroy(&splat->thickness);
@@ -117,7 +120,8 @@ static bool create_passes(SplatView *splat, const Subject *subject, Error *error
     const SplatDef *own = &splat->def;
     return (!splat_level_wanted(own) || splat_level_create(&splat->level, &splat->sprites, error)) &&
            (!splat_clear(own) || panes_create(&splat->panes, error)) &&
-           (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, error)) &&
+           (own->filter == SPLAT_NO_FILTER || narrow_range_create(&splat->filter, splat_clear(own), error)) &&
+           (!splat_sprays(own) || spray_create(&splat->spray, &splat->sprites, subject, error)) &&
            (!silhouette_wanted(own) || silhouette_create(&splat->silhouette, subject, error)) &&
            create_shading(splat, subject, error);
 }
@@ -242,6 +246,18 @@ static float apart(const SplatView *splat, const Frame *frame)
     return splat_level_wanted(&splat->def) ? frame->particle_radius / 2 : eps_of(frame);
 }
 
+static void draw_spray(SplatView *splat, SprayPart part, SplatSprite sprite, const ParticleBuffers *particles,
+                       const Frame *frame)
+{
+    if (splat_sprays(&splat->def))
+        GL_STAGE(frame->timer, STAGE_SHADE)
+        {
+            color_table_bind(&splat->colors, &frame->def->color_curve); /* other passes have its unit */
+            spray_draw(&splat->spray, part, splat->shown.nearest, &splat->shade.behind, &splat->shade.edges,
+                       &splat->sprites, sprite, particles, frame);
+        }
+}
+
 static void splat_draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     SplatView *splat = state;
@@ -269,6 +285,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
         {
             splat->shown = narrow_range_draw(&splat->filter, &splat->shown, frame);
         }
+    draw_spray(splat, SPRAY_BEHIND, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)
     splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, &splat->sprites.tiles, frame);
     if (silhouette_wanted(&splat->def))
@@ -277,6 +294,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
             silhouette_draw(&splat->silhouette, &splat->maps, splat->shown.nearest, apart(splat, frame),
                             &splat->sprites.tiles, frame);
         }
+    draw_spray(splat, SPRAY_BEFORE, sprite, particles, frame);
     if (frame->counts)
         counts_finish(frame->counts, splat_maps_covered(&splat->maps, frame->target),
                       (uint64_t)frame->width * (uint64_t)frame->height);

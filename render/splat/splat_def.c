@@ -147,6 +147,11 @@ bool splat_clear(const SplatDef *def)
     return def->show == SPLAT_SHADED && def->shading != SPLAT_PHONG;
 }
 
+bool splat_sprays(const SplatDef *def)
+{
+    return splat_clear(def) && def->drops && ellipsoids_stretched(def);
+}
+
 bool silhouette_wanted(const SplatDef *def)
 {
     return def->antialias && (def->show == SPLAT_SHADED || def->show == SPLAT_CULLED);

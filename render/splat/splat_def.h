@@ -82,6 +82,9 @@ bool splat_shade_wants_thickness(const SplatDef *def);
 /* Whether one sees through the fluid: water and jelly. */
 bool splat_clear(const SplatDef *def);
 
+/* Whether particles on their own are drawn apart from the surface: render/splat/spray.h. */
+bool splat_sprays(const SplatDef *def);
+
 /* Whether outlines are smoothed: pictures of what comes before shading are left as they are. */
 bool silhouette_wanted(const SplatDef *def);
 

@@ -35,6 +35,8 @@ bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
     const SplatDef *def = splat_def(subject->def);
     const bool discs = silhouette_by_discs(def);
     *shade = (SplatShade){.clear = splat_clear(def)};
+    if (shade->clear && !edges_create(&shade->edges, error))
+        return false;
     shade->program = create_program(shade, subject, "", error);
     if (shade->program && subject->world->solid_count == 0 && !(shade->settle = create_settle(error)))
         return false;
@@ -49,13 +51,14 @@ void splat_shade_destroy(SplatShade *shade)
     glDeleteProgram(shade->mixing);
     glDeleteProgram(shade->settle);
     behind_destroy(&shade->behind);
+    edges_destroy(&shade->edges);
 }
 
 /* What a clear fluid's shading reads besides. */
 static void look_through(SplatShade *shade, unsigned program, const Frame *frame)
 {
     const SplatDef *def = splat_def(frame->def);
-    behind_take(&shade->behind, frame);
+    behind_take(&shade->behind, &shade->edges, frame);
     glProgramUniform1f(program, REFRACTION_INDEX_AT, (float)def->ior);
     glProgramUniform1f(program, ATTENUATION_AT,
                        def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);

@@ -16,6 +16,7 @@ typedef struct SplatShade {
                         silhouette_by_discs */
     bool clear;      /* water or jelly: what is behind shows through */
     Behind behind;   /* where clear */
+    Edges edges;     /* where clear: of the box, seen through the fluid */
 } SplatShade;
 
 /* False when a shader does not compile; splat_shade_destroy is needed in either case. */

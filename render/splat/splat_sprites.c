@@ -12,7 +12,7 @@ bool splat_sprites_create(SplatSprites *sprites, const SplatDef *def, Error *err
     *sprites = (SplatSprites){.def = *def, .point_limit = point_limit()};
     glCreateVertexArrays(1, &sprites->screen);
     quad_indices_create(&sprites->quads);
-    char body[64];
+    char body[96];
     snprintf(body, sizeof body, "%s%s", ellipsoids_defines(def),
              silhouette_by_discs(def) ? "#define DISCS 1\n" : "");
     return fluid_tiles_create(&sprites->tiles, error) &&

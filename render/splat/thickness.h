@@ -9,7 +9,8 @@
 
 typedef struct Thickness {
     unsigned target_number, cell;      /* the target's number; pixels of the target along a texel */
-    unsigned map, framebuffer;         /* R32F, m; linear filter */
+    unsigned map, framebuffer;         /* RG32F, m: of the fluid, and of a box full of it; linear filter */
+    unsigned filled, screen;           /* program of the second; vertex array without attributes */
     unsigned program[SPLAT_POINT + 1]; /* by sprite */
 } Thickness;
 

@@ -325,7 +325,7 @@ static void look_through(Raycast *raycast, const Frame *frame)
 {
     const RaycastDef *cast = &volume_def(frame->def)->raycast;
     if (raycast->solids)
-        behind_take(&raycast->behind, frame);
+        behind_take(&raycast->behind, NULL, frame);
     else
         glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
     const GLuint programs[] = {raycast->program, raycast->drops.program};

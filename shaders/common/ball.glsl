@@ -4,9 +4,9 @@
 #ifndef BALL_RADIUS
 #define BALL_RADIUS particle_radius // m
 #endif
-#ifdef ELLIPSOID
+#if defined ELLIPSOID || defined APART
 // Of each: centre, radius of the ball of its volume, m; the symmetric matrix A that takes it to that ball, of determinant 1: xx yy
-// zz, least axis in radii at most; xy xz yz.
+// zz, least axis in radii at most; xy xz yz, how crowded it is around the particle, 0 .. 1.
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { vec4 shape[]; };
 #elif defined DROPS
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { float shape_radius[]; };

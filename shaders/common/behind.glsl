@@ -21,7 +21,8 @@ vec3 behind_at(vec3 place, float surface, vec2 straight)
     if (is_nan(at.xyxy) || place.z >= -near_plane || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
         return environment(vec3(0.0), place);
 #ifdef SOLIDS
-    if (texelFetch(behind_depth, ivec2(at * picture_size), 0).x > surface)
+    vec4 around = textureGather(behind_depth, at); // of what the colour is mixed
+    if (max(max(around.x, around.y), max(around.z, around.w)) > surface)
         at = straight * pixel_size;
 #endif
     return textureLod(behind_color, at, 0.0).rgb;

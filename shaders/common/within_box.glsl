@@ -6,9 +6,8 @@ struct Within {
     float slope;        // way into the box across that wall for each m below the eye
 };
 
-Within within_box(vec3 ray) // of depth 1
+Within within_box_of(vec3 ray, bvec3 walls) // a ray of depth 1; with those axes' walls
 {
-    bvec3 walls = notEqual(walled & uvec3(1u, 2u, 4u), uvec3(0u));
     vec3 low = vec3(-0.5, 0.0, -0.5) * box_size, high = low + box_size;
     low = mix(vec3(-1e30), low, walls), high = mix(vec3(1e30), high, walls);
     mat3 turn = mat3(box_to_eye);
@@ -18,4 +17,9 @@ Within within_box(vec3 ray) // of depth 1
     float enter = max(max(first.x, first.y), first.z);
     vec3 axis = first.x >= enter ? vec3(1.0, 0.0, 0.0) : first.y >= enter ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, 1.0);
     return Within(enter, min(min(last.x, last.y), last.z), turn * (axis * -sign(way)), dot(axis, abs(way)));
+}
+
+Within within_box(vec3 ray)
+{
+    return within_box_of(ray, notEqual(walled & uvec3(1u, 2u, 4u), uvec3(0u)));
 }

@@ -4,6 +4,8 @@
 layout(location = 0) noperspective out float across;       // pixels from the line's middle
 layout(location = HALF_WIDTH_AT) uniform float half_width; // pixels
 
+layout(location = EDGES_BEHIND_AT) uniform uint behind; // 1: only edges between sides that both face away from the eye
+
 // Corners are numbered by bits: x, y, z; edge e runs along axis e / 4.
 vec3 corner_of_edge(int edge, int end)
 {
@@ -13,6 +15,15 @@ vec3 corner_of_edge(int edge, int end)
     bits[(axis + 1) % 3] = side & 1;
     bits[(axis + 2) % 3] = side >> 1;
     return (vec3(bits) - vec3(0.5, 0.0, 0.5)) * box_size;
+}
+
+// Whether one of the two sides that meet in the edge faces the eye.
+bool faces_eye(int edge)
+{
+    vec3 eye = -box_to_eye[3].xyz * mat3(box_to_eye), corner = corner_of_edge(edge, 0); // the inverse of a rotation
+    vec3 out_of = sign(corner - vec3(0.0, 0.5, 0.0) * box_size) * (eye - corner);
+    int axis = edge >> 2;
+    return out_of[(axis + 1) % 3] > 0.0 || out_of[(axis + 2) % 3] > 0.0;
 }
 
 // The end of the edge, pulled along it to before the eye.
@@ -28,7 +39,7 @@ void main()
     vec3 a = (box_to_eye * vec4(corner_of_edge(edge, end), 1.0)).xyz;
     vec3 b = (box_to_eye * vec4(corner_of_edge(edge, 1 - end), 1.0)).xyz;
     vec3 from = in_front(a, b), to = in_front(b, a);
-    if (max(from.z, to.z) > -near_plane) {
+    if (max(from.z, to.z) > -near_plane || (behind != 0u && faces_eye(edge))) {
         gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
         return;
     }

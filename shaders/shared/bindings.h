@@ -61,5 +61,6 @@
 #define CURVE_POINTS_AT     73
 #define CURVE_RANGE_AT      74
 #define ID_STRIDE_AT        75
+#define EDGES_BEHIND_AT     76
 
 #endif

@@ -80,5 +80,5 @@ void main()
     mat3 inverse = adjugate(axes);
     shape[to] = vec4(x + lambda * share * support_radius * mean, crowd_radius(share));
     shape[to + 1u] = vec4(inverse[0].x, inverse[1].y, inverse[2].z, least_axis(inverse));
-    shape[to + 2u] = vec4(inverse[0].yz, inverse[1].z, 0.0);
+    shape[to + 2u] = vec4(inverse[0].yz, inverse[1].z, share);
 }

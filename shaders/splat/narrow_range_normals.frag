@@ -20,9 +20,34 @@ vec4 steps_along(ivec2 pixel, float z, ivec2 along)
     return inside.x && inside.y ? steps : inside.x ? steps.xxzz : steps.yyww;
 }
 
+#ifdef PANES
+// A neighbour, or one as far on the picture's border.
+float depth_at(ivec2 pixel)
+{
+    return texelFetch(depth_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x;
+}
+
+// Within a quarter of a spacing of a pane the top of the fluid is rounded as its particles are, and the filter has nothing on the other
+// side to smooth it with: its slope there is that farther away. False where no pane is near, or another surface.
+bool slope_beyond(ivec2 pixel, float z, ivec2 along, out float slope)
+{
+    ivec2 stride = along * int(max(0.04 * particle_spacing * picture_size.y / (view_tangent.y * z) + 0.5, 1.0));
+    int away = 0;
+    for (int i = 3; i >= 1; i--)
+        away = depth_at(pixel - i * stride) < 0.0 ? 1 : depth_at(pixel + i * stride) < 0.0 ? -1 : away;
+    float first = depth_at(pixel + 4 * away * stride), second = depth_at(pixel + 8 * away * stride);
+    slope = float(away) * (first - second) / (4.0 * float(stride.x + stride.y) * first * second);
+    return away != 0 && min(first, second) > 0.0 && max(abs(first - z), abs(second - first)) < 2.0 * edge;
+}
+#endif
+
 // Both sides' mean, or at an edge, where they differ, that of the smaller step; false where that is one too.
 bool slope_along(ivec2 pixel, float z, ivec2 along, out float slope)
 {
+#ifdef PANES
+    if (slope_beyond(pixel, z, along, slope))
+        return true;
+#endif
     vec4 steps = steps_along(pixel, z, along);
     bool even = abs(steps.x - steps.y) * z * z < edge;
     slope = even ? 0.5 * (steps.x + steps.y) : steps.z < steps.w ? steps.x : steps.y;

@@ -11,7 +11,7 @@
 #ifdef BLEND
 #include "common/particle_color.glsl"
 layout(location = 2) flat out vec3 color;
-#ifdef DISCS
+#if defined DISCS && !defined ALONE
 layout(location = 7) flat out float gain; // see splat/splat_small.glsl
 #endif
 #endif
@@ -92,7 +92,7 @@ void main()
     place(body, body_bounds(body), min(near_plane / nearest * 1.00001, 1.0));
 #ifdef BLEND
     color = particle_color(index);
-#ifdef DISCS
+#if defined DISCS && !defined ALONE
     gain = cover_gain(body.radius, drawn_radius(body.radius, body.centre));
 #endif
 #endif

@@ -74,5 +74,7 @@
 /* of tiles */
 #define TILES_BOUNDS_AT  49
 #define TILES_PICTURE_AT 50
+/* of drops on their own */
+#define SPRAY_BEHIND_AT 51
 
 #endif

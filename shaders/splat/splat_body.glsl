@@ -1,7 +1,13 @@
 // What stands for a particle in the view splat, in the eye's frame: a ball or with ELLIPSOID an ellipsoid. Wants
 // common/frame.glsl, common/particles.glsl, common/sphere.glsl and common/ball.glsl.
 #include "common/nan.glsl"
-#ifdef DISCS
+#ifdef ALONE
+// Half a pixel more, for a soft rim: shaders/splat/clear/spray.frag.
+float drawn_radius(float radius, vec3 centre)
+{
+    return radius + view_tangent.y * pixel_size.y * -centre.z;
+}
+#elif defined DISCS
 #include "splat/splat_small.glsl"
 #else
 #define drawn_radius(radius, centre) (radius)
@@ -17,6 +23,21 @@ struct Body {
 #endif
 };
 
+// The centre that a particle is drawn at. With APART those on their own are not in the surface, with ALONE no others are drawn: they
+// are so far away that nothing is seen of them.
+vec3 body_centre(uint index, vec3 centre)
+{
+    vec3 in_eye = (box_to_eye * vec4(centre, 1.0)).xyz;
+#ifdef APART
+    bool alone = shape[3u * index + 2u].w < 0.25;
+#ifdef ALONE
+    alone = !alone;
+#endif
+    in_eye = alone ? vec3(0.0, 0.0, -1e18) : in_eye;
+#endif
+    return in_eye;
+}
+
 #ifdef ELLIPSOID
 Body body_of(uint index)
 {
@@ -25,7 +46,7 @@ Body body_of(uint index)
     mat3 turn = mat3(box_to_eye);
     mat3 inverse = turn * mat3(b.x, c.xy, c.x, b.y, c.z, c.yz, b.z) * transpose(turn);
     mat3 axes = ball.radius * mat3(cross(inverse[1], inverse[2]), cross(inverse[2], inverse[0]), cross(inverse[0], inverse[1]));
-    return Body((box_to_eye * vec4(ball.centre, 1.0)).xyz, ball.radius, 0.999 * ball.radius * b.w, inverse, axes);
+    return Body(body_centre(index, ball.centre), ball.radius, 0.999 * ball.radius * b.w, inverse, axes);
 }
 
 float body_nearest(Body body) // least depth of it
@@ -62,7 +83,7 @@ vec4 body_bounds(Body body)
 Body body_of(uint index)
 {
     Ball ball = ball_of(index);
-    return Body((box_to_eye * vec4(ball.centre, 1.0)).xyz, ball.radius, ball.radius);
+    return Body(body_centre(index, ball.centre), ball.radius, ball.radius);
 }
 
 float body_nearest(Body body)

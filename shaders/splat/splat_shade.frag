@@ -18,7 +18,7 @@ layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;
 layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
 layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
-layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser
+layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser; and what it were of a full box
 layout(location = NEAREST_DEPTH_AT) uniform float nearest_depth;   // of a particle, m
 layout(location = FARTHEST_DEPTH_AT) uniform float farthest_depth; // m
 #ifdef SETTLED // splat_settle.frag has left out what is none, as below, and the test of depth follows it
@@ -55,6 +55,23 @@ vec3 shaded(Surface s)
 }
 #endif
 
+#ifdef PANES
+// The field is blurred beyond the walls, and beside them it is less than the fluid. So what counts is its share of that of a full box,
+// which is that of the ray within the walls that is fluid: as sharp as these are.
+float thickness_in_box(vec3 ray, float depth)
+{
+    vec2 sums = textureLod(thickness_map, gl_FragCoord.xy * pixel_size, 0.0).xy;
+    Within box = within_box_of(ray, bvec3(true));
+    float end = box.leave, enter = max(box.enter, near_plane);
+#ifdef SOLIDS
+    end = min(end, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30));
+#endif
+    if (end <= enter)
+        return sums.x;
+    return min((end - enter) * min(sums.x / max(sums.y, 1e-30), 1.0), max(end - depth, 0.0)) * length(ray);
+}
+#endif
+
 Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
 {
     Surface s = Surface(depth * ray, normalize(ray), normal, albedo, 0.0, 0.0, 0.0);
@@ -65,8 +82,8 @@ Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
 #if SHADING > 0
     s.normal = facing(normal, s.view);
     s.thickness = thickness_here();
-#ifdef PANES // the field is blurred beyond the walls, and the fluid ends there
-    s.thickness = min(s.thickness, max(within_box(ray).leave - depth, 0.0) * length(ray));
+#ifdef PANES
+    s.thickness = thickness_in_box(ray, depth);
 #endif
 #endif
     return s;

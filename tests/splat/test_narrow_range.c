@@ -44,7 +44,7 @@ static void run(const Map *map, const Target *target, float depth[N], float norm
     NarrowRange filter;
     SplatMaps maps = {.nearest = upload_map(target, GL_R32F, GL_RED, map->before),
                       .normal = upload_map(target, GL_RGBA32F, GL_RGB, facing)};
-    if (!narrow_range_create(&filter, &error))
+    if (!narrow_range_create(&filter, false, &error))
         fail_msg("%s", error.message);
     const SplatMaps shown = narrow_range_draw(&filter, &maps, &map->frame);
     keep(depth, shown.nearest, GL_RED, 1);

@@ -1,0 +1,37 @@
+// The brim between a pane of the box and the fluid's top made smooth, for render/splat/panes.h: a pixel is of the pane where most of
+// those around it are, so that neither single spheres that end short of the wall nor ones that reach it leave dots.
+#include "common/frame.glsl"
+#include "shaders/splat/splat_bindings.h"
+#include "common/within_box.glsl"
+
+layout(binding = NEAREST_UNIT) uniform sampler2D cut_map;     // as panes.frag leaves it
+layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D own_map; // before
+layout(location = 0) out float cut;
+
+const int TAPS = 12;
+const float reach = 0.6; // spacings
+
+bool is_pane(ivec2 pixel)
+{
+    return texelFetch(cut_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x < 0.0;
+}
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    float z = texelFetch(cut_map, pixel, 0).x, own = texelFetch(own_map, pixel, 0).x;
+    cut = z;
+    if (z >= 1e29)
+        return;
+    float pixels = reach * particle_spacing * 0.5 * picture_size.y / (view_tangent.y * abs(z));
+    int panes = int(z < 0.0);
+    for (int i = 0; i < TAPS; i++) { // a sunflower's seeds: even over the disc
+        float angle = 2.39996 * float(i), away = sqrt((float(i) + 1.0) / float(TAPS)) * pixels;
+        panes += int(is_pane(pixel + ivec2(round(away * vec2(cos(angle), sin(angle))))));
+    }
+    bool pane = 2 * panes > TAPS + 1;
+    if (pane == (z < 0.0))
+        return;
+    float enter = within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).enter;
+    cut = !pane ? max(own, enter) : enter > near_plane ? -enter : z;
+}

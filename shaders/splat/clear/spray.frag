@@ -1,0 +1,84 @@
+// A drop on its own, for render/splat/spray.h: a lens of the fluid. What is seen through it is a copy of the picture up to now, at the
+// place where the ray that leaves the drop leaves the box.
+#define FLOOR_SHADOW 1
+#include "common/frame.glsl"
+#include "common/light.glsl"
+#include "shaders/splat/splat_bindings.h"
+#ifdef SOLIDS
+#include "common/solid_light.glsl"
+#endif
+#include "common/environment.glsl"
+#include "common/behind.glsl"
+#include "common/surface.glsl"
+#include "common/clear.glsl"
+#include "common/sphere.glsl"
+#include "splat/splat.glsl"
+#include "splat/splat_at.glsl"
+
+layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
+layout(location = SPRAY_BEHIND_AT) uniform uint behind_surface; // 1: only drops behind the fluid's surface
+layout(location = 2) flat in vec3 color;
+layout(location = 0) out vec4 shown;
+
+// How far a ray within the box goes there, m.
+float way_in_box(vec3 place, vec3 ray)
+{
+    vec3 origin = (place - box_to_eye[3].xyz) * mat3(box_to_eye), way = ray * mat3(box_to_eye); // the inverse of a rotation
+    vec3 wall = mix(vec3(-0.5, 0.0, -0.5), vec3(0.5, 1.0, 0.5), greaterThanEqual(way, vec3(0.0))) * box_size;
+    vec3 to = (wall - origin) / way;
+    return max(min(min(to.x, to.y), to.z), 0.0);
+}
+
+// Through a ball of that radius. The chord is as far from the centre at both ends, and so the ray leaves it under the angle by which it
+// came: light is never caught in a ball.
+vec3 through_ball(Surface s, float radius)
+{
+    vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
+    float chord = -2.0 * radius * dot(inner, s.normal);
+    vec3 end = s.place + chord * inner, outward = s.normal + chord / radius * inner;
+    vec3 outer = refract(inner, -outward, refraction_index);
+    outer = dot(outer, outer) > 0.0 ? outer : inner;
+    vec3 seen = behind_at(end + way_in_box(end, outer) * outer, near_plane / -s.place.z, gl_FragCoord.xy);
+    return seen * pow(max(s.albedo, 1e-4), vec3(chord / attenuation));
+}
+
+// The rim mirrors where the ray leaves as where it enters.
+vec3 shaded(Surface s, float radius)
+{
+    vec3 inside = through_ball(s, radius);
+#if SHADING == 2
+    inside = mix(mix(s.albedo, phong(s), shading), inside, 0.8);
+#endif
+    vec3 left = inside * (1.0 - fresnel(max(-dot(s.view, s.normal), 0.0), refraction_index));
+    return mix(inside, with_surface(s, left), shading);
+}
+
+Surface surface_at(Splat hit)
+{
+    vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
+    Surface s = Surface(hit.depth * ray, normalize(ray), hit.normal, color, 0.0, 0.0, 0.0);
+    s.normal = facing(normalize(hit.normal), s.view);
+    s.lit = s.key = fluid_light(s.place);
+#ifdef SOLIDS
+    s.key *= solid_light(s.place);
+#endif
+    return s;
+}
+
+// What of the pixel the drop covers: a ramp of a pixel at its rim, so that its disc has its area however small it is.
+float cover_of(Splat hit)
+{
+    float own = radius * 0.5 * picture_size.y / (view_tangent.y * hit.depth), drawn = own + 0.5;
+    float gain = drawn < 1.0 ? 3.0 * own * own / (drawn * drawn * drawn) : own * own / (own * own + 1.0 / 12.0);
+    return gain * clamp((1.0 - sqrt(max(1.0 - hit.inside2, 0.0))) * drawn, 0.0, 1.0);
+}
+
+void main()
+{
+    Splat hit = splat_here();
+    float surface = abs(texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x); // below 0 at a wall
+    if (!splat_seen(hit) || (behind_surface != 0u && (hit.depth < surface || surface >= 1e29)))
+        discard;
+    gl_FragDepth = near_plane / hit.depth;
+    shown = vec4(shaded(surface_at(hit), radius), cover_of(hit));
+}
