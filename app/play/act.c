@@ -33,7 +33,7 @@ static void follow_scene(Play *play)
     views_open(&play->views, &play->model.open.scene, &play->model.file_scene);
     meter_forget(&play->meter);
     play->picture.dirty = true;
-    play->overlay.timeline |= !play->model.open.source->simulates;
+    play->overlay.timeline |= !play->model.open.source->simulates || play->model.open.session;
     snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
     window_title(play->window, title);
     if (play->picture.panels)

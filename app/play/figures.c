@@ -23,6 +23,7 @@ static void add_model(const Model *model, PlayFigures *figures)
     const WorldDef *def = &model->open.scene.world;
     const SimulatorStatus *status = &model->status;
     figures->recorded = !model->open.source->simulates;
+    snprintf(figures->script, sizeof figures->script, "%s", script_name(status->script));
     figures->threads = threads_of(def);
     figures->substeps = def->substeps;
     figures->dt =

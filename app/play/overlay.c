@@ -213,6 +213,14 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
         ask_command(asks, (PlayCommand)events->command);
 }
 
+/* Of a recorded session, as far as it is done again. */
+static double script_done(const SimulatorStatus *status)
+{
+    if (status->script != SCRIPT_PLAYS || status->script_steps == 0)
+        return 0;
+    return fmin((double)status->step / (double)status->script_steps, 1);
+}
+
 static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
     const SimulatorPast *past = &model->status.past;
@@ -220,6 +228,7 @@ static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFac
                                .to = past->to,
                                .now = model->particles.time,
                                .playing = !model->paused,
+                               .done = script_done(&model->status),
                                .grows = model->open.source->simulates};
     TimelineEvents events;
     const float left = overlay->panel ? panel_width(overlay->ui, facts->width) : 0;
