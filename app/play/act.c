@@ -105,8 +105,9 @@ static void next_view(Play *play)
 static void next_colormap(Play *play)
 {
     ViewDef *view = &play->model.open.scene.view;
+    const char *shown = view_colormap(view);
     int i = 0;
-    while (colormap_list[i] && strcmp(colormap_list[i], view->colormap) != 0)
+    while (colormap_list[i] && strcmp(colormap_list[i], shown) != 0)
         i++;
     const char *next = colormap_list[i] && colormap_list[i + 1] ? colormap_list[i + 1] : colormap_list[0];
     snprintf(view->colormap, sizeof view->colormap, "%s", next);

@@ -52,7 +52,7 @@ static void add_view(const ViewDef *view, PlayFigures *figures)
     memcpy(figures->camera_to, view->camera.to, sizeof figures->camera_to);
     snprintf(figures->view, sizeof figures->view, "%s", view->kind);
     snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(view_color_by(view)));
-    snprintf(figures->colormap, sizeof figures->colormap, "%s", view->colormap);
+    snprintf(figures->colormap, sizeof figures->colormap, "%s", view_colormap(view));
 }
 
 /* JSON as text; `none` where it does not fit. */
