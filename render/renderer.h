@@ -18,7 +18,7 @@
 
 typedef struct Renderer Renderer;
 
-/* What a scene that says nothing gets: spheres by speed in viridis, legend, box, floor, an automatic camera.
+/* What a scene that says nothing gets: spheres by speed in mako, legend, box, floor, an automatic camera.
  */
 ViewDef view_def_default(void);
 

@@ -113,7 +113,8 @@ static const char *taken_by(const char *bytes, size_t size)
     static const struct {
         const char *begin, *words;
     } kinds[] = {
-        {"slosh recording ", "a recorded session, no scene; slosh replay and slosh render take it"},
+        {"slosh recording ",
+         "a recorded session, no scene; the window, slosh replay and slosh render take it"},
         {"slosh device recording ", "a recording of motion devices, no scene; --device file:PATH takes it"},
         {"\x89HDF\r\n\x1a\n",
          "a file of snapshots, no scene; slosh play, slosh render and slosh export take it, and slosh run goes on with one by -o and "

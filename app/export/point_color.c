@@ -16,10 +16,15 @@ double point_scalar(const SnapshotStep *step, size_t i, Scalar scalar)
     return scalar == SCALAR_DENSITY ? step->density[i] : step->pressure[i];
 }
 
+static const char *map_of(const PointColors *colors)
+{
+    return colormap_of(colormap_choices[0], colors->scalar);
+}
+
 void point_colors_print(FILE *file, const char *before, const PointColors *colors)
 {
     if (colors->mapped)
-        fprintf(file, "%scolours: %s, %s from %g to %g %s\n", before, colormap_list[0],
+        fprintf(file, "%scolours: %s, %s from %g to %g %s\n", before, map_of(colors),
                 scalar_name(colors->scalar), colors->low, colors->high, scalar_unit(colors->scalar));
 }
 
@@ -34,7 +39,7 @@ static void fluid_color(const PointColors *colors, int32_t fluid, uint8_t rgb[3]
 PointPainter point_painter(const PointColors *colors)
 {
     PointPainter painter = {.colors = colors};
-    colormap_fill(colormap_list[0], painter.map);
+    colormap_fill(map_of(colors), painter.map);
     return painter;
 }
 

@@ -36,34 +36,15 @@ static bool refuse(const Args *args, const char *option, const char *why, Error 
     return error_set(error, "%s makes no sense for %s: %s", option, args->scenes[0], why);
 }
 
-/* What changes no bit: how the fluid is drawn, and how many processors compute. */
-static bool is_allowed(const char *setting)
-{
-    static const char *const keys[] = {"view.", "view=", "solver.threads=", "solver.simd="};
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if (strncmp(setting, keys[i], strlen(keys[i])) == 0)
-            return true;
-    return false;
-}
-
 static bool check_options(const Args *args, Error *error)
 {
-    static const char OWN[] = "the session has its own; how it is drawn (view.*) may change";
     if (args->device)
         return refuse(args, "--device", "all that moved the box is in the session", error);
     if (args->sweep_count > 0)
         return refuse(args, "--compare", "the session has one setting", error);
     if (args->interpolate)
         return refuse(args, "--interpolate", "pictures are of the states that the session had", error);
-    if (args->settings.particles > 0)
-        return refuse(args, "--particles", OWN, error);
-    for (int i = 0; i < args->settings.count; i++)
-        if (!is_allowed(args->settings.set[i]))
-            return error_set(error, "%s%.100s makes no sense for %.300s: %s",
-                             args->settings.said[i] ? "" : "--set ",
-                             args->settings.said[i] ? args->settings.said[i] : args->settings.set[i],
-                             args->scenes[0], OWN);
-    return true;
+    return recording_play_allows(args->scenes[0], &args->settings, error);
 }
 
 static bool choose_times(Film *film, Error *error)

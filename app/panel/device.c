@@ -20,7 +20,10 @@ static void draw_bar(Ui *ui, const Bar *bar)
     if (!ui_area(ui, BAR_LETTERS, rect))
         return;
     const float em = ui_pixels(ui), width = rect[2] - rect[0];
-    const float left = floorf(rect[0] + BAR_LEFT * width), right = floorf(rect[0] + BAR_RIGHT * width);
+    const float gap = floorf(0.5F * em), does = ceilf(ui_words_width(ui, bar->does)) + gap;
+    const float left =
+        fmaxf(floorf(rect[0] + BAR_LEFT * width), rect[0] + ceilf(ui_words_width(ui, bar->name)) + gap);
+    const float right = fmaxf(fminf(floorf(rect[0] + BAR_RIGHT * width), rect[2] - does), left + 1);
     const float middle = floorf((left + right) / 2), half = (right - left) / 2;
     const float top = rect[1] + floorf(0.15F * em), bottom = rect[3] - floorf(0.15F * em);
     const float end = middle + floorf(half * (float)fmax(fmin(bar->value, 1), -1));
@@ -31,7 +34,7 @@ static void draw_bar(Ui *ui, const Bar *bar)
     ui_fill(ui, middle - dead, top, middle + dead, bottom, 0x2b343dff);
     ui_fill(ui, fminf(middle, end), top, fmaxf(middle + 1, end), bottom,
             alive ? PANEL_SIM_COLOR : 0x6b7782ffU);
-    ui_words(ui, right + floorf(0.5F * em), rect[1], 0xe4e9eec0, bar->does);
+    ui_words(ui, right + gap, rect[1], 0xe4e9eec0, bar->does);
 }
 
 /* "left_x" as "left x" behind an arrow or nothing. */

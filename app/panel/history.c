@@ -31,7 +31,9 @@ static void draw_mark(Ui *ui, const Plot *plot, const float rect[4], double top_
     const float em = ui_pixels(ui);
     const float y = floorf(rect[3] - (float)(plot->mark_ms / top_ms) * (rect[3] - rect[1]));
     char text[64];
-    snprintf(text, sizeof text, "%.3g ms: %s", plot->mark_ms, plot->mark);
+    snprintf(text, sizeof text, "%.4g ms: %s", plot->mark_ms, plot->mark);
+    if (ui_words_width(ui, text) > rect[2] - rect[0] - 0.3F * em)
+        snprintf(text, sizeof text, "%.4g ms", plot->mark_ms);
     ui_fill(ui, rect[0], y, rect[2], y + fmaxf(floorf(em / 13), 1), 0xe4e9ee80);
     ui_words(ui, rect[0] + 0.3F * em, y - 1.15F * em > rect[1] ? y - 1.15F * em : y + 0.1F * em, 0xe4e9eec0,
              text);

@@ -120,17 +120,21 @@ static void plain_words(const char *name, char text[32])
             *c = ' ';
 }
 
+static bool draw_button(Ui *ui, const PlayCommandRow *row, bool lit)
+{
+    char keys[64], help[160], label[32];
+    play_command_keys_text(row, keys, sizeof keys);
+    snprintf(help, sizeof help, "%s\n%s", row->help, keys);
+    plain_words(row->name, label);
+    return ui_button(ui, &(UiField){.id = row->name, .label = label, .help = help}, lit);
+}
+
 static void draw_buttons(Ui *ui, const PanelData *data, PanelEvents *events)
 {
     for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
-        char keys[64], help[160], label[32];
         if (!(row->flags & PLAY_BUTTON) || (data->recorded && row->flags & PLAY_SIMULATED))
             continue;
-        play_command_keys_text(row, keys, sizeof keys);
-        snprintf(help, sizeof help, "%s\n%s", row->help, keys);
-        plain_words(row->name, label);
-        const UiField field = {.id = row->name, .label = label, .help = help};
-        if (ui_button(ui, &field, row->command == PLAY_PAUSE && data->paused))
+        if (draw_button(ui, row, row->command == PLAY_PAUSE && data->paused))
             events->command = row->command;
     }
     ui_gap(ui);
@@ -203,4 +207,19 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         draw_end(ui, data);
     }
     ui_window_end(ui);
+}
+
+bool panel_opener_draw(Ui *ui, float below)
+{
+    static const float AROUND_EM = 2.2F; /* about its words: the paddings of the window and of the button */
+    const PlayCommandRow *row = &play_command_rows[PLAY_PANEL];
+    const float em = ui_pixels(ui), margin = margin_of(ui);
+    const UiWindow window = {.id = "opener",
+                             .place = {margin, margin + below},
+                             .width = ceilf(ui_words_width(ui, row->name) + AROUND_EM * em),
+                             .height_most = 4 * em};
+    ui_window_begin(ui, &window);
+    const bool pressed = draw_button(ui, row, false);
+    ui_window_end(ui);
+    return pressed;
 }

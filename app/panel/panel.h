@@ -77,6 +77,10 @@ float panel_width(const Ui *ui, int width);
 /* Both stand between ui_begin and ui_end, when ui_begin returned true. */
 void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *data, PanelEvents *events);
 
+/* The button that opens the panel, in the upper left corner, so many pixels below the edge. True when
+ * pressed. */
+bool panel_opener_draw(Ui *ui, float below);
+
 /* All that a user can do, with its keys, in the middle of the picture. */
 void panel_help_draw(Ui *ui, int width, int height);
 

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const float MARGIN_EM = 0.75F, BAR_EM = 1.5F, BUTTON_EM = 2, GAP_EM = 0.4F;
 static const float LETTERS_EM = 0.15F;     /* from the bar's upper edge to its words */
@@ -102,6 +103,8 @@ static float draw_words(Ui *ui, const float area[4], const TimelineData *data)
     char now[32], all[80], room[112] = "";
     snprintf(now, sizeof now, "%.2f s", data->now);
     snprintf(all, sizeof all, " of %.2f to %.2f s%s", data->from, data->to, data->grows ? "" : ", its end");
+    if (data->done > 0)
+        snprintf(all + strlen(all), sizeof all - strlen(all), ", %3.0f %% of the session", 100 * data->done);
     snprintf(room, sizeof room, "%s%s", now, all);
     for (char *c = room; *c; c++)
         if (*c >= '0' && *c <= '9')

@@ -15,6 +15,7 @@ typedef struct TimelineData {
     double from, to; /* s, from <= to: what can be shown now */
     double now;      /* s: what the picture shows; one beyond the ends is drawn at the nearer end */
     bool playing;    /* time runs: the first button says pause, else play */
+    double done;     /* the part of a recorded session that was done again, 0 .. 1; 0: none is */
     bool grows;      /* more is added at `to` while time runs there: a simulation, not a file */
 } TimelineData;
 

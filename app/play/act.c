@@ -33,7 +33,7 @@ static void follow_scene(Play *play)
     views_open(&play->views, &play->model.open.scene, &play->model.file_scene);
     meter_forget(&play->meter);
     play->picture.dirty = true;
-    play->overlay.timeline |= !play->model.open.source->simulates;
+    play->overlay.timeline |= !play->model.open.source->simulates || play->model.open.session;
     snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
     window_title(play->window, title);
     if (play->picture.panels)
@@ -105,8 +105,9 @@ static void next_view(Play *play)
 static void next_colormap(Play *play)
 {
     ViewDef *view = &play->model.open.scene.view;
+    const char *shown = view_colormap(view);
     int i = 0;
-    while (colormap_list[i] && strcmp(colormap_list[i], view->colormap) != 0)
+    while (colormap_list[i] && strcmp(colormap_list[i], shown) != 0)
         i++;
     const char *next = colormap_list[i] && colormap_list[i + 1] ? colormap_list[i + 1] : colormap_list[0];
     snprintf(view->colormap, sizeof view->colormap, "%s", next);

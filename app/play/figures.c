@@ -23,6 +23,7 @@ static void add_model(const Model *model, PlayFigures *figures)
     const WorldDef *def = &model->open.scene.world;
     const SimulatorStatus *status = &model->status;
     figures->recorded = !model->open.source->simulates;
+    snprintf(figures->script, sizeof figures->script, "%s", script_name(status->script));
     figures->threads = threads_of(def);
     figures->substeps = def->substeps;
     figures->dt =
@@ -51,7 +52,7 @@ static void add_view(const ViewDef *view, PlayFigures *figures)
     memcpy(figures->camera_to, view->camera.to, sizeof figures->camera_to);
     snprintf(figures->view, sizeof figures->view, "%s", view->kind);
     snprintf(figures->color_by, sizeof figures->color_by, "%s", scalar_name(view_color_by(view)));
-    snprintf(figures->colormap, sizeof figures->colormap, "%s", view->colormap);
+    snprintf(figures->colormap, sizeof figures->colormap, "%s", view_colormap(view));
 }
 
 /* JSON as text; `none` where it does not fit. */

@@ -45,6 +45,17 @@ static void tell_fixed(Model *model)
     notice_tell(model->notice, "a recorded run: its box moves as it did");
 }
 
+/* A recorded session begins, ends, or is left. */
+static void tell_script(Model *model)
+{
+    const ScriptState state = model->status.script;
+    if (state == model->told_script)
+        return;
+    model->told_script = state;
+    if (script_words(state))
+        notice_tell(model->notice, "%s", script_words(state));
+}
+
 void model_listen(Model *model)
 {
     SimulatorStatus *status = &model->status;
@@ -58,6 +69,7 @@ void model_listen(Model *model)
     while (company_message(model->open.company, words))
         notice_error(model->notice, words);
     follow_travels(model);
+    tell_script(model);
     if (status->saves == model->saves)
         return;
     model->saves = status->saves;
@@ -170,6 +182,7 @@ static void adopt(Model *model, const PlayScene *opened)
     post_open(model);
     model->saves = model->messages = model->travels = 0;
     model->told_fixed = model->asked_acceleration = false;
+    model->told_script = SCRIPT_NONE;
     model->scenes_opened++;
     model->open.source->set_speed(&model->open, model->speed);
 }

@@ -32,6 +32,7 @@ typedef struct Model {
     char kept_view[NAME_SIZE]; /* that the user chose, and the next scene is to have; "": as its file says */
     size_t scenes_opened;
     unsigned saves, messages; /* that were told */
+    ScriptState told_script;  /* that was told */
     unsigned travels;         /* SimulatorPast.travels that were followed */
     atomic_bool pulled;       /* somebody would move the box of a recorded run; */
     bool told_fixed;          /* it was told that none can */

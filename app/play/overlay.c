@@ -57,9 +57,16 @@ static bool shows_timeline(const Overlay *overlay, const Model *model)
            (overlay->timeline || model->paused || past->behind || overlay->scrubs || mouse_is_near(overlay));
 }
 
+/* In its stead. */
+static bool shows_opener(const Overlay *overlay)
+{
+    return overlay->opener && !overlay->panel && !overlay->help && !overlay->scenes;
+}
+
 bool overlay_shown(const Overlay *overlay, const Model *model)
 {
-    return overlay->panel || overlay->help || overlay->scenes || shows_timeline(overlay, model);
+    return overlay->panel || shows_opener(overlay) || overlay->help || overlay->scenes ||
+           shows_timeline(overlay, model);
 }
 
 float overlay_covered_below(const Overlay *overlay, const Model *model)
@@ -213,6 +220,14 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
         ask_command(asks, (PlayCommand)events->command);
 }
 
+/* Of a recorded session, as far as it is done again. */
+static double script_done(const SimulatorStatus *status)
+{
+    if (status->script != SCRIPT_PLAYS || status->script_steps == 0)
+        return 0;
+    return fmin((double)status->step / (double)status->script_steps, 1);
+}
+
 static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
     const SimulatorPast *past = &model->status.past;
@@ -220,6 +235,7 @@ static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFac
                                .to = past->to,
                                .now = model->particles.time,
                                .playing = !model->paused,
+                               .done = script_done(&model->status),
                                .grows = model->open.source->simulates};
     TimelineEvents events;
     const float left = overlay->panel ? panel_width(overlay->ui, facts->width) : 0;
@@ -266,6 +282,13 @@ bool overlay_follow(Overlay *overlay)
     return more;
 }
 
+/* Views that stand beside each other may have titles in that corner. */
+static float title_height(const Overlay *overlay, const Model *model)
+{
+    static const float TITLE_EM = 5;
+    return model->open.scene.view_count > 0 ? TITLE_EM * ui_pixels(overlay->ui) : 0;
+}
+
 /* The widgets, when any of them has changed. */
 static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
@@ -283,6 +306,8 @@ static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *fac
         panel_help_draw(overlay->ui, facts->width, facts->height);
     if (overlay->scenes)
         draw_scenes(overlay, model, facts, asks);
+    if (shows_opener(overlay) && panel_opener_draw(overlay->ui, title_height(overlay, model)))
+        events.command = PLAY_PANEL;
     queue_events(&events, asks);
     if (shows_timeline(overlay, model))
         draw_timeline(overlay, model, facts, asks);
@@ -293,7 +318,8 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
 {
     const double now = wall_ms();
     const bool timeline = shows_timeline(overlay, model);
-    const int shown = overlay->panel + 2 * overlay->help + 4 * timeline + 8 * overlay->scenes;
+    const int shown =
+        overlay->panel + 2 * overlay->help + 4 * timeline + 8 * overlay->scenes + 16 * shows_opener(overlay);
     overlay->height = facts->height;
     if (model->open.simulator)
         simulator_watch(model->open.simulator, overlay->panel && overlay->watches,

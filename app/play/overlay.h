@@ -14,6 +14,7 @@
 
 typedef struct Overlay {
     bool panel, help; /* shown */
+    bool opener;      /* given: where there is no panel a button opens it: it had no room at the start */
     bool scenes;      /* the list of scenes is */
     SceneCards cards;
     bool timeline; /* always shown, not only while paused or near the mouse */

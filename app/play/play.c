@@ -69,6 +69,7 @@ static bool start(Session *session, Error *error)
     const float letters = picture_letters(play->window);
     play->overlay.panel =
         (float)play->picture.width > PANEL_FROM_EM * letters; /* beside the fluid, not over it */
+    play->overlay.opener = !play->overlay.panel;
     return act_open(play, setup->scene, setup->settings, error) &&
            picture_start(&play->picture, &play->model.open, letters, error) &&
            overlay_start(&play->overlay, letters, error);

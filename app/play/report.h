@@ -16,6 +16,7 @@
 typedef struct PlayFigures {
     char scene[1024], renderer[256];
     int views, chosen_view;   /* how many are shown; the panel of the one that the rest is of */
+    char script[16];          /* script_name, of a recorded session that was played */
     bool recorded;            /* nothing was simulated: there are no figures of a solver */
     double times[PANELS_MAX]; /* of the state that each shows, s */
     char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];

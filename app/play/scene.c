@@ -3,6 +3,7 @@
 #include "app/base/path.h"
 #include "app/beside/beside.h"
 #include "app/scene/advise.h"
+#include "app/session/recording_play.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
 
@@ -11,13 +12,41 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool refuse_session(const char *path, Error *error)
+/* A solver that moves to or from a GPU changes its thread, which only the window can do. */
+static bool check_session(const char *path, const Recording *recording, Error *error)
 {
-    return error_set(
-        error,
-        "%s: a recorded session; `slosh replay %s` simulates it again, `slosh render %s -o OUT.mp4` "
-        "films it",
-        path, path, path);
+    for (size_t i = 0; i < recording->count; i++)
+        if (sim_command_sets_backend(&recording->commands[i]))
+            return error_set(
+                error,
+                "%s:%zu: the session goes on with another backend here, which the window does not "
+                "do again; `slosh replay %s` and `slosh render %s -o OUT.mp4` do",
+                path, recording_line(recording, i), path, path);
+    return true;
+}
+
+/* Nobody recorded what was shown beside it. */
+static void leave_out_beside(Scene *scene)
+{
+    int kept = 0;
+    for (int i = 0; i < scene->view_count; i++)
+        if (!beside_is(&scene->views[i]))
+            scene->views[kept++] = scene->views[i];
+    scene->view_count = kept;
+}
+
+static bool read_session(PlayScene *open, const char *path, const SceneSettings *settings, Notes *notes,
+                         Error *error)
+{
+    Error why = {""};
+    open->session = true;
+    if (!recording_read(path, &open->recording, error) || !check_session(path, &open->recording, error) ||
+        (settings && !recording_play_allows(path, settings, error)))
+        return false;
+    if (!recording_play_scene(&open->recording, settings, SCENE_FOR_WINDOW, &open->scene, notes, &why))
+        return error_set(error, "%.300s: its scene: %.600s", path, why.message);
+    leave_out_beside(&open->scene);
+    return true;
 }
 
 static bool read_scene(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
@@ -28,8 +57,6 @@ static bool read_scene(PlayScene *open, const char *name, const SceneSettings *s
     applied.purpose = SCENE_FOR_WINDOW;
     char path[SCENE_PATH_SIZE];
     size_t size;
-    if (recording_is_file(name))
-        return refuse_session(name, error);
     if (!scene_path_find(name, path, error))
         return false;
     char *text = scene_file_read(path, &size, error);
@@ -66,7 +93,9 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
 {
     const bool recorded = recorded_is_file(name);
     *open = (PlayScene){.source = recorded ? &source_recorded : &source_simulator};
-    if (!(recorded ? read_recorded : read_scene)(open, name, settings, notes, error))
+    if (!(recorded                  ? read_recorded
+          : recording_is_file(name) ? read_session
+                                    : read_scene)(open, name, settings, notes, error))
         return false;
     open->notes = *notes;
     return true;

@@ -16,6 +16,7 @@ typedef struct PlayScene {
     Scene scene;         /* as it stands now: the file's values, and what was changed since */
     Notes notes;         /* what is to be said of it as it stands now */
     Recording recording; /* the file's text and the settings: where the session begins */
+    bool session;        /* it was recorded, commands and all, and is to be done again */
     Upload *upload;      /* carries every scalar, so that colours may change at once; NULL on a GPU */
     Simulator *simulator;
     Recorded *recorded; /* of a file of snapshots; the player has taken its content over */

@@ -10,6 +10,7 @@ static bool start(PlayScene *open, const SimulatorSetup *how, Error *error)
         return false;
     setup.scene = &open->scene;
     setup.recording = &open->recording;
+    setup.script = open->session ? &open->recording : NULL;
     setup.upload = open->upload;
     open->simulator = simulator_create(&setup, error);
     return open->simulator != NULL;

@@ -6,17 +6,40 @@
 #include <stdio.h>
 #include <string.h>
 
-static bool load_scene(const RecordingPlay *play, const SceneSettings *more, Scene *scene, Error *error)
+/* What changes no bit: how the fluid is drawn, and how many processors compute. */
+static bool is_allowed(const char *setting)
 {
-    const Recording *recording = play->recording;
+    static const char *const keys[] = {"view.", "view=", "solver.threads=", "solver.simd="};
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strncmp(setting, keys[i], strlen(keys[i])) == 0)
+            return true;
+    return false;
+}
+
+bool recording_play_allows(const char *path, const SceneSettings *more, Error *error)
+{
+    static const char OWN[] = "the session has its own; how it is drawn (view.*) may change";
+    if (more->particles > 0)
+        return error_set(error, "--particles makes no sense for %s: %s", path, OWN);
+    for (int i = 0; i < more->count; i++)
+        if (!is_allowed(more->set[i]))
+            return error_set(error, "%s%.100s makes no sense for %.300s: %s", more->said[i] ? "" : "--set ",
+                             more->said[i] ? more->said[i] : more->set[i], path, OWN);
+    return true;
+}
+
+bool recording_play_scene(const Recording *recording, const SceneSettings *more, ScenePurpose purpose,
+                          Scene *scene, Notes *notes, Error *error)
+{
     SceneSettings settings = recording->settings;
+    settings.purpose = purpose;
     for (int i = 0; more && i < more->count; i++) {
         if (settings.count == SCENE_SETTINGS_MAX)
             return error_set(error, "more than %d settings; leave --threads out", SCENE_SETTINGS_MAX);
         settings.said[settings.count] = more->said[i];
         settings.set[settings.count++] = more->set[i];
     }
-    return scene_parse(recording->path, recording->text, recording->size, &settings, scene, NULL, error);
+    return scene_parse(recording->path, recording->text, recording->size, &settings, scene, notes, error);
 }
 
 /* Whether the session came to a backend on a GPU while it ran. */
@@ -33,7 +56,8 @@ int recording_play_open(const RecordingPlay *play, const SceneSettings *more, in
 {
     Error why = {""};
     *session = (Session){.began_ms = wall_ms()};
-    const bool loaded = load_scene(play, more, &session->scene, &why);
+    const bool loaded =
+        recording_play_scene(play->recording, more, SCENE_FOR_ONE, &session->scene, NULL, &why);
     const int code =
         loaded ? session_start(session, gpu, draws || moves_to_gpu(play->recording), &why) : EXIT_USAGE;
     if (code != 0)

@@ -11,6 +11,14 @@ typedef struct RecordingPlay {
     size_t next; /* command that applies next */
 } RecordingPlay;
 
+/* Whether these settings (of the command line) leave the session's bits as they are; else it says which does
+   not. */
+bool recording_play_allows(const char *path, const SceneSettings *more, Error *error);
+
+/* The recording's scene with its settings, and after them those of `more`; `notes` as of scene_parse. */
+bool recording_play_scene(const Recording *recording, const SceneSettings *more, ScenePurpose purpose,
+                          Scene *scene, Notes *notes, Error *error);
+
 /* Loads the recording's scene with its settings, and after them those of `more` (--threads; NULL: none), and
    makes the world; `gpu` and `draws` as of session_start. 0, or the exit code with "path: its scene ...";
    session_close in any case. */

@@ -36,7 +36,9 @@ typedef struct Simulator Simulator;
 typedef struct SimulatorSetup {
     const Scene *scene; /* copied */
     const Recording
-        *recording;     /* of this scene, without commands: where the recorded session begins; copied */
+        *recording; /* of this scene, its commands left out: where the recorded session begins; copied */
+    const Recording *script; /* whose commands are obeyed at their steps until somebody acts: a recorded
+                                session, played; what it points at outlives the simulator; NULL: none */
     Upload *upload;     /* for the scene's particles; outlives the simulator; NULL: the backend is on a GPU */
     GlTimer *timer;     /* for the stages there, which are not in SimulatorStatus then; may be NULL */
     void (*wake)(void); /* called on the solver's thread after each new state; may be NULL */
@@ -152,6 +154,16 @@ typedef struct SimulatorPast {
     double last_jump_ms; /* wall time of the last of them */
 } SimulatorPast;
 
+/* How far a recorded session has come that is played. */
+typedef enum ScriptState {
+    SCRIPT_NONE,
+    SCRIPT_PLAYS,
+    SCRIPT_SAME,  /* its end has come, with the recorded bits, */
+    SCRIPT_OTHER, /* with other ones, */
+    SCRIPT_CUT,   /* or the end of what was recorded before that was cut off */
+    SCRIPT_LEFT   /* somebody acted: it goes on by hand */
+} ScriptState;
+
 typedef struct SimulatorStatus {
     bool ready;  /* the world is there */
     bool failed; /* it stopped, or could not be made: `message` says why; a reset starts it anew */
@@ -182,14 +194,20 @@ typedef struct SimulatorStatus {
     int probe_count; /* the same of `probes` */
     ProbeSample probes[SIMULATOR_GAUGES];
     SimulatorPast past;
-    bool unsaved;   /* something was done since the start, or since a simulator_save that succeeded */
-    bool saving;    /* a simulator_save is not done yet */
-    unsigned saves; /* counts simulator_save that ended */
-    bool saved;     /* whether the last one succeeded */
+    ScriptState script;
+    uint64_t script_steps; /* to its end */
+    bool unsaved;          /* something was done since the start, or since a simulator_save that succeeded */
+    bool saving;           /* a simulator_save is not done yet */
+    unsigned saves;        /* counts simulator_save that ended */
+    bool saved;            /* whether the last one succeeded */
     char save_message[1024]; /* its error, or what it saved */
 } SimulatorStatus;
 
 void simulator_status(Simulator *simulator, SimulatorStatus *status);
+
+/* What the user is told where a recorded session comes into that state: NULL, nothing; its name in JSON. */
+const char *script_words(ScriptState state);
+const char *script_name(ScriptState state);
 
 /* The world's settings as they were where the simulation last travelled to. */
 void simulator_settings(Simulator *simulator, WorldDef *def);

@@ -120,8 +120,7 @@ static BoxTarget target_at(const Simulator *simulator)
     return (BoxTarget){.orientation = {0, 0, 0, 1}};
 }
 
-/* Settings and hand are what they were. */
-static void tell_travel(Simulator *simulator)
+void simulator_tell_travel(Simulator *simulator)
 {
     const BoxTarget target = target_at(simulator);
     pthread_mutex_lock(&simulator->lock);
@@ -148,7 +147,7 @@ void simulator_obey_recorded(Simulator *simulator)
             simulator_tell(simulator, false, error.message); /* no memory */
     }
     if (simulator->next > from)
-        tell_travel(simulator);
+        simulator_tell_travel(simulator);
 }
 
 void simulator_cut(Simulator *simulator)
@@ -176,6 +175,7 @@ void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int co
     for (int i = 0; i < count; i++)
         if (sim_command_changes(&commands[i])) {
             simulator_cut(simulator);
+            simulator_script_leave(simulator);
             return;
         }
 }
@@ -251,7 +251,7 @@ static void arrive(Simulator *simulator)
     pthread_mutex_lock(&simulator->lock);
     simulator->status.time = info.time;
     pthread_mutex_unlock(&simulator->lock);
-    tell_travel(simulator);
+    simulator_tell_travel(simulator);
     if (!simulator->follows && simulator->follower_count == 0 && /* else all at once: simulator_lead_travel */
         !simulator_publish(simulator, &error))
         simulator_tell(simulator, true, error.message);

@@ -73,6 +73,7 @@ void simulator_make_world(Simulator *simulator)
     simulator_past_begin(simulator);
     simulator_gauge_begin(simulator);
     simulator_probes_begin(simulator);
+    simulator_script_begin(simulator);
     const bool alone =
         !simulator->follows && simulator->follower_count == 0; /* else simulator_lead.c shows all */
     if (!simulator->world || (alone && !simulator_publish(simulator, &error)))
@@ -120,7 +121,7 @@ void simulator_restart(Simulator *simulator, Work *work)
                                                   before.size, &before.settings, &error);
     static const CommandQueue none;
     work->commands = none;
-    for (size_t i = 0; i < obeyed; i++)
+    for (size_t i = 0; i < obeyed && !simulator->scripted; i++) /* a session that begins anew has its own */
         if (before.commands[i].kind == SIM_SET)
             command_queue_add(&work->commands, &before.commands[i]);
     for (int i = 0; i < work->commands.count && simulator->world; i++) {
@@ -128,6 +129,8 @@ void simulator_restart(Simulator *simulator, Work *work)
         simulator_obey(simulator, &work->commands.commands[i]);
     }
     set_unsaved(simulator, false);
+    if (simulator->scripted)
+        simulator_tell_travel(simulator);
     recording_destroy(&before);
 }
 
@@ -207,6 +210,7 @@ static bool obey_all(Simulator *simulator, Work *work)
     pthread_mutex_unlock(&simulator->lock);
     simulator_cut_for(simulator, work->commands.commands, work->commands.count);
     simulator_obey_recorded(simulator);
+    simulator_script_obey(simulator);
     world_info(simulator->world, &info);
     for (int i = 0; i < work->commands.count; i++) {
         work->commands.commands[i].step = info.step;

@@ -107,6 +107,9 @@ struct Simulator {
     bool told_lost; /* that particles find no place in the grid */
     bool told_unlisted;
     FluidWatch watch;
+    Recording script;    /* a session that is done again; its commands are the caller's */
+    size_t script_next;  /* its command that applies next */
+    bool scripted;       /* it has not come to its end, and nobody has acted */
     bool recording_lost; /* no memory for all of its commands */
     Past *past;          /* NULL: none is kept */
     uint64_t at;         /* place in it of the present frame's begin */
@@ -170,6 +173,15 @@ void simulator_cut(Simulator *simulator);
 
 /* The same where one of the commands to be obeyed changes that. */
 void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int count);
+
+/* Settings and hand are what a recorded command made of them. */
+void simulator_tell_travel(Simulator *simulator);
+
+/* simulator_script.c: where a new world begins; between two substeps, before what the user asked for; when
+   the user acts. */
+void simulator_script_begin(Simulator *simulator);
+void simulator_script_obey(Simulator *simulator);
+void simulator_script_leave(Simulator *simulator);
 
 /* simulator_gauge.c: after a frame, and where a new world begins. */
 void simulator_gauge(Simulator *simulator);

@@ -196,6 +196,8 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
         return NULL;
     }
     simulator->start = simulator->scene = *setup->scene;
+    if (setup->script)
+        simulator->script = *setup->script;
     simulator->upload = setup->upload;
     simulator->wake = setup->wake;
     simulator->paused = setup->paused;

@@ -1,5 +1,6 @@
 /* Stops at equal distances, as published: viridis, inferno and plasma by van der Walt and Smith (matplotlib),
-   turbo by Mikhailov (2019), coolwarm by Moreland (2009); between them a Catmull-Rom curve. */
+   turbo by Mikhailov (2019), coolwarm by Moreland (2009), mako by Waskom (seaborn, 2021) from two fifths of
+   its length on, since its first part is as dark as viridis begins; between them a Catmull-Rom curve. */
 #include "render/frame/colormap.h"
 
 #include "shaders/shared/bindings.h"
@@ -13,7 +14,17 @@ typedef struct Colormap {
     uint32_t stops[17];
 } Colormap;
 
-const char *const colormap_list[] = {"viridis", "inferno", "plasma", "coolwarm", "turbo", "gray", NULL};
+const char *const colormap_choices[] = {"auto",  "viridis", "inferno", "plasma", "coolwarm",
+                                        "turbo", "mako",    "gray",    NULL};
+const char *const *const colormap_list = colormap_choices + 1;
+
+/* Blue at rest and bright where it is fast, as water is; viridis, which most readers know, for all else. */
+const char *colormap_of(const char *name, Scalar scalar)
+{
+    if (strcmp(name, colormap_choices[0]) != 0)
+        return name;
+    return scalar == SCALAR_SPEED ? "mako" : "viridis";
+}
 
 static const Colormap colormaps[] = {
     {"viridis",
@@ -36,6 +47,9 @@ static const Colormap colormaps[] = {
      11,
      {0x30123b, 0x4456c7, 0x3d9bfe, 0x18d5cb, 0x46f783, 0xa2fc3c, 0xe1dc37, 0xfea531, 0xef5a11, 0xc42502,
       0x7a0403}},
+    {"mako",
+     10,
+     {0x395d9c, 0x3671a0, 0x3484a5, 0x3497a9, 0x38aaac, 0x45bdad, 0x60ceac, 0x91dbb4, 0xbbe7c8, 0xdef5e5}},
     {"gray", 2, {0x000000, 0xffffff}},
 };
 

@@ -4,11 +4,16 @@
 
 #include "sim/base/control_points.h"
 #include "sim/base/error.h"
+#include "sim/base/scalar.h"
 
 #include <stdbool.h>
 #include <stdint.h>
 
-extern const char *const colormap_list[]; /* names, ended by NULL; the first is the default */
+extern const char *const *const colormap_list; /* names, ended by NULL */
+extern const char *const colormap_choices[];   /* the same behind "auto" */
+
+/* The name itself, or what "auto" is of that scalar. */
+const char *colormap_of(const char *name, Scalar scalar);
 
 enum { COLORMAP_SIZE = 256 };
 

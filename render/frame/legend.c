@@ -118,7 +118,7 @@ static void draw_bar(Text *text, const ViewDef *def, const bool beyond[2], float
 {
     enum { PIECES = 51 }; /* 255 = 5 * 51 */
     uint8_t rgb[3 * COLORMAP_SIZE];
-    if (!colormap_fill_bent(def->colormap, &def->color_curve, rgb))
+    if (!colormap_fill_bent(view_colormap(def), &def->color_curve, rgb))
         return;
     for (int i = 0; i < PIECES; i++) {
         float low = y1 + (y0 - y1) * (float)i / PIECES, high = y1 + (y0 - y1) * (float)(i + 1) / PIECES;
@@ -237,7 +237,7 @@ static float draw_parts(Text *text, const Frame *frame, float top)
     const float x = layout.left + 0.8F * em, first = layout.bottom - (height - 0.75F) * em;
     text_rectangle(text, layout.left, layout.bottom - height * em, layout.right, layout.bottom, 0.5F * em,
                    layout.panel);
-    const bool bent = colormap_fill_bent(frame->def->colormap, &frame->def->color_curve, rgb);
+    const bool bent = colormap_fill_bent(view_colormap(frame->def), &frame->def->color_curve, rgb);
     for (int i = 0; i < frame->part_count; i++) {
         const FramePart *part = &frame->parts[i];
         const float y = first + 1.6F * (float)i * em;

@@ -1,5 +1,7 @@
 #include "render/frame/view.h"
 
+#include "render/frame/colormap.h"
+
 #include "sim/gl/limits.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
@@ -171,10 +173,16 @@ static bool same_keys(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
 bool view_same(const Subject *a, const Subject *b)
 {
     const ViewKind *kind = view_find(a->def->kind);
-    return strcmp(a->def->kind, b->def->kind) == 0 && strcmp(a->def->colormap, b->def->colormap) == 0 &&
+    return strcmp(a->def->kind, b->def->kind) == 0 &&
+           strcmp(view_colormap(a->def), view_colormap(b->def)) == 0 &&
            (a->world->solid_count > 0) == (b->world->solid_count > 0) &&
            (!kind || (same_curves(kind, a->def, b->def) && same_keys(kind, a->def, b->def) &&
                       (!kind->same || kind->same(a, b))));
+}
+
+const char *view_colormap(const ViewDef *def)
+{
+    return colormap_of(def->colormap, view_color_by(def));
 }
 
 Scalar view_color_by(const ViewDef *def)

@@ -3,7 +3,7 @@
 ViewDef view_def_shared(void)
 {
     return (ViewDef){.color_by = SCALAR_COUNT,
-                     .colormap = "viridis",
+                     .colormap = "auto",
                      .range_auto = true,
                      .color_curve = control_points_straight(),
                      .opacity = {.range_auto = true, .curve = control_points_straight()},

@@ -51,7 +51,7 @@ typedef struct ScalarCurve {
 typedef struct ViewDef {
     char kind[NAME_SIZE];      /* see view_list; "none" draws nothing */
     Scalar color_by;           /* SCALAR_FLUID: the fluids' own; SCALAR_COUNT: auto, see view_color_by */
-    char colormap[NAME_SIZE];  /* see colormap_list */
+    char colormap[NAME_SIZE];  /* see colormap_choices, view_colormap */
     bool range_auto;           /* the range follows each state; else range[0] .. range[1] */
     bool range_symmetric;      /* one that follows each state is as wide below 0 as above */
     double range[2];           /* in the scalar's unit */
@@ -91,6 +91,9 @@ static inline Scalar scalar_of_curve(const ScalarCurve *curve)
 /* What the colours show: of a def with `auto` what goes with its view and look (ViewKind.own_colors). All
    that draw, name or check colours ask here. */
 Scalar view_color_by(const ViewDef *def);
+
+/* The name of the colormap in force. */
+const char *view_colormap(const ViewDef *def);
 
 /* What auto stands for; never VIEW_AUTO. `moving`: in a window. */
 ViewQuality view_quality(const ViewDef *def, bool moving);

@@ -47,7 +47,7 @@ const Key view_keys[] = {
     MAPPING("view", "the picture", .flags = I),
     CHOICE("view.kind", L, kind_name, AT(kind), "how the fluid is drawn"),
     CHOICE("view.color_by", L | KEY_INDEX, scalar_or_auto, AT(color_by), "what the colour shows; auto: the fluid's own colour where the view shows clear fluid (looks and shadings water and jelly), else speed"),
-    CHOICE_OF("view.colormap", L, colormap_list, AT(colormap), "the colours of a scalar"),
+    CHOICE_OF("view.colormap", L, colormap_choices, AT(colormap), "the colours of a scalar; auto: mako of speed, viridis of all else"),
     {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(range),
      .aux = AT(range_auto), .help = "auto: of 98 in 100 particles; symmetric: that, about 0; or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
     POINTS("view.color_curve", L, 0, 1, control_presets, AT(color_curve), "bends the colormap: the place in it by where the scalar is in its range"),

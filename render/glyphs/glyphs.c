@@ -83,7 +83,7 @@ static void draw_arrows(Glyphs *glyphs, const Frame *frame)
     glDepthFunc(GL_GREATER);
     glDepthMask(GL_TRUE);
     set_look(glyphs, frame);
-    color_table_follow(&glyphs->colors, frame->def->colormap, &frame->def->color_curve);
+    color_table_follow(&glyphs->colors, view_colormap(frame->def), &frame->def->color_curve);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, glyphs->arrows.arrows);
     quad_indices_draw_indirect(&glyphs->quads, glyphs->arrows.most, glyphs->arrows.tallies.box.buffer, 0);
 }

@@ -30,7 +30,8 @@ bool average_create(Average *average, const Subject *subject, bool by_cpu, Error
     return (average->add = program_create("pbsr average", add, defines, error)) != 0 &&
            (average->mean =
                 program_create_pair("pbsr mean", "common/screen.vert", "pbsr/mean.frag", error)) != 0 &&
-           color_table_create(&average->colors, subject->def->colormap, &subject->def->color_curve, error);
+           color_table_create(&average->colors, view_colormap(subject->def), &subject->def->color_curve,
+                              error);
 }
 
 void average_destroy(Average *average)

@@ -79,7 +79,7 @@ static void *create(const Subject *subject, Error *error)
         return NULL;
     }
     glCreateVertexArrays(1, &view->vertex_array);
-    if (color_table_create(&view->colors, subject->def->colormap, &subject->def->color_curve, error))
+    if (color_table_create(&view->colors, view_colormap(subject->def), &subject->def->color_curve, error))
         view->program = program_create("slice show", stages,
                                        subject->def->opacity.by ? "#define VEILED 1\n" : NULL, error);
     const int kernel = plane_kernel_of(slice_def(subject->def)->kernel, subject->world);

@@ -74,7 +74,7 @@ static void *spheres_create(const Subject *subject, Error *error)
     glCreateVertexArrays(1, &spheres->screen);
     quad_indices_create(&spheres->quads);
     spheres->point_limit = point_limit();
-    if (color_table_create(&spheres->colors, def->colormap, &def->color_curve, error) &&
+    if (color_table_create(&spheres->colors, view_colormap(def), &def->color_curve, error) &&
         particle_curves_create(&spheres->curves, def, error) && create_programs(spheres, def, error))
         return spheres;
     spheres_destroy(spheres);

@@ -135,7 +135,7 @@ static void *splat_create(const Subject *subject, Error *error)
         return NULL;
     }
     splat->def = splat_def_made(subject->def);
-    if (color_table_create(&splat->colors, def->colormap, &def->color_curve, error) &&
+    if (color_table_create(&splat->colors, view_colormap(def), &def->color_curve, error) &&
         splat_sprites_create(&splat->sprites, &splat->def, error) &&
         ellipsoids_create(&splat->ellipsoids, &splat->def, error) && create_programs(splat, error) &&
         create_passes(splat, subject, error))

@@ -281,7 +281,7 @@ static void show_all(TrailLines *lines, const TrailStore *store, const Frame *fr
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     glBindTextureUnit(TRAIL_LINES_UNIT, lines->kept);
-    color_table_follow(&lines->colors, frame->def->colormap, &frame->def->color_curve);
+    color_table_follow(&lines->colors, view_colormap(frame->def), &frame->def->color_curve);
     frame_cut_to_bounds(frame);
     show(lines, store, frame, all ? GL_ALWAYS : GL_GEQUAL, 1);
     if (through > 0 && !all && !frame->depths)

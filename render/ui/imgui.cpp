@@ -600,13 +600,40 @@ void ui_window_end(Ui *ui)
     ImGui::End();
 }
 
+// The end of the first line that is `width` wide, and where the next one begins. ImGui would also break a
+// number at its point.
+static const char *line_end(const char *text, float width, const char **next)
+{
+    const char *end = text + strlen(text);
+    const char *stop = GImGui->Font->CalcWordWrapPositionA(1, text, end, width);
+    const char *broken = (const char *)memchr(text, '\n', (size_t)(stop - text));
+    stop = broken ? broken : stop;
+    const char *space = stop;
+    while (space > text && *space && *space != ' ' && *space != '\n')
+        --space;
+    stop = space > text ? space : stop;
+    *next = stop;
+    while (**next == ' ' || **next == '\n')
+        ++*next;
+    return stop;
+}
+
 static void wrapped(Ui *ui, const char *text, const ImVec4 &color)
 {
+    const float width = ImGui::GetContentRegionAvail().x;
+    const char *at = text, *next;
     ui->line_right = 0;
     ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::PushTextWrapPos(0);
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
+    ImGui::BeginGroup();
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+    do {
+        const char *end = line_end(at, width, &next);
+        end = end > at ? end : at + strlen(at); // no room for a letter
+        ImGui::TextUnformatted(at, end);
+        at = next > at ? next : end;
+    } while (*at);
+    ImGui::PopStyleVar();
+    ImGui::EndGroup();
     ImGui::PopStyleColor();
     watch(ui, text, ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()), widest_word(text));
 }
@@ -648,19 +675,6 @@ void ui_warning(Ui *ui, const char *text)
 {
     Current current(ui->context);
     wrapped(ui, text, ImGui::ColorConvertU32ToFloat4(imgui_color(0xf2b866ff)));
-}
-
-// The end of the first line that is `width` wide, and where the next one begins.
-static const char *line_end(const char *text, float width, const char **next)
-{
-    const char *end = text + strlen(text);
-    const char *stop = GImGui->Font->CalcWordWrapPositionA(1, text, end, width);
-    const char *broken = (const char *)memchr(text, '\n', (size_t)(stop - text));
-    stop = broken ? broken : stop;
-    *next = stop;
-    while (**next == ' ' || **next == '\n')
-        ++*next;
-    return stop;
 }
 
 void ui_notice(Ui *ui, float lines, const char *text, const char *help)
@@ -801,20 +815,24 @@ bool ui_card(Ui *ui, const UiCard *card, bool lit)
     return pressed;
 }
 
-// The label; the width that is left for the widget.
-static float begin_field(Ui *ui, const UiField *field)
+// The label; the width that is left for the widget, which needs so much. Where one of them has no room in its
+// column the label has a line of its own, and the widget the next one.
+static float begin_field(Ui *ui, const UiField *field, float needed)
 {
     const Columns place = columns(ui);
+    const float label = ImGui::CalcTextSize(field->label).x;
+    const bool own_line = label > place.middle - place.left || needed > place.right - place.middle;
     ui->line_right = 0;
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", field->label);
     tip(ui, field->help);
     ImRect rect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
-    rect.Max.x = rect.Min.x + place.middle - place.left;
-    watch(ui, field->label, rect, ImGui::CalcTextSize(field->label).x);
-    ImGui::SameLine(place.middle);
+    rect.Max.x = rect.Min.x + (own_line ? place.right : place.middle) - place.left;
+    watch(ui, field->label, rect, label);
+    if (!own_line)
+        ImGui::SameLine(place.middle);
     ImGui::PushID(field->id);
-    return place.right - place.middle;
+    return place.right - (own_line ? place.left : place.middle);
 }
 
 static void end_field(const Ui *ui, const UiField *field, float needed)
@@ -827,7 +845,7 @@ static void end_field(const Ui *ui, const UiField *field, float needed)
 bool ui_checkbox(Ui *ui, const UiField *field, bool *value)
 {
     Current current(ui->context);
-    begin_field(ui, field);
+    begin_field(ui, field, 0);
     const bool changed = ImGui::Checkbox("##", value);
     end_field(ui, field, 0);
     return changed;
@@ -847,14 +865,14 @@ static bool choose(int *chosen, const char *const *names)
 bool ui_choice(Ui *ui, const UiField *field, int *chosen, const char *const *names)
 {
     Current current(ui->context);
-    const ImGuiStyle &style = ImGui::GetStyle();
-    ImGui::SetNextItemWidth(begin_field(ui, field));
+    const float needed = ImGui::CalcTextSize(names[*chosen]).x + 2 * ImGui::GetStyle().FramePadding.x +
+                         ImGui::GetFrameHeight();
+    ImGui::SetNextItemWidth(begin_field(ui, field, needed));
     const bool open = ImGui::BeginCombo("##", names[*chosen]);
     const bool changed = open && choose(chosen, names);
     if (open)
         ImGui::EndCombo();
-    end_field(ui, field,
-              ImGui::CalcTextSize(names[*chosen]).x + 2 * style.FramePadding.x + ImGui::GetFrameHeight());
+    end_field(ui, field, needed);
     return changed;
 }
 
@@ -862,7 +880,7 @@ bool ui_color(Ui *ui, const UiField *field, float srgb[3])
 {
     Current current(ui->context);
     bool changed = false;
-    const ImVec2 size(begin_field(ui, field), ImGui::GetFrameHeight());
+    const ImVec2 size(begin_field(ui, field, 0), ImGui::GetFrameHeight());
     const int plain = ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop;
     if (ImGui::ColorButton("##", ImVec4(srgb[0], srgb[1], srgb[2], 1), plain, size))
         ImGui::OpenPopup("picker");
@@ -960,12 +978,20 @@ static float slider_needs(const UiScale *scale, double value)
     return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
+// Room for what they may show; not for what they show now: one that is held must not change its place.
+static float sliders_want(const Ui *ui, const UiScale *scale, int count)
+{
+    static const float SEVERAL_EM = 3.3F; // "-9.81", and what stands about it
+    return count == 1 ? std::max(slider_needs(scale, scale->low), slider_needs(scale, scale->high))
+                      : SEVERAL_EM * ui->pixels * (float)count;
+}
+
 bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const UiScale *scale)
 {
     Current current(ui->context);
-    const float gap = ImGui::GetStyle().ItemInnerSpacing.x / 2;
-    const float all = begin_field(ui, field),
-                each = std::floor((all - gap * (float)(count - 1)) / (float)count);
+    const float gap = ImGui::GetStyle().ItemInnerSpacing.x / 2, gaps = gap * (float)(count - 1);
+    const float room = begin_field(ui, field, sliders_want(ui, scale, count) + gaps);
+    const float each = std::floor((room - gaps) / (float)count);
     static const char *const names[] = {"0", "1", "2"};
     float needed = 0;
     bool changed = false;
@@ -977,7 +1003,7 @@ bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const U
         needed = std::max(needed, slider_needs(scale, values[i]));
     }
     ImGui::EndGroup();
-    end_field(ui, field, needed * (float)count + gap * (float)(count - 1));
+    end_field(ui, field, needed * (float)count + gaps);
     return changed;
 }
 
@@ -1087,7 +1113,7 @@ static bool edit_curve(Ui *ui, const ImRect &box, ImGuiID id, const CurvePlace &
 bool ui_curve(Ui *ui, const UiField *field, ControlPoints *points, double most)
 {
     Current current(ui->context);
-    const float width = begin_field(ui, field), pad = 0.4F * ui->pixels;
+    const float width = begin_field(ui, field, 0), pad = 0.4F * ui->pixels;
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImRect box(corner, ImVec2(corner.x + width, corner.y + std::floor(CURVE_LETTERS * ui->pixels)));
     const CurvePlace place = {

@@ -10,7 +10,7 @@ bool volume_drops_create(VolumeDrops *drops, const ViewDef *def, const char *def
 {
     static const char *const stages[] = {"volume/drops.vert", "volume/drops.frag", NULL};
     quad_indices_create(&drops->quads);
-    if (color_table_create(&drops->colors, def->colormap, &def->color_curve, error))
+    if (color_table_create(&drops->colors, view_colormap(def), &def->color_curve, error))
         drops->program = program_create("volume drops", stages, defines, error);
     return drops->program != 0;
 }

@@ -117,7 +117,7 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
     glCreateBuffers(1, &raycast->block);
     glObjectLabel(GL_BUFFER, raycast->block, -1, "raycast uniforms");
     glNamedBufferStorage(raycast->block, sizeof(RaycastBlock), NULL, GL_DYNAMIC_STORAGE_BIT);
-    if (color_table_create(&raycast->colors, def->colormap, &def->color_curve, error))
+    if (color_table_create(&raycast->colors, view_colormap(def), &def->color_curve, error))
         raycast->program = create_program(subject, voxelizer ? voxelizer_defines(voxelizer) : "", error);
     if (raycast->program)
         raycast->settle =

@@ -10,7 +10,7 @@ bool volume_slice_create(VolumeSlice *slice, const ViewDef *def, const Voxelizer
 {
     static const char *const stages[] = {"volume/volume_slice.vert", "volume/volume_slice.frag", NULL};
     *slice = (VolumeSlice){.program = 0};
-    if (!color_table_create(&slice->colors, def->colormap, &def->color_curve, error))
+    if (!color_table_create(&slice->colors, view_colormap(def), &def->color_curve, error))
         return false;
     glCreateVertexArrays(1, &slice->vertex_array);
     slice->program = program_create("volume slice", stages, voxelizer_defines(voxelizer), error);

@@ -596,14 +596,18 @@ static void test_probes_are_plotted(void **state)
 
 static void assert_nothing_is_cut(const Desk *desk)
 {
+    int cut = 0;
     assert_true(desk->seen_count > 40);
     for (int i = 0; i < desk->seen_count; i++) {
         const Seen *seen = &desk->seen[i];
-        if (seen->needed > seen->rect[2] - seen->rect[0] + 1.5F) /* places are rounded */
-            fail_msg("%s: needs %g of %g pixels", seen->id, (double)seen->needed,
-                     (double)(seen->rect[2] - seen->rect[0]));
-        assert_true(seen->rect[0] >= 0 && seen->rect[2] <= (float)desk->target.width);
+        const float room = seen->rect[2] - seen->rect[0];
+        const bool fits = seen->needed <= room + 1.5F && /* places are rounded */
+                          seen->rect[0] >= 0 && seen->rect[2] <= (float)desk->target.width;
+        if (!fits)
+            print_error("%s: needs %g of %g pixels\n", seen->id, (double)seen->needed, (double)room);
+        cut += !fits;
     }
+    assert_int_equal(cut, 0);
 }
 
 static void test_nothing_is_cut_at_any_scale(void **state)
@@ -619,6 +623,27 @@ static void test_nothing_is_cut_at_any_scale(void **state)
         session.help = true;
         desk_frames(desk, 30);
         assert_nothing_is_cut(desk);
+        session_close(&session, desk);
+    }
+}
+
+/* As narrow as it gets, with all sections, and each view's own keys. */
+static void test_nothing_is_cut_in_a_narrow_panel(void **state)
+{
+    (void)state;
+    static const char *const scenes[] = {"two_oils", "box_slosh", "melt"};
+    static const float letters[] = {13, 20, 26};
+    for (int i = 0; i < 3; i++) {
+        Session session;
+        Desk *desk = session_open(&session, scenes[i], (int)(420 * letters[i] / 13), TALL, letters[i]);
+        open_sections(desk);
+        add_devices(&session);
+        for (int v = 0; view_at(v); v++) {
+            snprintf(session.scene.view.kind, sizeof session.scene.view.kind, "%s", view_at(v)->name);
+            desk->input.changed = true;
+            desk_frames(desk, 6);
+            assert_nothing_is_cut(desk);
+        }
         session_close(&session, desk);
     }
 }
@@ -735,6 +760,7 @@ int main(void)
         cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_probes_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
+        cmocka_unit_test_teardown(test_nothing_is_cut_in_a_narrow_panel, no_gl_errors),
         cmocka_unit_test_teardown(test_terms_have_switches, no_gl_errors),
         cmocka_unit_test_teardown(test_a_long_term_comes_back, no_gl_errors),
         cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),

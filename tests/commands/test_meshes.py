@@ -84,7 +84,7 @@ class Obj(ExportTest):
             self.assertEqual([file['time'] for file in index['files']], [file[f'Step#{k}'].attrs['TimeValue'] for k in range(3)])
         for k in range(3):
             text = self.read(f'a/a-{k:04}.obj').decode()
-            self.assertIn('\n# colours: viridis, speed from 0 to ', text)
+            self.assertIn('\n# colours: mako, speed from 0 to ', text)
             (points, _, triangles, _), = read_obj(text).values()
             if k < 2:
                 self.assertLess(abs(enclosed(numpy.float32(points), triangles) / 0.5 - 1), 0.01)

@@ -430,10 +430,6 @@ class Keys(Window):
         self.assertEqual(len(kept), 1)
         for name in (*kept, 'a.rec'):
             self.assertEqual(self.slosh('replay', name, '--quiet'), (0, ''))
-        code, said = self.slosh('play', 'a.rec')  # one that is dropped comes the same way
-        self.assertEqual(code, 2)
-        self.assertIn('a.rec: a recorded session; `slosh replay a.rec` simulates it again', said)
-        self.assertEqual(said.count('\n'), 1)
 
     def test_fullscreen(self):
         self.open('still.yaml')

@@ -171,6 +171,7 @@ static inline ViewDef bare_view(void)
 {
     ViewDef def = view_def_default();
     def.legend = def.box = def.floor = false;
+    snprintf(def.colormap, sizeof def.colormap, "viridis"); /* whose colours tests know */
     splat_def(&def)->drops = false;
     splat_def(&def)->shape = SPLAT_PERSPECTIVE, splat_def(&def)->filter = SPLAT_NO_FILTER;
     return def;

@@ -11,10 +11,13 @@ static void test_known_ends(void **state)
     static const struct {
         const char *name;
         uint8_t low[3], high[3];
-    } known[] = {
-        {"viridis", {0x44, 0x01, 0x54}, {0xfd, 0xe7, 0x25}}, {"inferno", {0, 0, 4}, {0xfc, 0xff, 0xa4}},
-        {"plasma", {0x0d, 0x08, 0x87}, {0xf0, 0xf9, 0x21}},  {"coolwarm", {59, 76, 192}, {180, 4, 38}},
-        {"turbo", {0x30, 0x12, 0x3b}, {0x7a, 0x04, 0x03}},   {"gray", {0, 0, 0}, {255, 255, 255}}};
+    } known[] = {{"viridis", {0x44, 0x01, 0x54}, {0xfd, 0xe7, 0x25}},
+                 {"inferno", {0, 0, 4}, {0xfc, 0xff, 0xa4}},
+                 {"plasma", {0x0d, 0x08, 0x87}, {0xf0, 0xf9, 0x21}},
+                 {"coolwarm", {59, 76, 192}, {180, 4, 38}},
+                 {"turbo", {0x30, 0x12, 0x3b}, {0x7a, 0x04, 0x03}},
+                 {"mako", {0x39, 0x5d, 0x9c}, {0xde, 0xf5, 0xe5}},
+                 {"gray", {0, 0, 0}, {255, 255, 255}}};
     uint8_t rgb[3 * COLORMAP_SIZE];
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         assert_true(colormap_fill(known[i].name, rgb));
@@ -26,13 +29,11 @@ static void test_known_ends(void **state)
     assert_false(colormap_fill("jet", rgb));
 }
 
-/* Viridis rises evenly in lightness: that is what it was made for. */
-static void test_viridis_lightness(void **state)
+static void rises_in_lightness(const char *name)
 {
-    (void)state;
     uint8_t rgb[3 * COLORMAP_SIZE];
     double before = -1;
-    assert_true(colormap_fill("viridis", rgb));
+    assert_true(colormap_fill(name, rgb));
     for (int i = 0; i < COLORMAP_SIZE; i += 8) {
         double luma = 0;
         for (int k = 0; k < 3; k++)
@@ -40,6 +41,27 @@ static void test_viridis_lightness(void **state)
         assert_true(luma > before);
         before = luma;
     }
+}
+
+/* All the way: that is what these are made for. */
+static void test_lightness(void **state)
+{
+    (void)state;
+    rises_in_lightness("viridis");
+    rises_in_lightness("mako");
+}
+
+/* What nobody chose goes with the scalar. */
+static void test_auto_goes_with_the_scalar(void **state)
+{
+    (void)state;
+    ViewDef def = view_def_default();
+    def.color_by = SCALAR_SPEED;
+    assert_string_equal(view_colormap(&def), "mako");
+    def.color_by = SCALAR_PRESSURE;
+    assert_string_equal(view_colormap(&def), "viridis");
+    snprintf(def.colormap, sizeof def.colormap, "turbo");
+    assert_string_equal(view_colormap(&def), "turbo");
 }
 
 /* The colour in the middle of a picture of one sphere, without light. */
@@ -134,7 +156,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_ends),
-        cmocka_unit_test(test_viridis_lightness),
+        cmocka_unit_test(test_lightness),
+        cmocka_unit_test(test_auto_goes_with_the_scalar),
         cmocka_unit_test_teardown(test_scalar_through_colormap, no_gl_errors),
         cmocka_unit_test_teardown(test_fluids_own_colors, no_gl_errors),
         cmocka_unit_test_teardown(test_unknown_names, no_gl_errors),

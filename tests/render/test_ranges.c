@@ -137,6 +137,7 @@ static uint8_t *picture_of(const char *range, double spike, double found[2])
     assert_true(particles && rgb);
     for (int i = 0; i < 1000; i++)
         particles_add(particles, 0.001 * i, 0.5, 0, i < 2 ? spike : i / 999.0, 0);
+    snprintf(def.colormap, sizeof def.colormap, "viridis");
     def.range_symmetric = strcmp(range, "symmetric") == 0;
     def.range_auto = strcmp(range, "fixed") != 0;
     def.range[1] = 2;
