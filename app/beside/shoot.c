@@ -75,6 +75,7 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
                 Error *error)
 {
     Subject subjects[PANELS_MAX] = {{NULL}};
+    ViewDef views[PANELS_MAX];
     *shoot = (Shoot){.panels = NULL};
     for (int i = 0; i < count; i++) {
         const ShootPanel *panel = &panels[i];
@@ -83,7 +84,8 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
         if (shoot->source_of[i] == known)
             shoot->sources[known].scene = panel->scene;
         source_serve(&shoot->sources[shoot->source_of[i]], panel->view);
-        subjects[i] = (Subject){panel->view, panel->session ? &panel->session->scene.world
+        views[i] = view_in_file(panel->view);
+        subjects[i] = (Subject){&views[i], panel->session ? &panel->session->scene.world
                                                             : &panel->recorded->scene.world};
     }
     for (int i = 0; i < shoot->source_count; i++)

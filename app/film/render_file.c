@@ -175,12 +175,14 @@ static bool open_all(FileRender *render, Error *error)
     const Args *args = render->args;
     const int count = scene_view_count(&render->scene);
     Subject subjects[PANELS_MAX];
+    ViewDef views[PANELS_MAX];
     for (int i = 0; i < render->run_count; i++) {
         render->runs[i].watch = (ReelWatch){.every = INFINITY, .watched = -INFINITY};
     }
     for (int i = 0; i < count; i++) {
         ShownRun *run = &render->runs[render->run_of[i]];
-        subjects[i] = (Subject){scene_view(&render->scene, i), &run->recorded.scene.world};
+        views[i] = view_in_file(scene_view(&render->scene, i));
+        subjects[i] = (Subject){&views[i], &run->recorded.scene.world};
         run->attributes |= renderer_attributes(subjects[i].def);
         double before;
         run->watch.every = fmin(run->watch.every, overlays_every(subjects[i].def, &before));

@@ -212,6 +212,14 @@ ViewDef view_at_quality(const ViewDef *def, bool moving)
     return drawn;
 }
 
+ViewDef view_in_file(const ViewDef *def)
+{
+    ViewDef drawn = *def;
+    if (drawn.quality == VIEW_AUTO)
+        drawn.quality = VIEW_BEST;
+    return drawn;
+}
+
 bool view_accepts(View *view, const Subject *subject, Error *error)
 {
     return !view->kind->accepts || view->kind->accepts(view->state, subject, error);

@@ -25,7 +25,7 @@ enum {
 
 /* How much time a picture may take. */
 typedef enum ViewQuality {
-    VIEW_AUTO,  /* draft for clear fluid in a window on a software driver, else good */
+    VIEW_AUTO,  /* best in files, draft for clear fluid in a window on a software driver, else good */
     VIEW_DRAFT, /* in time while it moves */
     VIEW_GOOD,  /* as all keys say */
     VIEW_BEST
@@ -101,6 +101,9 @@ ViewQuality view_quality(const ViewDef *def, bool moving);
 /* The def as it is drawn: of a quality other than good the view changes its own keys and the resolution where
    they are at their defaults. `moving`: in a window. */
 ViewDef view_at_quality(const ViewDef *def, bool moving);
+
+/* The same for pictures in files, which nobody waits for: auto is best. */
+ViewDef view_in_file(const ViewDef *def);
 
 /* A bit a Scalar, the first the lowest: those whose range follows the state. The fluids' own colours have
  * none. */

@@ -76,7 +76,7 @@ const Key view_frame_keys[] = {
     VEC3("view.camera.from", R | L, "m", -1e5, 1e5, AT(camera.from), "the eye, in the world's frame"),
     VEC3("view.camera.to", R | L, "m", -1e5, 1e5, AT(camera.to), "the point looked at"),
     NUMBER("view.camera.fov", L, "degrees", 1, 170, AT(camera.fov_deg), "vertical field of view"),
-    CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: draft for clear fluid in the window on a software driver, else good"),
+    CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: best in files, draft for clear fluid in the window on a software driver, else good"),
     NUMBER("view.resolution", L, "", 0.05, 1, AT(resolution), "pixels drawn for a pixel shown, each way: less is faster; the box's edges, words and the legend have all of them"),
     TEXT("view.file", 0, VIEW_FILE_SIZE, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
     SETTINGS("view.set", VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),

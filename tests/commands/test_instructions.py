@@ -21,7 +21,7 @@ import command
 FILE = pathlib.Path(__file__).with_name("instructions.txt")
 SLACK = 0.03
 LEAST = 0.01  # of a step: functions that take less are in the sum alone
-STEPS = 20
+STEPS = 10
 
 # A thousand particles, out of order from the start on, that begin to fall.
 SCENE = """\

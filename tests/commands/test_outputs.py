@@ -93,6 +93,16 @@ class Whole(CommandTest):
         self.assertEqual(self.read('early.png'), self.read('frames/frame_00000.png'))
         self.assertEqual(self.read('late.png'), self.read('frames/frame_00001.png'))
 
+    def test_files_are_of_the_best_quality(self):
+        pictures = {}
+        for quality in ('auto', 'good', 'best'):
+            code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0.1', '--view', 'volume', '--set',
+                                    'view.volume.look=water', '--set', f'view.quality={quality}', *SMALL)
+            self.assertEqual(code, 0, said)
+            pictures[quality] = self.read('a.png')
+        self.assertEqual(pictures['auto'], pictures['best'])
+        self.assertNotEqual(pictures['good'], pictures['best'])
+
     def test_what_pictures_lack_is_said_once(self):
         layers = ['--view', 'pbsr', '--set', 'view.pbsr.layers=[{of: surface}, {of: speed, level: 1000}]']
         code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0', *SMALL, *layers)
