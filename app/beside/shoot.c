@@ -86,7 +86,7 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
         source_serve(&shoot->sources[shoot->source_of[i]], panel->view);
         views[i] = view_in_file(panel->view);
         subjects[i] = (Subject){&views[i], panel->session ? &panel->session->scene.world
-                                                            : &panel->recorded->scene.world};
+                                                          : &panel->recorded->scene.world};
     }
     for (int i = 0; i < shoot->source_count; i++)
         if (!source_open(&shoot->sources[i], interpolates, error))

@@ -1,6 +1,7 @@
 #include "render/volume/walls.h"
 
 #include "render/frame/frame.h"
+#include "render/particles/work.h"
 #include "shaders/volume/volume_bindings.h"
 #include "sim/gl/program.h"
 
@@ -38,7 +39,7 @@ static void add_images(const Wall *wall, const Volume *volume)
     glUniform1i(WALL_AXIS_AT, axis);
     glUniform1f(WALL_PLACE_AT, (GLfloat)wall->place);
     glUniform3i(WALL_CELLS_AT, first, wall->cells, wall->inwards);
-    glDispatchCompute((GLuint)((all + GROUP - 1) / GROUP), 1, 1);
+    work_dispatch((all + GROUP - 1) / GROUP);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 

@@ -23,7 +23,7 @@ float sum_at(ivec3 cell)
 void main()
 {
     ivec3 count = along(volume_size, cells.y);
-    int number = int(gl_GlobalInvocationID.x);
+    int number = int((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x);
     ivec3 cell = ivec3(number % count.x, number / count.x % count.y, number / (count.x * count.y));
     if (cell.z >= count.z)
         return;
