@@ -252,6 +252,8 @@ static void draw_spray(SplatView *splat, SprayPart part, SplatSprite sprite, con
     if (splat_sprays(&splat->def))
         GL_STAGE(frame->timer, STAGE_SHADE)
         {
+            if (part == SPRAY_BEHIND)
+                spray_find(&splat->spray, sprite, particles);
             color_table_bind(&splat->colors, &frame->def->color_curve); /* other passes have its unit */
             spray_draw(&splat->spray, part, splat->shown.nearest, &splat->shade.behind, &splat->shade.edges,
                        &splat->sprites, sprite, particles, frame);
@@ -287,7 +289,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
         }
     draw_spray(splat, SPRAY_BEHIND, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)
-    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, &splat->sprites.tiles, frame);
+    splat_shade_draw(&splat->shade, &splat->shown, &splat->thickness, &splat->sprites.tiles, frame);
     if (silhouette_wanted(&splat->def))
         GL_STAGE(frame->timer, STAGE_ANTIALIAS)
         {
