@@ -342,6 +342,12 @@ static bool splat_own_colors(const ViewDef *def)
     return splat_def(def)->shading != SPLAT_PHONG;
 }
 
+/* Much of the light goes through; what waves bend aside falls beside. */
+static void splat_show_in(const ViewDef *def, Frame *frame)
+{
+    frame->clear = splat_clear(splat_def(def)) ? 0.35F : 0;
+}
+
 static void splat_quality(ViewDef *def, ViewQuality quality)
 {
     if (quality == VIEW_DRAFT && splat_def(def)->antialias == splat_usual.antialias)
@@ -360,6 +366,7 @@ const ViewKind view_splat = {
     .shapes = splat_shapes,
     .own_colors = splat_own_colors,
     .quality = splat_quality,
+    .show = splat_show_in,
     .create = splat_create,
     .destroy = splat_destroy,
     .keys = splat_keys,
