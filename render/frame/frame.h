@@ -75,6 +75,7 @@ typedef struct Frame {
                          several */
     bool *behind;     /* becomes true where an overlay shows a number of the picture before; NULL: the GPU is
                          waited for instead */
+    float clear;      /* the share of the light that the fluid lets through to the floor */
     bool plain;       /* colours as they are, without light and shadow */
 } Frame;
 

@@ -133,6 +133,7 @@ void shadow_end(const Shadow *shadow, const Frame *frame)
     glBindFramebuffer(GL_FRAMEBUFFER, shadow->floor_framebuffer);
     glViewport(0, 0, FLOOR_MAP_TEXELS, FLOOR_MAP_TEXELS);
     glUseProgram(shadow->solid_map ? shadow->solid_floor_program : shadow->floor_program);
+    glUniform1f(CLEAR_AT, frame->clear);
     glBindVertexArray(shadow->vertex_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }

@@ -252,6 +252,8 @@ static void draw_spray(SplatView *splat, SprayPart part, SplatSprite sprite, con
     if (splat_sprays(&splat->def))
         GL_STAGE(frame->timer, STAGE_SHADE)
         {
+            if (part == SPRAY_BEHIND)
+                spray_find(&splat->spray, sprite, particles);
             color_table_bind(&splat->colors, &frame->def->color_curve); /* other passes have its unit */
             spray_draw(&splat->spray, part, splat->shown.nearest, &splat->shade.behind, &splat->shade.edges,
                        &splat->sprites, sprite, particles, frame);
@@ -287,7 +289,7 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
         }
     draw_spray(splat, SPRAY_BEHIND, sprite, particles, frame);
     GL_STAGE(frame->timer, STAGE_SHADE)
-    splat_shade_draw(&splat->shade, &splat->shown, splat->thickness.map, &splat->sprites.tiles, frame);
+    splat_shade_draw(&splat->shade, &splat->shown, &splat->thickness, &splat->sprites.tiles, frame);
     if (silhouette_wanted(&splat->def))
         GL_STAGE(frame->timer, STAGE_ANTIALIAS)
         {
@@ -340,6 +342,12 @@ static bool splat_own_colors(const ViewDef *def)
     return splat_def(def)->shading != SPLAT_PHONG;
 }
 
+/* Much of the light goes through; what waves bend aside falls beside. */
+static void splat_show_in(const ViewDef *def, Frame *frame)
+{
+    frame->clear = splat_clear(splat_def(def)) ? 0.35F : 0;
+}
+
 static void splat_quality(ViewDef *def, ViewQuality quality)
 {
     if (quality == VIEW_DRAFT && splat_def(def)->antialias == splat_usual.antialias)
@@ -358,6 +366,7 @@ const ViewKind view_splat = {
     .shapes = splat_shapes,
     .own_colors = splat_own_colors,
     .quality = splat_quality,
+    .show = splat_show_in,
     .create = splat_create,
     .destroy = splat_destroy,
     .keys = splat_keys,

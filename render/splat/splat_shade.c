@@ -85,8 +85,8 @@ static void settle(const SplatShade *shade, const FluidTiles *tiles)
     glDepthMask(GL_FALSE);
 }
 
-void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const FluidTiles *tiles,
-                      const Frame *frame)
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, const Thickness *thickness,
+                      const FluidTiles *tiles, const Frame *frame)
 {
     const bool mixing = shade->mixing && splat_sprites_small(frame);
     const unsigned program = mixing ? shade->mixing : shade->program;
@@ -99,7 +99,8 @@ void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickne
     glDepthMask(GL_TRUE);
     glBindTextureUnit(NEAREST_UNIT, maps->nearest);
     glBindTextures(COLOR_SUM_UNIT, 3, (GLuint[]){maps->color, maps->normal, maps->weight});
-    glBindTextureUnit(THICKNESS_UNIT, thickness);
+    glBindTextureUnit(THICKNESS_UNIT, thickness->map);
+    glBindTextureUnit(FILLED_UNIT, thickness->filled);
     if (shade->settle)
         settle(shade, tiles);
     glUseProgram(program);

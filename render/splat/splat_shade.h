@@ -6,6 +6,7 @@
 #include "render/frame/behind.h"
 #include "render/splat/fluid_tiles.h"
 #include "render/splat/splat_maps.h"
+#include "render/splat/thickness.h"
 #include "sim/base/error.h"
 
 typedef struct SplatShade {
@@ -24,9 +25,9 @@ bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error)
 void splat_shade_destroy(SplatShade *shade);
 
 /* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
-   whom. `thickness`: the texture of render/splat/thickness.h where the shading reads it
-   (splat_shade_wants_thickness), else 0. */
-void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, unsigned thickness, const FluidTiles *tiles,
-                      const Frame *frame);
+   whom. `thickness`: where the shading reads it (splat_shade_wants_thickness), else of
+   zeros. */
+void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, const Thickness *thickness,
+                      const FluidTiles *tiles, const Frame *frame);
 
 #endif

@@ -110,6 +110,22 @@ void splat_sprites_draw(SplatSprites *sprites, SplatSprite sprite, unsigned prog
         draw_quads(sprites, program, particles, frame, list);
 }
 
+void splat_sprites_draw_listed(SplatSprites *sprites, SplatSprite sprite, unsigned program,
+                               const ParticleBuffers *particles, const Frame *frame, unsigned command)
+{
+    bind(program, particles, frame);
+    if (particles->count == 0)
+        return;
+    if (sprite == SPLAT_QUAD) {
+        quad_indices_draw_indirect(&sprites->quads, particles->count, command, 0);
+        return;
+    }
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    glBindVertexArray(sprites->screen);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, command);
+    glDrawArraysIndirect(GL_POINTS, NULL);
+}
+
 void splat_sprites_begin(unsigned framebuffer, const Frame *frame, unsigned equation)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);

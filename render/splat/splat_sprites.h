@@ -41,6 +41,10 @@ unsigned splat_sprites_program(const SplatSprites *sprites, SplatSprite sprite, 
 void splat_sprites_draw(SplatSprites *sprites, SplatSprite sprite, unsigned program,
                         const ParticleBuffers *particles, const Frame *frame, const CullList *list);
 
+/* The same of a list that is bound already, as many as a command in a buffer says. */
+void splat_sprites_draw_listed(SplatSprites *sprites, SplatSprite sprite, unsigned program,
+                               const ParticleBuffers *particles, const Frame *frame, unsigned command);
+
 /* Draws a point a particle with any program; those of splat/splat.vert are for splat_sprites_draw. */
 void splat_sprites_draw_points(SplatSprites *sprites, unsigned program, const ParticleBuffers *particles,
                                const Frame *frame, const CullList *list);

@@ -11,6 +11,9 @@
 #include "render/splat/splat_sprites.h"
 
 typedef struct Spray {
+    unsigned find;                     /* program */
+    unsigned list, command;            /* buffers: numbers of the drops; what draws them */
+    size_t capacity;                   /* of the list */
     unsigned program[SPLAT_POINT + 1]; /* by sprite */
 } Spray;
 
@@ -18,6 +21,9 @@ typedef struct Spray {
    case. */
 bool spray_create(Spray *spray, const SplatSprites *sprites, const Subject *subject, Error *error);
 void spray_destroy(Spray *spray); /* zeroed is allowed */
+
+/* Lists the drops among the particles, whose shapes are bound (ellipsoids_bind): before spray_draw. */
+void spray_find(Spray *spray, SplatSprite sprite, const ParticleBuffers *particles);
 
 typedef enum SprayPart {
     SPRAY_BEHIND, /* what is behind the fluid's surface (`nearest`, as SplatMaps.nearest): before that is

@@ -1,5 +1,6 @@
 #include "render/splat/thickness.h"
 
+#include "render/splat/splat_maps.h"
 #include "shaders/splat/splat_bindings.h"
 #include "sim/gl/program.h"
 
@@ -15,9 +16,9 @@ bool thickness_create(Thickness *thickness, const SplatSprites *sprites, bool so
     const char *const solid = solids ? "#define SOLIDS 1\n" : NULL;
     const char *defines = solids ? "#define THICKNESS 1\n#define SOLIDS 1\n" : "#define THICKNESS 1\n";
     *thickness = (Thickness){0};
-    static const char *const filled[] = {"common/screen.vert", "splat/clear/filled.frag", NULL};
-    thickness->filled = program_create("splat filled", filled, solid, error);
-    if (!thickness->filled)
+    static const char *const fill[] = {"common/screen.vert", "splat/clear/filled.frag", NULL};
+    thickness->fill = program_create("splat filled", fill, solid, error);
+    if (!thickness->fill)
         return false;
     glCreateVertexArrays(1, &thickness->screen);
     for (int sprite = SPLAT_QUAD; sprite <= SPLAT_POINT; sprite++) {
@@ -31,20 +32,21 @@ bool thickness_create(Thickness *thickness, const SplatSprites *sprites, bool so
     return true;
 }
 
-static void delete_map(Thickness *thickness)
+static void delete_maps(Thickness *thickness)
 {
-    glDeleteTextures(1, &thickness->map);
-    glDeleteFramebuffers(1, &thickness->framebuffer);
-    thickness->map = thickness->framebuffer = thickness->target_number = 0;
+    glDeleteTextures(2, (GLuint[]){thickness->map, thickness->filled});
+    glDeleteFramebuffers(2, (GLuint[]){thickness->framebuffer, thickness->filled_framebuffer});
+    thickness->map = thickness->filled = thickness->target_number = 0;
+    thickness->framebuffer = thickness->filled_framebuffer = 0;
 }
 
 void thickness_destroy(Thickness *thickness)
 {
     for (int sprite = 0; sprite <= SPLAT_POINT; sprite++)
         glDeleteProgram(thickness->program[sprite]);
-    glDeleteProgram(thickness->filled);
+    glDeleteProgram(thickness->fill);
     glDeleteVertexArrays(1, &thickness->screen);
-    delete_map(thickness);
+    delete_maps(thickness);
 }
 
 static unsigned texels(int pixels, unsigned cell)
@@ -52,39 +54,54 @@ static unsigned texels(int pixels, unsigned cell)
     return ((unsigned)pixels + cell - 1) / cell;
 }
 
+static GLuint create_map(int width, int height, const char *label)
+{
+    GLuint map;
+    glCreateTextures(GL_TEXTURE_2D, 1, &map);
+    glObjectLabel(GL_TEXTURE, map, -1, label);
+    glTextureStorage2D(map, 1, GL_R32F, width, height);
+    glTextureParameteri(map, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTextureParameteri(map, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTextureParameteri(map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return map;
+}
+
 static void follow(Thickness *thickness, const Target *target, unsigned cell)
 {
     if (thickness->target_number == target->number && thickness->cell == cell)
         return;
-    delete_map(thickness);
-    glCreateTextures(GL_TEXTURE_2D, 1, &thickness->map);
-    glObjectLabel(GL_TEXTURE, thickness->map, -1, "thickness");
-    glTextureStorage2D(thickness->map, 1, GL_RG32F, (GLsizei)texels(target->width, cell),
-                       (GLsizei)texels(target->height, cell));
-    glTextureParameteri(thickness->map, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-    glTextureParameteri(thickness->map, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTextureParameteri(thickness->map, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTextureParameteri(thickness->map, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    glCreateFramebuffers(1, &thickness->framebuffer);
-    glObjectLabel(GL_FRAMEBUFFER, thickness->framebuffer, -1, "thickness");
-    glNamedFramebufferTexture(thickness->framebuffer, GL_COLOR_ATTACHMENT0, thickness->map, 0);
+    delete_maps(thickness);
+    const int width = (int)texels(target->width, cell), height = (int)texels(target->height, cell);
+    thickness->map = create_map(width, height, "thickness");
+    thickness->filled = create_map(width, height, "thickness of a full box");
+    thickness->framebuffer = splat_framebuffer_create(&thickness->map, 1, "thickness");
+    thickness->filled_framebuffer =
+        splat_framebuffer_create(&thickness->filled, 1, "thickness of a full box");
     thickness->target_number = target->number;
     thickness->cell = cell;
 }
 
+/* Within the bounds of the particles, a support around them: nowhere else is it read. */
 static void fill_box(const Thickness *thickness, float support, int width, int height, const Frame *frame)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, thickness->framebuffer);
+    int part[4];
+    frame_bounds(frame, part);
+    glBindFramebuffer(GL_FRAMEBUFFER, thickness->filled_framebuffer);
     glViewport(0, 0, width, height);
+    glEnable(GL_SCISSOR_TEST);
+    const int cell = (int)thickness->cell, x = part[0] / cell - 1, y = part[1] / cell - 1;
+    glScissor(x, y, part[2] / cell + 2 - x, part[3] / cell + 2 - y);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
-    glUseProgram(thickness->filled);
+    glUseProgram(thickness->fill);
     glUniform1f(SPLAT_RADIUS_AT, support);
     glUniform2f(MAP_SIZE_AT, (float)width, (float)height);
     if (frame->world->solid_count > 0)
         glBindTextureUnit(TARGET_DEPTH_UNIT, frame->target->depth);
     glBindVertexArray(thickness->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDisable(GL_SCISSOR_TEST);
 }
 
 static float pixel_at(const Frame *frame, float depth)
@@ -105,6 +122,7 @@ void thickness_draw(Thickness *thickness, SplatSprites *sprites, const ParticleB
     const SplatSprite sprite =
         splat_sprites_choose(sprites, frame, support, (float)frame->height / (float)cell);
     fill_box(thickness, support, width, height, frame);
+    glClearNamedFramebufferfv(thickness->framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
     splat_sprites_begin(thickness->framebuffer, frame, GL_FUNC_ADD);
     glViewport(0, 0, width, height);
     glProgramUniform1f(thickness->program[sprite], SPLAT_RADIUS_AT, support);

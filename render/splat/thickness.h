@@ -8,9 +8,10 @@
 #include "render/splat/splat_sprites.h"
 
 typedef struct Thickness {
-    unsigned target_number, cell;      /* the target's number; pixels of the target along a texel */
-    unsigned map, framebuffer;         /* RG32F, m: of the fluid, and of a box full of it; linear filter */
-    unsigned filled, screen;           /* program of the second; vertex array without attributes */
+    unsigned target_number, cell; /* the target's number; pixels of the target along a texel */
+    unsigned map, filled;         /* R32F, m: of the fluid, and of a box full of it; linear filter */
+    unsigned framebuffer, filled_framebuffer;
+    unsigned fill, screen;             /* program of the second map; vertex array without attributes */
     unsigned program[SPLAT_POINT + 1]; /* by sprite */
 } Thickness;
 

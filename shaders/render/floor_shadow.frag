@@ -8,6 +8,7 @@
 #include "common/solid_light.glsl"
 #endif
 
+layout(location = CLEAR_AT) uniform float clear; // what of it the fluid lets through
 layout(location = 0) out float light_left;
 
 const int taps = 24;
@@ -20,7 +21,7 @@ void main()
     for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc
         float angle = 2.39996 * float(i), reach = sqrt((float(i) + 0.5) / float(taps)) * light_radius;
         vec2 tap = at + reach * vec2(cos(angle), sin(angle));
-        float share = min(1.0, 1e6 * textureLod(shadow_map, tap, 0.0).x);
+        float share = (1.0 - clear) * min(1.0, 1e6 * textureLod(shadow_map, tap, 0.0).x);
 #ifdef SOLIDS
         share = max(share, 1.0 - textureLod(solid_map, vec3(tap, 0.0), 0.0));
 #endif

@@ -62,5 +62,6 @@
 #define CURVE_RANGE_AT      74
 #define ID_STRIDE_AT        75
 #define EDGES_BEHIND_AT     76
+#define CLEAR_AT            77
 
 #endif

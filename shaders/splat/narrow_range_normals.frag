@@ -29,15 +29,19 @@ float depth_at(ivec2 pixel)
 
 // Within a quarter of a spacing of a pane the top of the fluid is rounded as its particles are, and the filter has nothing on the other
 // side to smooth it with: its slope there is that farther away. False where no pane is near, or another surface.
+// Software drivers branch by loops alone: this one mostly has no round.
 bool slope_beyond(ivec2 pixel, float z, ivec2 along, out float slope)
 {
     ivec2 stride = along * int(max(0.04 * particle_spacing * picture_size.y / (view_tangent.y * z) + 0.5, 1.0));
-    int away = 0;
-    for (int i = 3; i >= 1; i--)
-        away = depth_at(pixel - i * stride) < 0.0 ? 1 : depth_at(pixel + i * stride) < 0.0 ? -1 : away;
-    float first = depth_at(pixel + 4 * away * stride), second = depth_at(pixel + 8 * away * stride);
-    slope = float(away) * (first - second) / (4.0 * float(stride.x + stride.y) * first * second);
-    return away != 0 && min(first, second) > 0.0 && max(abs(first - z), abs(second - first)) < 2.0 * edge;
+    bool low = depth_at(pixel - 3 * stride) < 0.0, high = depth_at(pixel + 3 * stride) < 0.0, found = false;
+    slope = 0.0;
+    for (int rounds = low != high ? 1 : 0; rounds > 0; rounds--) {
+        int away = low ? 1 : -1;
+        float first = depth_at(pixel + 4 * away * stride), second = depth_at(pixel + 8 * away * stride);
+        slope = float(away) * (first - second) / (4.0 * float(stride.x + stride.y) * first * second);
+        found = min(first, second) > 0.0 && max(abs(first - z), abs(second - first)) < 2.0 * edge;
+    }
+    return found;
 }
 #endif
 

@@ -35,6 +35,8 @@
 #define MARCH_UNIT 11
 #define VALUE_UNIT 12
 #define SLOPE_UNIT 13
+/* of clear fluid, which has no level to be looked for any more */
+#define FILLED_UNIT 12
 
 /* Locations of uniforms */
 #define EPS_AT            16

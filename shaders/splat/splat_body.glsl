@@ -1,6 +1,9 @@
 // What stands for a particle in the view splat, in the eye's frame: a ball or with ELLIPSOID an ellipsoid. Wants
 // common/frame.glsl, common/particles.glsl, common/sphere.glsl and common/ball.glsl.
 #include "common/nan.glsl"
+#ifdef APART
+#include "splat/clear/alone.glsl"
+#endif
 #ifdef ALONE
 // Half a pixel more, for a soft rim: shaders/splat/clear/spray.frag.
 float drawn_radius(float radius, vec3 centre)
@@ -23,17 +26,13 @@ struct Body {
 #endif
 };
 
-// The centre that a particle is drawn at. With APART those on their own are not in the surface, with ALONE no others are drawn: they
-// are so far away that nothing is seen of them.
+// The centre that a particle is drawn at. With APART those on their own are not in the surface: they are so far away that nothing is seen
+// of them.
 vec3 body_centre(uint index, vec3 centre)
 {
     vec3 in_eye = (box_to_eye * vec4(centre, 1.0)).xyz;
-#ifdef APART
-    bool alone = shape[3u * index + 2u].w < 0.25;
-#ifdef ALONE
-    alone = !alone;
-#endif
-    in_eye = alone ? vec3(0.0, 0.0, -1e18) : in_eye;
+#if defined APART && !defined ALONE
+    in_eye = is_alone(index) ? vec3(0.0, 0.0, -1e18) : in_eye;
 #endif
     return in_eye;
 }

@@ -18,7 +18,10 @@ layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;
 layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
 layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
-layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser; and what it were of a full box
+layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser
+#ifdef PANES
+layout(binding = FILLED_UNIT) uniform sampler2D filled_map;        // the same of a full box
+#endif
 layout(location = NEAREST_DEPTH_AT) uniform float nearest_depth;   // of a particle, m
 layout(location = FARTHEST_DEPTH_AT) uniform float farthest_depth; // m
 #ifdef SETTLED // splat_settle.frag has left out what is none, as below, and the test of depth follows it
@@ -60,15 +63,15 @@ vec3 shaded(Surface s)
 // which is that of the ray within the walls that is fluid: as sharp as these are.
 float thickness_in_box(vec3 ray, float depth)
 {
-    vec2 sums = textureLod(thickness_map, gl_FragCoord.xy * pixel_size, 0.0).xy;
+    float own = thickness_here(), full = textureLod(filled_map, gl_FragCoord.xy * pixel_size, 0.0).x;
     Within box = within_box_of(ray, bvec3(true));
     float end = box.leave, enter = max(box.enter, near_plane);
 #ifdef SOLIDS
     end = min(end, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30));
 #endif
     if (end <= enter)
-        return sums.x;
-    return min((end - enter) * min(sums.x / max(sums.y, 1e-30), 1.0), max(end - depth, 0.0)) * length(ray);
+        return own;
+    return min((end - enter) * min(own / max(full, 1e-30), 1.0), max(end - depth, 0.0)) * length(ray);
 }
 #endif
 

@@ -16,22 +16,25 @@ bool is_pane(ivec2 pixel)
     return texelFetch(cut_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x < 0.0;
 }
 
+// Software drivers branch by loops alone: what is rare is in one that mostly has no round.
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float z = texelFetch(cut_map, pixel, 0).x, own = texelFetch(own_map, pixel, 0).x;
-    cut = z;
-    if (z >= 1e29)
-        return;
-    float pixels = reach * particle_spacing * 0.5 * picture_size.y / (view_tangent.y * abs(z));
-    int panes = int(z < 0.0);
-    for (int i = 0; i < TAPS; i++) { // a sunflower's seeds: even over the disc
-        float angle = 2.39996 * float(i), away = sqrt((float(i) + 1.0) / float(TAPS)) * pixels;
-        panes += int(is_pane(pixel + ivec2(round(away * vec2(cos(angle), sin(angle))))));
+    float z = texelFetch(cut_map, pixel, 0).x;
+    bool own = z < 0.0;
+    int away = int(reach * particle_spacing * 0.5 * picture_size.y / (view_tangent.y * abs(z)));
+    bool doubtful = is_pane(pixel + ivec2(away, 0)) != own || is_pane(pixel - ivec2(away, 0)) != own ||
+                    is_pane(pixel + ivec2(0, away)) != own || is_pane(pixel - ivec2(0, away)) != own;
+    int panes = int(own), rounds = doubtful && z < 1e29 ? TAPS : 0;
+    for (int i = 0; i < rounds; i++) { // a sunflower's seeds: even over the disc
+        float angle = 2.39996 * float(i), far = sqrt((float(i) + 1.0) / float(TAPS)) * float(away);
+        panes += int(is_pane(pixel + ivec2(round(far * vec2(cos(angle), sin(angle))))));
     }
+    cut = z;
     bool pane = 2 * panes > TAPS + 1;
-    if (pane == (z < 0.0))
-        return;
-    float enter = within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).enter;
-    cut = !pane ? max(own, enter) : enter > near_plane ? -enter : z;
+    rounds = rounds > 0 && pane != own ? 1 : 0;
+    for (int i = 0; i < rounds; i++) {
+        float enter = within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).enter;
+        cut = !pane ? max(texelFetch(own_map, pixel, 0).x, enter) : enter > near_plane ? -enter : z;
+    }
 }

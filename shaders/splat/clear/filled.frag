@@ -9,7 +9,7 @@ layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D solid_depth; // the target
 #endif
 layout(location = MAP_SIZE_AT) uniform vec2 texels;
 layout(location = SPLAT_RADIUS_AT) uniform float support; // of the kernel, m
-layout(location = 0) out vec2 filled;
+layout(location = 0) out float filled;
 
 // Gauss and Legendre's: places in -1 .. 1, weights.
 const vec2 five[5] = vec2[](vec2(-0.90617985, 0.23692689), vec2(-0.53846931, 0.47862867), vec2(0.0, 0.56888889), vec2(0.53846931, 0.47862867),
@@ -56,5 +56,5 @@ void main()
                             max(stops.w - stops.z, 0.0) * field_at(origin + mix(stops.z, stops.w, 0.5 + 0.5 * five[i].x) * way));
     for (int i = 0; i < 3; i++)
         sum += three[i].y * (stops.z - stops.y) * field_at(origin + mix(stops.y, stops.z, 0.5 + 0.5 * three[i].x) * way);
-    filled = vec2(0.0, 0.5 * sum / per_m);
+    filled = 0.5 * sum / per_m;
 }

@@ -42,14 +42,16 @@ vec3 through_ball(Surface s, float radius)
     return seen * pow(max(s.albedo, 1e-4), vec3(chord / attenuation));
 }
 
-// The rim mirrors where the ray leaves as where it enters.
+// The rim mirrors where the ray leaves as where it enters. And a drop gathers the key light on the side away from it, which leaves the rim
+// darker, most towards the light: against an even background that is what one sees of a drop.
 vec3 shaded(Surface s, float radius)
 {
     vec3 inside = through_ball(s, radius);
 #if SHADING == 2
     inside = mix(mix(s.albedo, phong(s), shading), inside, 0.8);
 #endif
-    vec3 left = inside * (1.0 - fresnel(max(-dot(s.view, s.normal), 0.0), refraction_index));
+    float cosine = max(-dot(s.view, s.normal), 0.0), gathered = 1.0 - 0.35 * (1.0 - cosine) * (s.key * dot(s.normal, light_in_eye) + 0.5);
+    vec3 left = inside * (gathered * (1.0 - fresnel(cosine, refraction_index)));
     return mix(inside, with_surface(s, left), shading);
 }
 

@@ -11,7 +11,7 @@ layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D solid_depth; // the target
 layout(location = MAP_SIZE_AT) uniform vec2 texels;
 #endif
 layout(location = 2) flat in vec2 column; // along the ray through the centre, m; the centre's reversed depth
-layout(location = 0) out vec2 thickness; // and nothing of what filled.frag has written
+layout(location = 0) out float thickness;
 
 void main()
 {
@@ -21,5 +21,5 @@ void main()
     if (texelFetch(solid_depth, min(pixel, ivec2(picture_size) - 1), 0).x > column.y)
         discard;
 #endif
-    thickness = vec2(column.x * inside2 * inside2 * inside2 * sqrt(inside2), 0.0);
+    thickness = column.x * inside2 * inside2 * inside2 * sqrt(inside2);
 }
