@@ -77,6 +77,7 @@ bool output_begin(Output *output, const char *path, Error *error)
     if (!output_target(path, output->target, error))
         return false;
     snprintf(output->path, sizeof output->path, "%s", path);
+    output_clear_stale(output->target);
     snprintf(output->temp, sizeof output->temp, "%s.%ld.tmp", output->target, (long)getpid());
     int file = open(output->temp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {

@@ -34,6 +34,10 @@ bool output_target(const char *path, char target[1024], Error *error);
 /* Removes the temporary file; does nothing before begin, after commit or a second time. */
 void output_discard(Output *output);
 
+/* Removes what writers of the same output left beside it that no longer run. The begin of each output does
+ * so. */
+void output_clear_stale(const char *target);
+
 /* Whether a file could be written there, without leaving one. */
 bool output_check(const char *path, Error *error);
 

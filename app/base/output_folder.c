@@ -62,6 +62,7 @@ bool output_folder_begin(OutputFolder *folder, const char *path, const char *suf
     snprintf(folder->path, sizeof folder->path, "%s", path);
     if (!check_older(folder, error))
         return false;
+    output_clear_stale(folder->target);
     snprintf(folder->temp, sizeof folder->temp, "%s.%ld.tmp", folder->target, (long)getpid());
     output_remove_folder(folder->temp); /* of a killed program that had the same number */
     if (mkdir(folder->temp, 0777) != 0) {

@@ -16,6 +16,7 @@ enum { CTRL = GLFW_MOD_CONTROL, SHIFT = GLFW_MOD_SHIFT };
 const PlayCommandRow play_command_rows[] = {
     {.command = PLAY_PAUSE,
      .group = "Time",
+     .example = "press Space: time stands still; hold the comma key: it runs back, frame by frame",
      .name = "pause",
      .help = "stop the time, or let it run on",
      .keys = {KEY(SPACE), KEY(PAUSE)},
@@ -72,6 +73,8 @@ const PlayCommandRow play_command_rows[] = {
      .flags = PLAY_BUTTON | PLAY_REPEATS},
     {.command = PLAY_NEXT_SCENE,
      .group = "Scenes and views",
+     .example =
+         "press F3 and click a picture: that scene opens; press W: it is seen by several views at once",
      .name = "next-scene",
      .help = "open the next scene; a view that you chose stays",
      .keys = {KEY(TAB), KEY(RIGHT_BRACKET)},
@@ -110,6 +113,7 @@ const PlayCommandRow play_command_rows[] = {
      .keys = {{GLFW_KEY_W, SHIFT}}},
     {.command = PLAY_SCREENSHOT,
      .group = "Files",
+     .example = "press Ctrl+S: what you did so far is a file; slosh FILE shows it again",
      .name = "screenshot",
      .help = "save the picture as PNG",
      .keys = {KEY(F12), KEY(I)},
@@ -126,6 +130,7 @@ const PlayCommandRow play_command_rows[] = {
      .flags = PLAY_BUTTON | PLAY_SIMULATED},
     {.command = PLAY_FULLSCREEN,
      .group = "Window",
+     .example = "press P: the panel comes or goes, and the fluid takes the room that is left",
      .name = "fullscreen",
      .help = "fill the screen, or go back to a window",
      .keys = {KEY(F11), KEY(F)}},
@@ -141,6 +146,7 @@ const PlayCommandRow play_command_rows[] = {
      .flags = PLAY_BUTTON},
     {.command = PLAY_CAMERA_HOME,
      .group = "Camera and box",
+     .example = "the fluid has got out of sight: press A, and the whole box is there again",
      .name = "camera-home",
      .help = "show the whole box",
      .keys = {KEY(HOME), KEY(A)},
@@ -159,6 +165,7 @@ const PlayCommandRow play_command_rows[] = {
      .flags = PLAY_BUTTON | PLAY_SIMULATED},
     {.command = PLAY_PLANE_BACK,
      .group = "Slices",
+     .example = "press D until the view is slice, then hold K: the cut moves through the fluid",
      .name = "plane-back",
      .help = "move the shown plane back along its normal",
      .keys = {KEY(J)},
@@ -202,6 +209,7 @@ const PlayCommandRow play_command_rows[] = {
      .keys = {KEY(Z)}},
     {.command = PLAY_PIN,
      .group = "Values and trails",
+     .example = "point at the fluid and press M: the value there stays in the picture",
      .name = "pin",
      .help = "keep the value under the mouse in the picture, at its place in the box",
      .keys = {KEY(M)}},
@@ -212,11 +220,13 @@ const PlayCommandRow play_command_rows[] = {
      .keys = {KEY(E)}},
     {.command = PLAY_QUIT,
      .group = "End",
+     .example = "press Escape: an open list closes; press it once more: the window does",
      .name = "quit",
      .help = "close the list that is open, else the window; asks where what you did is not saved",
      .keys = {KEY(ESCAPE), {GLFW_KEY_Q, CTRL}}},
     {.command = PLAY_ORBIT,
      .group = "Mouse, arrow keys and sticks",
+     .example = "hold Shift and drag: the box moves with the mouse, and the fluid sloshes",
      .name = "orbit",
      .gesture = "left drag",
      .help = "turn the camera about the box"},
@@ -410,8 +420,8 @@ void play_commands_print(FILE *file)
         char keys[80];
         play_command_keys_text(row, keys, sizeof keys);
         if (row->group)
-            fprintf(file, "%s%s:\n\n| command | keys | what it does |\n| --- | --- | --- |\n",
-                    row == play_command_rows ? "" : "\n", row->group);
+            fprintf(file, "%s%s: %s.\n\n| command | keys | what it does |\n| --- | --- | --- |\n",
+                    row == play_command_rows ? "" : "\n", row->group, row->example);
         fprintf(file, "| `%s` | %s | %s |\n", row->name, keys, row->help);
     }
 }

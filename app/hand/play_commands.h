@@ -78,9 +78,10 @@ typedef struct PlayKey {
 
 typedef struct PlayCommandRow {
     PlayCommand command;
-    const char *group; /* heading over this row and those below; NULL: that of the row above */
-    const char *name;  /* a word, or words with hyphens between */
-    const char *help;  /* one plain line */
+    const char *group;   /* heading over this row and those below; NULL: that of the row above */
+    const char *example; /* with a group: one thing to try, and what happens */
+    const char *name;    /* a word, or words with hyphens between */
+    const char *help;    /* one plain line */
     PlayKey keys[2];
     const char *gamepad; /* name of the gamepad's button that does it; NULL: none */
     const char *gesture; /* how, for what is no single press: "Shift + left drag"; NULL: a press */

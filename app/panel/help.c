@@ -26,6 +26,7 @@ void panel_help_draw(Ui *ui, int width, int height)
         if (row->group) {
             ui_gap(ui);
             ui_text(ui, row->group);
+            ui_faint(ui, row->example);
         }
         ui_row(ui, keys, row->help);
     }

@@ -53,19 +53,17 @@ void readout_pin(Readout *readout, const Panels *panels, Notice *notice)
 {
     if (!may_tell(readout, panels))
         say_none(notice);
-    else if (readout->pin_count == READOUT_PINS_MAX)
+    else if (readout->pin_count + readout->pinning == READOUT_PINS_MAX)
         notice_tell(notice, "%d values are pinned, and no more can be; Shift+M takes them away",
                     READOUT_PINS_MAX);
-    else {
-        readout->pinning = true;
-        memcpy(readout->pinned, readout->mouse, sizeof readout->pinned);
-    }
+    else
+        memcpy(readout->pinned[readout->pinning++], readout->mouse, sizeof readout->mouse);
 }
 
 void readout_unpin(Readout *readout)
 {
     readout->pin_count = 0;
-    readout->pinning = false;
+    readout->pinning = 0;
 }
 
 /* "pressure 1234 Pa" */
@@ -129,18 +127,19 @@ static void draw_found(const ViewProbes *found, const PanelPlace *place, Text *t
 static ViewAsks asks_of(const Readout *readout, const Panels *panels, int panel)
 {
     ViewAsks asks = {.count = readout->pin_count};
-    const double *pixel = readout->pinning ? readout->pinned : readout->mouse;
+    const double *pixel = readout->pinning > 0 ? readout->pinned[0] : readout->mouse;
     memcpy(asks.at, readout->pins, sizeof(double[3]) * (size_t)asks.count);
-    asks.mouse = (readout->pinning || readout->free) && panel == panel_at(panels, pixel);
+    asks.mouse = (readout->pinning > 0 || readout->free) && panel == panel_at(panels, pixel);
     if (asks.mouse)
         within(panels, panel, pixel, asks.pixel);
     return asks;
 }
 
-/* What was to be pinned is, or there is none. */
+/* What was to be pinned first is, or there is none. */
 static void pin(Readout *readout, const ViewProbes *found, Notice *notice)
 {
-    readout->pinning = false;
+    readout->pinning--;
+    memmove(readout->pinned[0], readout->pinned[1], sizeof readout->pinned[0] * (size_t)readout->pinning);
     if (found->placed)
         memcpy(readout->pins[readout->pin_count++], found->place, sizeof readout->pins[0]);
     else
@@ -164,7 +163,7 @@ static bool draw_panel(Readout *readout, const Panels *panels, int panel, const 
         readout->found = found;
         readout->shown = found.mouse;
     }
-    if (!readout->pinning || !asks.mouse || (can && !found.asked))
+    if (readout->pinning == 0 || !asks.mouse || (can && !found.asked))
         return !can || found.now;
     pin(readout, &found, notice);
     return false;

@@ -14,12 +14,12 @@
 enum { READOUT_PINS_MAX = VIEW_PROBES_MAX - 1 };
 
 typedef struct Readout {
-    double mouse[2];                  /* pixels of the whole picture */
-    bool free;                        /* the mouse is over the picture, and nothing has it */
-    bool shown;                       /* the last picture tells what is under it */
-    bool pinning;                     /* what is there is to be pinned: */
-    double pinned[2];                 /* pixels of the whole picture */
-    double pins[READOUT_PINS_MAX][3]; /* m, box's frame */
+    double mouse[2];                    /* pixels of the whole picture */
+    bool free;                          /* the mouse is over the picture, and nothing has it */
+    bool shown;                         /* the last picture tells what is under it */
+    int pinning;                        /* so many places are to be pinned, one after the other: */
+    double pinned[READOUT_PINS_MAX][2]; /* pixels of the whole picture */
+    double pins[READOUT_PINS_MAX][3];   /* m, box's frame */
     int pin_count;
     ViewProbes found; /* of the last picture, in the mouse's panel: pins, then the mouse's */
 } Readout;

@@ -151,7 +151,9 @@ static void add_idle(Words *words, int number, const PbsrLayer *said, double cur
             part_from(words), number);
     if (said->interpolation != PBSR_BY_ITSELF && !pbsr_of_file(said) && !fluid_walk_by_grid(said))
         add(words,
-            "%sinterpolation of layer %d has no effect: it is of no file, and no walk on the fluid's surface",
+            said->of == PBSR_SURFACE
+                ? "%sinterpolation of layer %d has no effect: it is no walk on the fluid's surface; set sampler: walk"
+                : "%sinterpolation of layer %d has no effect: it is of no file, and no walk on the fluid's surface",
             part_from(words), number);
 }
 

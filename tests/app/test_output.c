@@ -41,6 +41,38 @@ static void an_old_file_stays_until_then(void **state)
     assert_int_equal(count_files("."), 1);
 }
 
+/* A number that no process has: that of a child that has ended. */
+static long dead(void)
+{
+    const pid_t child = fork();
+    if (child == 0)
+        _exit(0);
+    waitpid(child, NULL, 0);
+    return child;
+}
+
+static void what_killed_writers_left_goes_with_the_next_one(void **state)
+{
+    (void)state;
+    Output output = {0};
+    Error error = {{0}};
+    char file[64], folder[64], alive[64], other[64];
+    const long gone = dead();
+    snprintf(file, sizeof file, "a.txt.%ld.tmp", gone);
+    snprintf(folder, sizeof folder, "a.txt.%ld.tmp", dead());
+    snprintf(alive, sizeof alive, "a.txt.%ld.tmp", (long)getppid());
+    snprintf(other, sizeof other, "b.txt.%ld.tmp", gone);
+    write_text(file, "half");
+    assert_int_equal(mkdir(folder, 0777), 0);
+    write_text(alive, "half");
+    write_text(other, "half");
+    write_text("a.txt.tmp", "whole");
+    assert_true(output_begin(&output, "a.txt", &error));
+    assert_false(exists(file) || exists(folder));
+    assert_true(exists(alive) && exists(other) && exists("a.txt.tmp"));
+    output_discard(&output);
+}
+
 static void assert_refused(const char *path, const char *reason)
 {
     Output output = {0};
@@ -219,6 +251,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_new_file_appears_at_the_commit),
         TEST(an_old_file_stays_until_then),
+        TEST(what_killed_writers_left_goes_with_the_next_one),
         TEST(what_cannot_be_written_is_refused_at_once),
         TEST(a_check_leaves_nothing),
         TEST(a_folder_replaces_an_older_one_whole),

@@ -737,6 +737,7 @@ static void test_help_lists_every_row(void **state)
         play_command_keys_text(row, keys, sizeof keys);
         assert_non_null(desk_find(desk, row->help));
         assert_non_null(desk_find(desk, keys));
+        assert_true(!row->example || desk_find(desk, row->example));
     }
     assert_nothing_is_cut(desk);
     assert_true(ui_covers(desk->ui, 320, 180) && ui_covers(desk->ui, 600, 340));

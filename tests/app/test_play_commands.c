@@ -33,6 +33,7 @@ static void every_row_is_whole(void **state)
         if (!is_name(row->name))
             fail_msg("'%s' is no name", row->name);
         assert_true(row->group || row != play_command_rows);
+        assert_true(!row->group == !row->example);
         assert_true(row->help && strlen(row->help) > 5 && !strchr(row->help, '\n'));
         assert_true(row->keys[0].key || !row->keys[1].key);
         /* A press or a gesture, not both, not none. */

@@ -80,7 +80,7 @@ class Handles(Window):
 
     def test_beside_the_handles_the_camera_turns(self):
         self.open('slice.yaml')
-        self.drag(1, [(20, 20), (50, 40), (90, 60)])
+        self.drag(1, [(20, 120), (50, 140), (90, 160)])
         out = self.quit()
         self.assertGreater(numpy.linalg.norm(out['camera_from'] - EYE), 0.1)
         self.assertEqual(out['view_settings']['view.slice.point']['value'], [0, 0.3, 0])
@@ -132,6 +132,19 @@ class Handles(Window):
             for id, place in zip(ids, ([0.25, 0.35, 0.45], [-0.25, 0.35, 0.45])):
                 i = numpy.flatnonzero(file['Step#0']['id'][:] == id)[0]
                 self.assertLess(numpy.linalg.norm([file['Step#0'][axis][i] for axis in 'xyz'] - numpy.array(place)), 0.09)
+
+    def test_two_pins_within_one_picture(self):
+        """Both presses come before the next picture, which knows the values: both places are kept."""
+        self.open('slice.yaml', '--set', 'view.color_by=density', '--set', 'view.slice.normal=[0.6, 0, 0.8]')
+        self.keys('space')
+        window = self.display.connection.create_resource_object('window', self.window)
+        self.at(*pixel([0, 0.2, 0]))
+        for place in ([0.08, 0.2, -0.06], [-0.16, 0.15, 0.12]):
+            window.warp_pointer(*pixel(place))
+            self.key('m')
+        self.shown(0.3)
+        out = self.quit()
+        self.assertEqual([probe['pinned'] for probe in out['readout']], [True, True, False])
 
     def test_the_value_under_the_mouse_and_at_pins(self):
         first, second = [0.08, 0.2, -0.06], [-0.16, 0.15, 0.12]  # on the plane

@@ -710,6 +710,12 @@ static void still_layers_that_fall_short(void **state)
                         "curved has no effect on layer 1: it is no surface of the fluid by triangles; "
                         "interpolation of layer 1 has no effect: it is of no file, and no walk on the "
                         "fluid's surface");
+    idle->of = PBSR_SURFACE;
+    idle->sampler = PBSR_SAMPLER_AUTO;
+    assert_true(layers_lack(&drawn, words, sizeof words) > 0);
+    assert_non_null(
+        strstr(words, "interpolation of layer 1 has no effect: it is no walk on the fluid's surface; set "
+                      "sampler: walk"));
     layer_words(&(PbsrLayer){.of = PBSR_SURFACE, .level = 120, .file = "a.b/head.yaml"}, words);
     assert_string_equal(words, "surface 120 of head");
     layer_words(&(PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .file = "head"}, words);
