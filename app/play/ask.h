@@ -22,6 +22,7 @@ typedef enum AskKind {
     ASK_PAN,     /* amount: heights of the picture to the right and up */
     ASK_ZOOM,    /* amount: steps nearer; grabs it first */
     ASK_STEER,   /* amount: radians to the right and up, steps nearer; grabs it first */
+    ASK_TOUCH,   /* amount: notches larger, notches stronger */
     ASK_CLOSE    /* the window */
 } AskKind;
 

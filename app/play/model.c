@@ -498,6 +498,15 @@ bool model_set(Model *model, const char *setting)
     return true;
 }
 
+uint64_t model_touch(Model *model, const Finger *finger)
+{
+    const SimCommand command = {.kind = SIM_TOUCH, .finger = *finger};
+    if (!model->open.source->simulates)
+        return 0;
+    company_send(model->open.company, &command);
+    return simulator_send(model->open.simulator, &command);
+}
+
 /* Whether the scene's own states need accelerations; those beside it are asked for theirs. */
 static bool follow_view(Model *model, const ViewDef *view)
 {

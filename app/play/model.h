@@ -86,6 +86,9 @@ void model_set_speed(Model *model, double factor); /* so many times the present 
 /* "path=value" of a live key: in the scene now, for the solver from its next step on. False: all stays. */
 bool model_set(Model *model, const char *setting);
 
+/* A finger in the fluid from the next step on, or none. The number of its command; 0: it was not taken. */
+uint64_t model_touch(Model *model, const Finger *finger);
+
 /* The views have changed: solvers begin to keep what one of them reads. One that cannot is asked again when
    it was not read meanwhile. */
 void model_follow_views(Model *model);

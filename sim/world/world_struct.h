@@ -34,6 +34,7 @@ struct World {
     BoxTarget target;                   /* of the hand */
     BoxFilter filter;                   /* at the present time */
     BoxState box;                       /* at the present time, the hand's part included */
+    FingerState finger;                 /* at the present time */
     double mass;                        /* of the initial fluid, kg */
     EnergyMark energy;                  /* of sim/world/energy_watch.h */
     Forces felt, felt_before;           /* since it was last asked; of the good state */
