@@ -487,6 +487,9 @@ static void act(Play *play, const Ask *ask)
     case ASK_STEER:
         steer_camera(play, ask->amount);
         break;
+    case ASK_SHUT:
+        model_shut(&play->model, ask->gates);
+        break;
     case ASK_TOUCH:
         change_touch(play, ask->amount);
         break;

@@ -16,6 +16,7 @@
      40 carry 0x0p+0 ...
      60 touch stir 0x1p-4 0x1p-5 0x0p+0 0x1p-5 0x1.4p+5                way, point, radius (m), strength
      70 touch none
+     75 shut fluids[0].emit[0] drains[1]    all that is shut from here on
      80 set gravity=[0, -3, 0]
      end 400 0123456789abcdef               steps, world_hash
 

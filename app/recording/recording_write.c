@@ -1,6 +1,7 @@
 #include "app/recording/recording.h"
 
 #include "app/base/output.h"
+#include "sim/matter/flow.h"
 #include "sim/touch/touch_def.h"
 
 #include <errno.h>
@@ -57,6 +58,18 @@ static void put_finger(FILE *file, const SimCommand *command)
     putc('\n', file);
 }
 
+static void put_shut(FILE *file, const SimCommand *command)
+{
+    char name[GATE_NAME_SIZE];
+    fprintf(file, "%" PRIu64 " shut", command->step);
+    for (int gate = 0; gate < GATES_MAX; gate++)
+        if (gate_shut(command->shut, gate)) {
+            gate_name(gate, name);
+            fprintf(file, " %s", name);
+        }
+    putc('\n', file);
+}
+
 static void put_command(FILE *file, const SimCommand *command)
 {
     if (command->kind == SIM_SET) {
@@ -66,6 +79,10 @@ static void put_command(FILE *file, const SimCommand *command)
     }
     if (command->kind == SIM_TOUCH) {
         put_finger(file, command);
+        return;
+    }
+    if (command->kind == SIM_SHUT) {
+        put_shut(file, command);
         return;
     }
     const double *x = command->target.position, *q = command->target.orientation;

@@ -75,6 +75,9 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
     case SIM_TOUCH:
         world_touch(*world, &command->finger);
         break;
+    case SIM_SHUT:
+        world_shut(*world, command->shut);
+        break;
     case SIM_SET:
         return apply_setting(command->setting, world, scene, error);
     }

@@ -65,6 +65,11 @@ void world_carry(World *world, const BoxTarget *target);
 /* A finger in the fluid from the next step on, or none; what is no finger is not taken. */
 void world_touch(World *world, const Finger *finger);
 
+/* Which gates of emitters and drains are shut from the next step on: bits of sim/matter/flow.h; what has no
+   gate is left out. An open emitter sends out the layers that its time has, as if it had never been shut. */
+void world_shut(World *world, uint64_t gates);
+uint64_t world_gates_shut(const World *world);
+
 /* Takes from `def` what may change while a world lives: gravity, viscosities, sound speed, negative pressure,
    dt, substeps, number and max_dt of mode cfl, the hand's limits, live keys of methods; all else must be as
    it was. It holds from the next step on, and is as much a part of the world's history as a target is. False

@@ -41,6 +41,8 @@ typedef struct WorldNumbers {
     double live[LIVE_NUMBERS]; /* of the def, what may change while a world lives */
     EnergyMark energy;         /* these stand last: files may end before them */
     FingerState finger;
+    double
+        shut; /* which gates of emitters and drains are, as the bits of a whole number: sim/matter/flow.h */
 } WorldNumbers;
 
 enum {

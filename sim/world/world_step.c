@@ -198,7 +198,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     const FingerLimits limits = finger_limits(world);
     finger_step(&world->finger, &limits, dt, &step->finger);
-    step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
+    step->guide_count = flow_guides(&world->def, world_time_at(world, at), world->shut, step->guides);
     for (int i = 0; i < world->def.solid_count; i++)
         for (int half = 0; half < 2; half++)
             solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
