@@ -33,6 +33,7 @@ typedef struct PanelData {
     int gauge_count;
     const ProbeSample *probes; /* the same of the scene's probes */
     int probe_count;
+    uint64_t shut; /* gates of emitters and drains: sim/matter/flow.h */
     size_t particles;
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
@@ -60,9 +61,11 @@ typedef struct PanelEvents {
     int setting_count;
     char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", as scene_set_live takes it */
     int command;                                           /* a PlayCommand, or PLAY_NONE */
-    bool watches;                                          /* the gauges are shown, */
-    bool watches_probes;                                   /* and what probes read */
-    int tuned; /* number of a motion device, or 0: it shall have these two */
+    bool gated;                                            /* these gates shall be shut: */
+    uint64_t shut;
+    bool watches;        /* the gauges are shown, */
+    bool watches_probes; /* and what probes read */
+    int tuned;           /* number of a motion device, or 0: it shall have these two */
     double gain, dead_zone;
 } PanelEvents;
 

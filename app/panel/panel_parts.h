@@ -39,6 +39,9 @@ bool panel_gauges(Ui *ui, const PanelData *data);
 /* device.c: motion devices, while there are any. */
 void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 
+/* flow.c: a switch for each emitter and each drain. */
+void panel_flow(Ui *ui, const PanelData *data, PanelEvents *events);
+
 /* scene.c: what the shown view reads; what colours mean; every other live key, by the first part of its path.
    `start` is the scene as it was opened: a slider reaches from a tenth to ten times the value there. */
 void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);

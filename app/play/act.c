@@ -28,6 +28,9 @@ static void follow_scene(Play *play)
     grip_begin(&play->grip);
     readout_begin(&play->readout);
     play->wanted = hand_at_rest().told;
+    touch_release(&play->touch, false);
+    touch_forget(&play->touch);
+    play->touch.travels = play->model.travels;
     play->outlined = false;
     play->camera.held = false;
     views_open(&play->views, &play->model.open.scene, &play->model.file_scene);
@@ -165,12 +168,65 @@ static bool may_close(Play *play)
     return false;
 }
 
+/* Which button does what. */
+static void tell_touch(Play *play)
+{
+    const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
+    notice_tell(&play->notice, "touch: left drag: %s, right drag: %s, wheel: size, Shift + wheel: strength",
+                finger_way_name(left), finger_way_name(touch_other(left)));
+}
+
+static void turn_touch(Play *play, bool on)
+{
+    play->touch.on = play->input.touching = on;
+    if (on)
+        tell_touch(play);
+    else
+        notice_tell(&play->notice, "left drag turns the camera");
+}
+
+static void next_touch_way(Play *play)
+{
+    char setting[64];
+    int next = play->model.open.scene.touch.way + 1;
+    next = touch_ways[next].name ? next : 0;
+    snprintf(setting, sizeof setting, "touch.way=%s", touch_ways[next].name);
+    if (!model_set(&play->model, setting))
+        return;
+    if (play->touch.on)
+        tell_touch(play);
+    else
+        turn_touch(play, true);
+}
+
+/* By notches of the wheel. */
+static void change_touch(Play *play, const double amount[2])
+{
+    const TouchDef *touch = &play->model.open.scene.touch;
+    char setting[64];
+    if (amount[0] != 0) {
+        snprintf(setting, sizeof setting, "touch.radius=%.3g",
+                 touch_notches(touch->radius, amount[0], 1, 100));
+        if (model_set(&play->model, setting))
+            notice_tell(&play->notice, "touch: radius %.3g spacings", touch->radius);
+    }
+    if (amount[1] != 0) {
+        snprintf(setting, sizeof setting, "touch.strength=%.3g",
+                 touch_notches(touch->strength, amount[1], 0.01, 100));
+        if (model_set(&play->model, setting))
+            notice_tell(&play->notice, "touch: strength %.3g", touch->strength);
+    }
+    play->picture.dirty = true;
+}
+
 static void quit_or_close(Play *play)
 {
     if (play->overlay.help)
         play->overlay.help = false;
     else if (play->overlay.scenes)
         show_scenes(play);
+    else if (play->touch.on)
+        turn_touch(play, false);
     else
         play->quit = may_close(play);
 }
@@ -257,6 +313,7 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_RESET:
         model_reset(model);
+        touch_forget(&play->touch);
         break;
     case PLAY_SLOWER:
         model_set_speed(model, 0.5);
@@ -315,6 +372,12 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_NEUTRAL:
         hand_post_neutral(play->post);
+        break;
+    case PLAY_TOUCH:
+        turn_touch(play, !play->touch.on);
+        break;
+    case PLAY_TOUCH_WAY:
+        next_touch_way(play);
         break;
     case PLAY_QUIT:
         quit_or_close(play);
@@ -423,6 +486,12 @@ static void act(Play *play, const Ask *ask)
         break;
     case ASK_STEER:
         steer_camera(play, ask->amount);
+        break;
+    case ASK_SHUT:
+        model_shut(&play->model, ask->gates);
+        break;
+    case ASK_TOUCH:
+        change_touch(play, ask->amount);
         break;
     case ASK_CLOSE:
         play->quit = true;

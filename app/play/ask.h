@@ -8,6 +8,7 @@
 #include "render/frame/view.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef enum AskKind {
     ASK_COMMAND, /* command, held */
@@ -22,14 +23,17 @@ typedef enum AskKind {
     ASK_PAN,     /* amount: heights of the picture to the right and up */
     ASK_ZOOM,    /* amount: steps nearer; grabs it first */
     ASK_STEER,   /* amount: radians to the right and up, steps nearer; grabs it first */
+    ASK_TOUCH,   /* amount: notches larger, notches stronger */
+    ASK_SHUT,    /* gates: of emitters and drains, those that shall be shut */
     ASK_CLOSE    /* the window */
 } AskKind;
 
 typedef struct Ask {
     AskKind kind;
     PlayCommand command;
-    bool held;        /* the command comes again because its key is held down */
-    int device;       /* its number */
+    bool held;  /* the command comes again because its key is held down */
+    int device; /* its number */
+    uint64_t gates;
     double amount[3]; /* what is not said is 0 */
     char text[1024];
 } Ask;

@@ -2,6 +2,8 @@
 #include "app/play/parts.h"
 #include "sim/base/stage.h"
 
+#include <string.h>
+
 static void draw_overlay(Play *play)
 {
     OverlayFacts facts = {.width = play->picture.width,
@@ -60,6 +62,26 @@ static void draw_outline(const Look *look, const BoxState *pose, Text *text)
     text_end(text);
 }
 
+/* Where the finger is; without a drag, where it would be: at what the picture shows under the mouse. */
+static void draw_finger(Play *play, const Look *look, Text *text)
+{
+    static const uint32_t RESTS = 0xe8eef4e0, TOUCHES = 0xff6ad5ff;
+    const Scene *scene = &play->model.open.scene;
+    TouchTool tool = play->touch;
+    SightRay ray;
+    double forward[3];
+    hands_ray(play, look, &ray, forward);
+    if (!tool.holds) {
+        const double middle[3] = {0, 0.5 * look->particles->box_size[1], 0};
+        const bool shown = play->readout.found.placed;
+        memcpy(tool.at, shown ? play->readout.found.place : middle, sizeof tool.at);
+        if (!touch_move(&tool, &ray, forward, scene->world.dimensions))
+            return;
+    }
+    const Handle ring = touch_ring(&tool, &scene->touch, scene->world.spacing, forward);
+    grip_draw_ring(look, &ring, text, tool.holds ? TOUCHES : RESTS);
+}
+
 /* What the mouse may take, where the box goes, and what is under the mouse. */
 static void draw_marks(Play *play)
 {
@@ -72,6 +94,8 @@ static void draw_marks(Play *play)
             !renderer_is_flat(panels_renderer(picture->panels, i)))
             draw_outline(&look, &goal, picture->text);
         grip_draw(&play->grip, &look, picture->text);
+        if (play->touch.on && i == picture_panel_at(picture, play->grip.mouse[0], play->grip.mouse[1]))
+            draw_finger(play, &look, picture->text);
     }
     picture->over |= readout_draw(&play->readout, picture->panels, picture->width, picture->height,
                                   picture->text, &play->notice);

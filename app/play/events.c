@@ -50,6 +50,7 @@ static void take_event(Play *play, const WindowEvent *event)
     overlay_event(&play->overlay, event);
     grip_follow(&play->grip, event);
     play->picture.dirty |= redraw;
+    play->picture.over |= play->touch.on && event->kind == WINDOW_MOVE;
     play->picture.over |= overlay_shown(&play->overlay, &play->model);
     const bool covered = overlay_has(play, event), gripped = grip_has(play, event, !covered);
     play->picture.over |=
@@ -117,7 +118,8 @@ void events_take(Play *play)
     meter_events(&play->meter, meter_thread_cpu_ms() - began);
 }
 
-/* What moves the box that is held. An event that asks for anything waits, and all that come after it. */
+/* What moves the box or the finger that is held. An event that asks for anything waits, and all that come
+ * after it. */
 static void take_moves(Play *play)
 {
     WindowEvent event;
@@ -136,7 +138,7 @@ static void take_moves(Play *play)
 void events_follow_hand(Play *play)
 {
     const double began = meter_thread_cpu_ms();
-    if (input_holds_box(&play->input))
+    if (input_holds_box(&play->input) || input_touches(&play->input))
         take_moves(play);
     if (play->model.has_particles)
         hands_look(play);

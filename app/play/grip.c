@@ -155,6 +155,14 @@ static void draw_handle(const Sight *sight, const Handle *handle, Text *text, ui
     }
 }
 
+void grip_draw_ring(const Look *look, const Handle *ring, Text *text, uint32_t rgba)
+{
+    text_begin_within(text, look->width, look->height,
+                      (int[]){look->at.x, look->at.y, look->at.width, look->at.height});
+    draw_ring(&look->sight, ring, text, rgba);
+    text_end(text);
+}
+
 void grip_draw(const Grip *grip, const Look *look, Text *text)
 {
     Handle handles[HANDLES_MAX];

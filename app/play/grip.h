@@ -53,6 +53,9 @@ int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTIN
 /* What a key asks of the chosen view; 0, with a word to the user, where the view is of no plane. */
 int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTINGS_MAX]);
 
+/* A ring as handles have it, in no colour of theirs. */
+void grip_draw_ring(const Look *look, const Handle *ring, Text *text, uint32_t rgba);
+
 void grip_draw(const Grip *grip, const Look *look, Text *text);
 
 #endif

@@ -1,8 +1,10 @@
-/* What the hand does: by mouse, keys and gamepad, and by motion devices. It moves the box at once, through
-   the simulator's own queue; all else that it asks for is queued. */
+/* What the hand does: by mouse, keys and gamepad, and by motion devices. It moves box and finger at once,
+   through the simulator's own queue; all else that it asks for is queued. */
 #include "app/play/parts.h"
+#include "render/particles/particle_under.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
 
@@ -46,6 +48,51 @@ static void take_news(Play *play, const HandNews *news)
         ask_command(&play->asks, news->commands[i]);
 }
 
+void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward[3])
+{
+    const double *mouse = play->grip.mouse;
+    SightRay middle;
+    sight_ray(&look->sight, (double[]){mouse[0] - look->at.x, mouse[1] - look->at.y}, ray);
+    sight_ray(&look->sight, (double[]){0.5 * look->at.width, 0.5 * look->at.height}, &middle);
+    memcpy(forward, middle.along, sizeof middle.along);
+}
+
+/* Where a press begins: at the fluid under the mouse, else as deep as the middle of the box. */
+static void press(Play *play, const SightRay *ray)
+{
+    TouchTool *tool = &play->touch;
+    const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
+    double at[3] = {0, 0.5 * play->model.particles.box_size[1], 0};
+    model_take(&play->model); /* a solver on the GPU has gone on in the buffers of the one that was drawn */
+    if (play->model.has_particles)
+        particle_place_under(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at);
+    touch_press(tool, play->input.drag == PLAY_TOUCH_OTHER ? touch_other(left) : left, at);
+}
+
+/* The finger goes where the mouse is. Returns the number of its command, or 0. */
+static uint64_t touch(Play *play)
+{
+    TouchTool *tool = &play->touch;
+    const Scene *scene = &play->model.open.scene;
+    Finger finger;
+    touch_travel(tool, play->model.travels);
+    if (!input_touches(&play->input) || !picture_visible(&play->picture)) {
+        touch_release(tool, play->model.status.past.behind);
+    } else {
+        const Look look = play_look(play, play->picture.chosen);
+        SightRay ray;
+        double forward[3];
+        hands_ray(play, &look, &ray, forward);
+        if (!tool->holds)
+            press(play, &ray);
+        touch_move(tool, &ray, forward, scene->world.dimensions);
+    }
+    if (!touch_asks(tool, &scene->touch, scene->world.spacing, &finger))
+        return 0;
+    play->picture.over = true;
+    return model_touch(&play->model, &finger);
+}
+
 void hands_look(Play *play)
 {
     const CameraSight sight = play_sight(play);
@@ -59,7 +106,8 @@ void hands_look(Play *play)
     orbit_axes(&orbit, hand.right, hand.up, hand.away);
     const double event_ms = input_hand(&play->input, has_pad ? &pad : NULL, metres, &hand, &play->asks);
     const uint64_t number = hand_post_look(play->post, &hand, particles->box_size, &news);
-    if (number && event_ms > 0 && !play->model.paused)
-        meter_event(&play->meter, event_ms, number);
+    const uint64_t touched = touch(play);
+    if ((number || touched) && event_ms > 0 && !play->model.paused)
+        meter_event(&play->meter, event_ms, touched ? touched : number);
     take_news(play, &news);
 }

@@ -12,7 +12,7 @@ static const double DRAG_TURN = 2 * M_PI; /* radians that a drag over the pictur
 
 void input_begin(Input *input)
 {
-    *input = (Input){.drag = PLAY_NONE};
+    *input = (Input){.drag = PLAY_NONE, .touching = input->touching};
 }
 
 static void hand_event(Input *input, const WindowEvent *event)
@@ -21,8 +21,20 @@ static void hand_event(Input *input, const WindowEvent *event)
         input->hand_event_ms = event->when_ms;
 }
 
-static PlayCommand drag_of(int button, int modifiers)
+/* Shift and Ctrl move the box while touching, too. */
+static PlayCommand touch_of(int button, int modifiers)
 {
+    if (button == GLFW_MOUSE_BUTTON_RIGHT)
+        return PLAY_TOUCH_OTHER;
+    const bool bare = !(modifiers & (GLFW_MOD_SHIFT | GLFW_MOD_CONTROL));
+    return button == GLFW_MOUSE_BUTTON_LEFT && bare ? PLAY_TOUCH_DRAG : PLAY_NONE;
+}
+
+static PlayCommand drag_of(const Input *input, int button, int modifiers)
+{
+    const PlayCommand touch = input->touching ? touch_of(button, modifiers) : PLAY_NONE;
+    if (touch != PLAY_NONE)
+        return touch;
     if (button == GLFW_MOUSE_BUTTON_RIGHT || button == GLFW_MOUSE_BUTTON_MIDDLE)
         return PLAY_PAN;
     if (button != GLFW_MOUSE_BUTTON_LEFT)
@@ -30,6 +42,11 @@ static PlayCommand drag_of(int button, int modifiers)
     return modifiers & GLFW_MOD_SHIFT     ? PLAY_MOVE_DRAG
            : modifiers & GLFW_MOD_CONTROL ? PLAY_TURN_DRAG
                                           : PLAY_ORBIT;
+}
+
+bool input_touches(const Input *input)
+{
+    return input->drag == PLAY_TOUCH_DRAG || input->drag == PLAY_TOUCH_OTHER;
 }
 
 static bool drags_camera(const Input *input)
@@ -46,12 +63,14 @@ static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
     }
     if (!event->down || input->drag != PLAY_NONE)
         return;
-    input->drag = drag_of(event->button, event->modifiers);
+    input->drag = drag_of(input, event->button, event->modifiers);
     input->drag_button = event->button;
     memcpy(input->mouse, (double[]){event->x, event->y}, sizeof input->mouse);
     input->grabbed = input->drag == PLAY_ORBIT;
     if (input->grabbed)
         ask_add(asks, &(Ask){.kind = ASK_GRAB});
+    if (input_touches(input))
+        hand_event(input, event);
 }
 
 /* A right click becomes a drag once the mouse has left the place. */
@@ -89,6 +108,10 @@ static void on_move(Input *input, const WindowEvent *event, int height, AskQueue
     case PLAY_TURN_DRAG:
         input->turn_drag[0] += turn[0];
         input->turn_drag[1] += turn[1];
+        hand_event(input, event);
+        break;
+    case PLAY_TOUCH_DRAG:
+    case PLAY_TOUCH_OTHER:
         hand_event(input, event);
         break;
     default:
@@ -156,6 +179,24 @@ static void on_drop(const WindowEvent *event, AskQueue *asks)
     ask_add(asks, &ask);
 }
 
+static int modifiers_of(const bool *down)
+{
+    const bool shift = down[GLFW_KEY_LEFT_SHIFT] || down[GLFW_KEY_RIGHT_SHIFT];
+    const bool control = down[GLFW_KEY_LEFT_CONTROL] || down[GLFW_KEY_RIGHT_CONTROL];
+    return (shift ? GLFW_MOD_SHIFT : 0) | (control ? GLFW_MOD_CONTROL : 0);
+}
+
+/* Some systems send it sideways while Shift is down. */
+static void on_wheel(const Input *input, const WindowEvent *event, AskQueue *asks)
+{
+    const bool shift = modifiers_of(input->down) & GLFW_MOD_SHIFT;
+    const double notches = event->y != 0 ? event->y : event->x;
+    if (!input->touching)
+        ask_add(asks, &(Ask){.kind = ASK_ZOOM, .amount = {event->y}});
+    else
+        ask_add(asks, &(Ask){.kind = ASK_TOUCH, .amount = {shift ? 0 : notches, shift ? notches : 0}});
+}
+
 void input_take(Input *input, const WindowEvent *event, int height, AskQueue *asks)
 {
     switch (event->kind) {
@@ -169,7 +210,7 @@ void input_take(Input *input, const WindowEvent *event, int height, AskQueue *as
         on_move(input, event, height, asks);
         break;
     case WINDOW_WHEEL:
-        ask_add(asks, &(Ask){.kind = ASK_ZOOM, .amount = {event->y}});
+        on_wheel(input, event, asks);
         break;
     case WINDOW_FOCUS:
         on_focus(input, event, asks);
@@ -192,13 +233,6 @@ bool input_only_holds(const Input *input, const WindowEvent *event)
     if (event->kind == WINDOW_MOVE)
         return !drags_camera(input);
     return event->kind == WINDOW_KEY && command_of(event) == PLAY_NONE;
-}
-
-static int modifiers_of(const bool *down)
-{
-    const bool shift = down[GLFW_KEY_LEFT_SHIFT] || down[GLFW_KEY_RIGHT_SHIFT];
-    const bool control = down[GLFW_KEY_LEFT_CONTROL] || down[GLFW_KEY_RIGHT_CONTROL];
-    return (shift ? GLFW_MOD_SHIFT : 0) | (control ? GLFW_MOD_CONTROL : 0);
 }
 
 static void add_drags(Input *input, double metres, HandInput *hand)

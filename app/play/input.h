@@ -14,6 +14,7 @@ typedef struct Input {
     double mouse[2];  /* pixels */
     PlayCommand drag; /* PLAY_ORBIT, ..., or PLAY_NONE */
     int drag_button;
+    bool touching;         /* given: drags and the wheel are for the fluid (app/touch) */
     bool grabbed;          /* the drag has the camera; one to shift it that has it not yet is a click */
     bool down[INPUT_KEYS]; /* keys, by their number */
     unsigned pad_buttons;  /* at the last look */
@@ -22,7 +23,7 @@ typedef struct Input {
     double hand_event_ms;  /* wall time of the first event since then that concerns the box; 0: none */
 } Input;
 
-/* Nothing is held: at the start, and when a scene is opened. */
+/* Nothing is held: at the start, and when a scene is opened. What is given stays. */
 void input_begin(Input *input);
 
 /* Takes an event of a picture so many pixels high; its key is as play_key_on_layout has it. */
@@ -31,6 +32,9 @@ void input_take(Input *input, const WindowEvent *event, int height, AskQueue *as
 /* Whether an event asks for nothing: it says what is held and how it moves, of the box or of nothing. Such a
    one may be taken in the middle of a picture. */
 bool input_only_holds(const Input *input, const WindowEvent *event);
+
+/* Whether a drag has the fluid. */
+bool input_touches(const Input *input);
 
 /* Whether a drag or a key has the box; or a drag anything, so that the hand is to be looked at often. */
 bool input_holds_box(const Input *input);

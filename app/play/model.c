@@ -34,6 +34,7 @@ static void follow_travels(Model *model)
         play_scene_advise(&model->open, NULL, NULL);
     }
     hand_post_follow(model->post, &past->target);
+    model->shut = model->status.shut;
 }
 
 /* Once: a box that stands still under the hand would look broken. */
@@ -181,6 +182,7 @@ static void adopt(Model *model, const PlayScene *opened)
     model->has_particles = false;
     post_open(model);
     model->saves = model->messages = model->travels = 0;
+    model->shut = 0;
     model->told_fixed = model->asked_acceleration = false;
     model->told_script = SCRIPT_NONE;
     model->scenes_opened++;
@@ -286,6 +288,7 @@ void model_reset(Model *model)
     keep_session(model);
     hand_post_close(model->post); /* no report comes in between: it would move the box, and be forgotten */
     model->open.source->reset(&model->open);
+    model->shut = 0;
     post_open(model);
 }
 
@@ -496,6 +499,25 @@ bool model_set(Model *model, const char *setting)
     else if (concerns_world && !simulator_send(model->open.simulator, &command))
         notice_error(model->notice, "too many changes wait for the next step; let the time run");
     return true;
+}
+
+void model_shut(Model *model, uint64_t gates)
+{
+    const SimCommand command = {.kind = SIM_SHUT, .shut = gates};
+    if (!model->open.source->simulates)
+        return;
+    model->shut = gates;
+    company_send(model->open.company, &command);
+    simulator_send(model->open.simulator, &command);
+}
+
+uint64_t model_touch(Model *model, const Finger *finger)
+{
+    const SimCommand command = {.kind = SIM_TOUCH, .finger = *finger};
+    if (!model->open.source->simulates)
+        return 0;
+    company_send(model->open.company, &command);
+    return simulator_send(model->open.simulator, &command);
 }
 
 /* Whether the scene's own states need accelerations; those beside it are asked for theirs. */

@@ -33,6 +33,7 @@ typedef struct Model {
     size_t scenes_opened;
     unsigned saves, messages; /* that were told */
     ScriptState told_script;  /* that was told */
+    uint64_t shut;            /* gates that shall be: world_shut */
     unsigned travels;         /* SimulatorPast.travels that were followed */
     atomic_bool pulled;       /* somebody would move the box of a recorded run; */
     bool told_fixed;          /* it was told that none can */
@@ -85,6 +86,12 @@ void model_set_speed(Model *model, double factor); /* so many times the present 
 
 /* "path=value" of a live key: in the scene now, for the solver from its next step on. False: all stays. */
 bool model_set(Model *model, const char *setting);
+
+/* These gates of emitters and drains are shut from the next step on, the others open. */
+void model_shut(Model *model, uint64_t gates);
+
+/* A finger in the fluid from the next step on, or none. The number of its command; 0: it was not taken. */
+uint64_t model_touch(Model *model, const Finger *finger);
 
 /* The views have changed: solvers begin to keep what one of them reads. One that cannot is asked again when
    it was not read meanwhile. */

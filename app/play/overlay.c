@@ -161,6 +161,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .gauge_count = status->gauge_count,
                         .probes = status->probes,
                         .probe_count = status->probe_count,
+                        .shut = model->shut,
                         .particles = particles->count,
                         .time = particles->time,
                         .dt = status->dt,
@@ -216,6 +217,8 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
         ask_add(
             asks,
             &(Ask){.kind = ASK_TUNE, .device = events->tuned, .amount = {events->gain, events->dead_zone}});
+    if (events->gated)
+        ask_add(asks, &(Ask){.kind = ASK_SHUT, .gates = events->shut});
     if (events->command != PLAY_NONE)
         ask_command(asks, (PlayCommand)events->command);
 }

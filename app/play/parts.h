@@ -16,6 +16,7 @@
 #include "app/play/picture.h"
 #include "app/play/readout.h"
 #include "app/play/views.h"
+#include "app/touch/touch.h"
 #include "app/window/shake.h"
 #include "app/window/window.h"
 
@@ -27,6 +28,7 @@ typedef struct Play {
     Model model;
     PlayCamera camera;
     Grip grip;
+    TouchTool touch;
     BoxTarget wanted; /* where the hand wants the box, */
     bool outlined;    /* and an outline shows it */
     Readout readout;
@@ -83,6 +85,9 @@ void events_follow_hand(Play *play);
 
 /* hands.c: what the hand does, between two pictures or in the middle of one; there must be a state. */
 void hands_look(Play *play);
+
+/* hands.c: how the mouse looks at the fluid in a panel: what is under it, and where the camera looks. */
+void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward[3]);
 
 /* act.c: all that waits, in the order in which it was asked for. */
 void act_all(Play *play);

@@ -83,6 +83,12 @@ static bool grow(Recording *recording)
     return true;
 }
 
+static bool is_finger(const Finger *finger)
+{
+    FingerState none = {.point = {0}};
+    return finger_take(&none, finger, 3);
+}
+
 static bool is_finite(const BoxTarget *target)
 {
     double numbers[7];
@@ -98,7 +104,8 @@ bool recording_add(Recording *recording, const SimCommand *command)
 {
     if (command->kind == SIM_SET && !memchr(command->setting, 0, sizeof command->setting))
         return false;
-    if (command->kind != SIM_SET && !is_finite(&command->target))
+    if ((sim_command_poses(command) && !is_finite(&command->target)) ||
+        (command->kind == SIM_TOUCH && !is_finger(&command->finger)))
         return true;
     const size_t count = recording->count;
     if (count == RECORDING_COMMANDS_MAX || !grow(recording) ||

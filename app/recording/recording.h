@@ -14,6 +14,9 @@
      commands
      0 target 0x1p-3 0x0p+0 0x0p+0 0x0p+0 0x0p+0 0x0p+0 0x1p+0      step, position, orientation
      40 carry 0x0p+0 ...
+     60 touch stir 0x1p-4 0x1p-5 0x0p+0 0x1p-5 0x1.4p+5                way, point, radius (m), strength
+     70 touch none
+     75 shut fluids[0].emit[0] drains[1]    all that is shut from here on
      80 set gravity=[0, -3, 0]
      end 400 0123456789abcdef               steps, world_hash
 
@@ -56,8 +59,9 @@ bool recording_set(Recording *recording, const char *setting);
 bool recording_create(Recording *recording, const char *path, const char *text, size_t size,
                       const SceneSettings *settings, Error *error);
 
-/* Adds a copy of the command. A pose that is not finite is left out, as no world takes it. False: no memory,
-   RECORDING_COMMANDS_MAX are there, a step before the last command's, or a setting that is not ended by 0. */
+/* Adds a copy of the command. A pose that is not finite, or what is no finger, is left out, as no world takes
+   it. False: no memory, RECORDING_COMMANDS_MAX are there, a step before the last command's, or a setting that
+   is not ended by 0. */
 bool recording_add(Recording *recording, const SimCommand *command);
 
 /* Writes the file whole or not at all; `steps` and `hash` are those of the world at the end. */

@@ -1,5 +1,8 @@
 #include "app/recording/recording_reader.h"
 
+#include "sim/matter/flow.h"
+#include "sim/touch/touch_def.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
@@ -29,6 +32,53 @@ static bool read_target(const Reader *reader, const char *at, BoxTarget *target)
     return !*at || reader_fail(reader, "'%.40s' follows the seven numbers; leave it out", at);
 }
 
+/* What a finger does; then, unless that is nothing, its point, radius and strength. */
+static bool read_finger(const Reader *reader, const char *at, Finger *finger)
+{
+    char name[8] = "";
+    double *const numbers[] = {&finger->at[0], &finger->at[1], &finger->at[2], &finger->radius,
+                               &finger->strength};
+    FingerState taken = {.point = {0}};
+    const size_t length = strcspn(at + 1, " ");
+    if (length < sizeof name)
+        memcpy(name, at + 1, length);
+    finger->way = finger_way_find(name);
+    if (finger->way == (double)FINGER_WAYS)
+        return reader_fail(
+            reader, "'%.40s' does not say what a finger does; none, stir, pull or push must stand here",
+            at + 1);
+    at += 1 + length;
+    for (int k = 0; k < 5 && finger->way != (double)FINGER_NONE; k++)
+        if (!take_number(&at, numbers[k]))
+            return reader_fail(
+                reader,
+                "number %d of 5 is missing or not finite; the point x y z (m), the radius (m) and "
+                "the strength must stand here",
+                k + 1);
+    if (*at)
+        return reader_fail(reader, "'%.40s' follows what the finger does; leave it out", at);
+    return finger_take(&taken, finger, 3) ||
+           reader_fail(reader, "the radius of a finger must be above 0, and its strength not below");
+}
+
+/* The names of what is shut, each behind a blank. */
+static bool read_shut(const Reader *reader, const char *at, uint64_t *shut)
+{
+    while (*at) {
+        char name[GATE_NAME_SIZE] = "";
+        const size_t length = strcspn(at + 1, " ");
+        if (*at == ' ' && length < sizeof name)
+            memcpy(name, at + 1, length);
+        const int gate = gate_find(name);
+        if (gate < 0)
+            return reader_fail(
+                reader, "'%.40s' cannot be shut; fluids[0].emit[0] or drains[0] would be such names", at);
+        *shut |= 1ULL << gate;
+        at += 1 + length;
+    }
+    return true;
+}
+
 /* The setting after " set", with the lines that carry it on. */
 static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_SIZE])
 {
@@ -47,18 +97,29 @@ static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_S
 
 static bool read_kind(Reader *reader, const char *line, const char *at, SimCommand *command)
 {
-    static const char *const words[] = {[SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_SET] = " set"};
+    static const char *const words[] = {[SIM_TARGET] = " target",
+                                        [SIM_CARRY] = " carry",
+                                        [SIM_TOUCH] = " touch",
+                                        [SIM_SHUT] = " shut",
+                                        [SIM_SET] = " set"};
     for (int kind = SIM_TARGET; kind <= SIM_SET; kind++) {
         const size_t length = strlen(words[kind]);
-        if (strncmp(at, words[kind], length) != 0 || at[length] != ' ')
+        const bool bare = kind == SIM_SHUT && !at[length];
+        if (strncmp(at, words[kind], length) != 0 || (at[length] != ' ' && !bare))
             continue;
         command->kind = (SimCommandKind)kind;
         at += length;
+        if (kind == SIM_SHUT)
+            return read_shut(reader, at, &command->shut);
+        if (kind == SIM_TOUCH)
+            return read_finger(reader, at, &command->finger);
         return kind == SIM_SET ? read_setting(reader, (size_t)(at + 1 - line), command->setting)
                                : read_target(reader, at, &command->target);
     }
     return reader_fail(
-        reader, "'%.40s' is no command; after the step stands target, carry or set, and what it takes", at);
+        reader,
+        "'%.40s' is no command; after the step stands target, carry, touch, shut or set, and what it takes",
+        at);
 }
 
 static bool read_command(Reader *reader)

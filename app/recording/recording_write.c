@@ -1,6 +1,8 @@
 #include "app/recording/recording.h"
 
 #include "app/base/output.h"
+#include "sim/matter/flow.h"
+#include "sim/touch/touch_def.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -47,11 +49,40 @@ static void put_head(FILE *file, const Recording *recording)
     put_scene(file, recording);
 }
 
+static void put_finger(FILE *file, const SimCommand *command)
+{
+    const Finger *f = &command->finger;
+    fprintf(file, "%" PRIu64 " touch %s", command->step, finger_way_name((FingerWay)f->way));
+    if (f->way != (double)FINGER_NONE)
+        fprintf(file, " %a %a %a %a %a", f->at[0], f->at[1], f->at[2], f->radius, f->strength);
+    putc('\n', file);
+}
+
+static void put_shut(FILE *file, const SimCommand *command)
+{
+    char name[GATE_NAME_SIZE];
+    fprintf(file, "%" PRIu64 " shut", command->step);
+    for (int gate = 0; gate < GATES_MAX; gate++)
+        if (gate_shut(command->shut, gate)) {
+            gate_name(gate, name);
+            fprintf(file, " %s", name);
+        }
+    putc('\n', file);
+}
+
 static void put_command(FILE *file, const SimCommand *command)
 {
     if (command->kind == SIM_SET) {
         fprintf(file, "%" PRIu64 " set ", command->step);
         put_text(file, command->setting);
+        return;
+    }
+    if (command->kind == SIM_TOUCH) {
+        put_finger(file, command);
+        return;
+    }
+    if (command->kind == SIM_SHUT) {
+        put_shut(file, command);
         return;
     }
     const double *x = command->target.position, *q = command->target.orientation;

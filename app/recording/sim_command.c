@@ -13,6 +13,11 @@ static bool sets(const SimCommand *command, const char *key)
     return command->kind == SIM_SET && strncmp(command->setting, key, strlen(key)) == 0;
 }
 
+bool sim_command_poses(const SimCommand *command)
+{
+    return command->kind == SIM_TARGET || command->kind == SIM_CARRY;
+}
+
 bool sim_command_moves(const SimCommand *command)
 {
     return sets(command, BACKEND_IS) || sets(command, ACCELERATION_IS);
@@ -66,6 +71,12 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
         break;
     case SIM_CARRY:
         world_carry(*world, &command->target);
+        break;
+    case SIM_TOUCH:
+        world_touch(*world, &command->finger);
+        break;
+    case SIM_SHUT:
+        world_shut(*world, command->shut);
         break;
     case SIM_SET:
         return apply_setting(command->setting, world, scene, error);

@@ -1,5 +1,6 @@
-/* What acts on a running simulation from outside: the hand, and changed settings. Input, panel and scripts
-   send nothing else, so that a list of these commands is all that it takes to do a session again. */
+/* What acts on a running simulation from outside: the hand, a finger, gates, and changed settings. Input,
+   panel and scripts send nothing else, so that a list of these commands is all that it takes to do a session
+   again. */
 #ifndef SLOSH_SIM_COMMAND_H
 #define SLOSH_SIM_COMMAND_H
 
@@ -14,6 +15,8 @@
 typedef enum SimCommandKind {
     SIM_TARGET, /* world_set_target */
     SIM_CARRY,  /* world_carry */
+    SIM_TOUCH,  /* world_touch */
+    SIM_SHUT,   /* world_shut */
     SIM_SET     /* scene_set_live, then world_change, or world_move for another backend */
 } SimCommandKind;
 
@@ -24,9 +27,14 @@ typedef struct SimCommand {
     SimCommandKind kind;
     union {
         BoxTarget target;               /* SIM_TARGET, SIM_CARRY */
+        Finger finger;                  /* SIM_TOUCH */
+        uint64_t shut;                  /* SIM_SHUT */
         char setting[SIM_SETTING_SIZE]; /* SIM_SET: "path=value" of a key that may change */
     };
 } SimCommand;
+
+/* Whether it says where the box shall be. */
+bool sim_command_poses(const SimCommand *command);
 
 /* Applies the command now, whatever its step. `scene` is the one that the world was made from, with all that
    was set since; *world becomes another one where the backend changes. False with the reason: the setting is

@@ -51,6 +51,7 @@ extern const Key box_keys[], fluid_keys[], solid_keys[], solver_keys[], step_key
 extern const Key preset_keys[];                                   /* app/scene */
 extern const Key probe_keys[];                                    /* app/probe */
 extern const Key motion_keys[], solid_motion_keys[], hand_keys[]; /* sim/box */
+extern const Key touch_keys[];                                    /* sim/touch */
 extern const Key method_keys[], backend_keys[];                   /* sim/world */
 extern const Key view_keys[], view_frame_keys[];                  /* render/frame */
 
@@ -165,6 +166,7 @@ static void table_make(void)
     add_rows(step_keys, world, NULL);
     add_rows(realtime_keys, 0, NULL);
     add_rows(hand_keys, offsetof(Scene, world.limits), NULL);
+    add_rows(touch_keys, offsetof(Scene, touch), NULL);
     add_rows(box_motion_keys, world, NULL);
     add_rows(motion_keys, 0, NULL);
     add_rows(metric_keys, 0, NULL);
@@ -216,7 +218,10 @@ const KeyOwner *key_owner(const Key *key)
 
 void scene_default(Scene *scene)
 {
-    *scene = (Scene){.world = world_def_default(), .view = view_def_default(), .realtime = true};
+    *scene = (Scene){.world = world_def_default(),
+                     .view = view_def_default(),
+                     .realtime = true,
+                     .touch = touch_def_default()};
     snprintf(scene->preset, sizeof scene->preset, "%s", preset_list[0].name);
     scene->metric_count = metric_defaults(scene->metrics);
 }

@@ -11,6 +11,7 @@
 #include "render/panels.h"
 #include "sim/base/error.h"
 #include "sim/matter/world_def.h"
+#include "sim/touch/touch_def.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -41,6 +42,7 @@ typedef struct Scene {
     /* what `slosh chart` compares: places in metric_kinds (app/metric/metric_list.h) */
     int metrics[SCENE_METRICS_MAX];
     ProbeList probes; /* no world knows them */
+    TouchDef touch;   /* the same: what the window makes commands of */
 } Scene;
 
 enum { SCENE_SETTINGS_MAX = 64 };

@@ -116,7 +116,7 @@ void simulator_reset(Simulator *simulator)
     simulator->reset = true;
     simulator->singles = 0;
     simulator->wish = (Wish){.pending = false};
-    command_queue_drop_poses(&simulator->queue);
+    command_queue_drop_hand(&simulator->queue);
     change_end(simulator);
 }
 

@@ -179,6 +179,7 @@ typedef struct SimulatorStatus {
     SolveFigures solved;                /* and since the scene's start */
     StepLimit limit;                    /* what bounded it, */
     uint64_t limited[STEP_LIMIT_COUNT]; /* and all steps since the scene's start */
+    uint64_t shut;                      /* gates: world_shut */
     uint64_t step, frames;              /* since the scene's start */
     size_t particles;                   /* of the last state */
     size_t lost;                        /* particles without a place in the grid, in the last step known */

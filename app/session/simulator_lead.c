@@ -97,7 +97,7 @@ void simulator_lead_restart(Simulator *simulator)
     for (int i = 0; i < simulator->follower_count; i++) {
         Simulator *follower = simulator->followers[i];
         pthread_mutex_lock(&follower->lock);
-        command_queue_drop_poses(&follower->queue);
+        command_queue_drop_hand(&follower->queue);
         pthread_mutex_unlock(&follower->lock);
         simulator_restart(follower, follower->work);
     }

@@ -115,7 +115,7 @@ static BoxTarget target_at(const Simulator *simulator)
 {
     const Recording *recording = &simulator->recording;
     for (size_t i = simulator->behind ? simulator->next : recording->count; i > 0; i--)
-        if (recording->commands[i - 1].kind != SIM_SET)
+        if (sim_command_poses(&recording->commands[i - 1]))
             return recording->commands[i - 1].target;
     return (BoxTarget){.orientation = {0, 0, 0, 1}};
 }
@@ -150,6 +150,16 @@ void simulator_obey_recorded(Simulator *simulator)
         simulator_tell_travel(simulator);
 }
 
+/* A finger that is in the fluid leaves it here: its end is of a future that will not be, or of none yet. */
+static void lift_finger(Simulator *simulator)
+{
+    WorldInfo info;
+    world_info(simulator->world, &info);
+    const SimCommand command = {.step = info.step, .kind = SIM_TOUCH};
+    if (info.touched)
+        simulator_obey(simulator, &command);
+}
+
 void simulator_cut(Simulator *simulator)
 {
     WorldInfo info;
@@ -163,6 +173,7 @@ void simulator_cut(Simulator *simulator)
     simulator->behind = false;
     simulator->recording.count = simulator->next;
     past_cut(simulator->past, simulator->at);
+    lift_finger(simulator);
     if (!simulator->follows)
         simulator_tell(simulator, false, words);
     for (int i = 0; i < simulator->follower_count; i++) /* also where the setting is not theirs */
@@ -298,6 +309,8 @@ static void finish_present(Simulator *simulator, Work *work)
         work->commands.commands[i].step = info.step;
         simulator_obey(simulator, &work->commands.commands[i]);
     }
+    if (!simulator->behind)
+        lift_finger(simulator);
     if (!at_its_place(simulator))
         frame_again(simulator);
 }

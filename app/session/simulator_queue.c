@@ -8,27 +8,51 @@ static bool same_key(const char *a, const char *b)
     return key == strcspn(b, "=") && strncmp(a, b, key) == 0;
 }
 
-/* Whether `newer` may stand in the place of `older`. */
+/* Whether `newer` may stand in the place of `older`. A finger that comes back elsewhere was gone in between.
+ */
 static bool replaces(const SimCommand *newer, const SimCommand *older)
 {
     return newer->kind == older->kind &&
-           (newer->kind == SIM_TARGET ||
+           (newer->kind == SIM_TARGET || newer->kind == SIM_SHUT ||
+            (newer->kind == SIM_TOUCH && newer->finger.way == older->finger.way) ||
             (newer->kind == SIM_SET && same_key(newer->setting, older->setting)));
 }
 
-void command_queue_drop_poses(CommandQueue *queue)
+static bool is_pose(const SimCommand *command)
+{
+    return sim_command_poses(command);
+}
+
+static bool is_touch(const SimCommand *command)
+{
+    return command->kind == SIM_TOUCH;
+}
+
+static bool is_of_hand(const SimCommand *command)
+{
+    return command->kind != SIM_SET;
+}
+
+static void drop(CommandQueue *queue, bool (*which)(const SimCommand *command))
 {
     int kept = 0;
     for (int i = 0; i < queue->count; i++)
-        if (queue->commands[i].kind == SIM_SET)
+        if (!which(&queue->commands[i]))
             queue->commands[kept++] = queue->commands[i];
     queue->count = kept;
+}
+
+void command_queue_drop_hand(CommandQueue *queue)
+{
+    drop(queue, is_of_hand);
 }
 
 bool command_queue_add(CommandQueue *queue, const SimCommand *command)
 {
     if (command->kind == SIM_CARRY)
-        command_queue_drop_poses(queue);
+        drop(queue, is_pose);
+    if (command->kind == SIM_TOUCH && command->finger.way == (double)FINGER_NONE)
+        drop(queue, is_touch);
     for (int i = 0; i < queue->count; i++)
         if (replaces(command, &queue->commands[i])) {
             queue->commands[i] = *command;

@@ -32,6 +32,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     memcpy(status->solves, info->solves, sizeof status->solves);
     status->solved = info->solved;
     status->hand = info->hand;
+    status->shut = world_gates_shut(simulator->world);
     status->particles = info->count;
     status->lost = info->lost;
     simulator_past_status(simulator, info);

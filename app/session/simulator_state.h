@@ -124,11 +124,12 @@ struct Simulator {
 };
 
 /* simulator_queue.c. Adds a copy: a target in the place of one that waits, a pose jump in the place of all
-   poses, a setting in the place of one of the same key. False when it is full. */
+   poses, a finger in the place of one that does the same, its end in the place of all of it, a setting in the
+   place of one of the same key. False when it is full. */
 bool command_queue_add(CommandQueue *queue, const SimCommand *command);
 
-/* Forgets targets and pose jumps: the scene begins anew, with the box at home. */
-void command_queue_drop_poses(CommandQueue *queue);
+/* Forgets targets, pose jumps and fingers: the scene begins anew, with the box at home. */
+void command_queue_drop_hand(CommandQueue *queue);
 
 /* simulator_session.c: of the thread that steps. */
 bool simulator_publish(Simulator *simulator, Error *error); /* describes the state, then shows it */

@@ -55,7 +55,7 @@ static void take_save(Simulator *simulator, Work *work)
 /* With the settings that wait, which were asked for before it. Where no step can follow they wait on. */
 void simulator_take_wish(Simulator *simulator, Work *work)
 {
-    command_queue_drop_poses(&simulator->queue);
+    command_queue_drop_hand(&simulator->queue);
     work->travel = simulator->status.past.travelling = true;
     work->wish = simulator->wish;
     work->commands.count = 0;

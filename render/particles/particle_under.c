@@ -39,12 +39,11 @@ static void read_part(const ParticleAttribute *from, size_t first, size_t count,
                             (GLsizeiptr)(count * from->stride), to);
 }
 
-bool particle_under(const ParticleBuffers *particles, const SightRay *ray, double radius, uint32_t *id)
+/* Its number, or SIZE_MAX. */
+static size_t number_under(const ParticleBuffers *particles, const SightRay *ray, double radius)
 {
     float places[4 * PART];
     Found found = {radius, INFINITY, INFINITY, SIZE_MAX, SIZE_MAX};
-    if (!particles->id.buffer)
-        return false;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     for (size_t first = 0; first < particles->count; first += PART) {
         const size_t count = particles->count - first < PART ? particles->count - first : PART;
@@ -52,10 +51,27 @@ bool particle_under(const ParticleBuffers *particles, const SightRay *ray, doubl
         for (size_t i = 0; i < count; i++)
             look_at(&found, ray, places + 4 * i, first + i);
     }
-    const size_t best = found.first != SIZE_MAX ? found.first : found.near;
+    return found.first != SIZE_MAX ? found.first : found.near;
+}
+
+bool particle_under(const ParticleBuffers *particles, const SightRay *ray, double radius, uint32_t *id)
+{
+    const size_t best = particles->id.buffer ? number_under(particles, ray, radius) : SIZE_MAX;
     if (best != SIZE_MAX)
         glGetNamedBufferSubData(particles->id.buffer,
                                 (GLintptr)(particles->id.offset + best * particles->id.stride), sizeof *id,
                                 id);
     return best != SIZE_MAX;
+}
+
+bool particle_place_under(const ParticleBuffers *particles, const SightRay *ray, double radius, double at[3])
+{
+    float place[4];
+    const size_t best = number_under(particles, ray, radius);
+    if (best == SIZE_MAX)
+        return false;
+    read_part(&particles->position, best, 1, place);
+    for (int k = 0; k < 3; k++)
+        at[k] = (double)place[k];
+    return true;
 }

@@ -10,4 +10,7 @@
    waits for the GPU: for a click, not for a picture. Needs the context. */
 bool particle_under(const ParticleBuffers *particles, const SightRay *ray, double radius, uint32_t *id);
 
+/* The same particle's place, box's frame, m; no ids are needed. */
+bool particle_place_under(const ParticleBuffers *particles, const SightRay *ray, double radius, double at[3]);
+
 #endif

@@ -59,11 +59,14 @@
 #define SOLVE_BUFFER  6
 
 /* Locations of uniforms: what a pass has of its own */
-#define PASS_DT_AT      0 /* s */
-#define FELT_DT_AT      1
-#define SHOWN_SCALAR_AT 0
-#define GRAVITY_C2_AT   0
-#define COLUMN_AT       0 /* the first number of a column of scratch, and the first of its parts */
+#define PASS_DT_AT         0 /* s */
+#define FELT_DT_AT         1
+#define SHOWN_SCALAR_AT    0
+#define GRAVITY_C2_AT      0
+#define FINGER_AT          0 /* xyz: the point, m; w: 1 / radius^2 */
+#define FINGER_VELOCITY_AT 1 /* xyz: of the point, m/s; w: grip */
+#define FINGER_KICK_AT     2
+#define COLUMN_AT          0 /* the first number of a column of scratch, and the first of its parts */
 
 /* How many there may be: the scene's limits, which C has as FLUIDS_MAX ... */
 #define FLUIDS_MOST 8

@@ -230,6 +230,7 @@ const Backend backend_cpu = {
     .gauged = cpu_gauged,
     .energy = cpu_energy,
     .feel = cpu_feel,
+    .touch = cpu_touch,
     .guide = cpu_guide,
     .emit = cpu_emit,
     .drain = cpu_drain,

@@ -111,6 +111,7 @@ size_t cpu_drain(void *state, const Fill *regions, int count);
 
 Excess cpu_excess(void *state, const ColumnDef *column);
 double cpu_sum(void *state, const ColumnDef *column);
+void cpu_touch(void *state, const FingerStep *finger);
 void cpu_kick(void *state, const float gravity[3], float dt);
 StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);

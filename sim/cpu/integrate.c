@@ -167,6 +167,40 @@ void cpu_kick(void *state, const float gravity[3], float dt)
         cpu_feel_kick(cpu, dt);
 }
 
+typedef struct Touching {
+    Cpu *cpu;
+    const FingerStep *finger;
+} Touching;
+
+static void touch_run(const Touching *touch, size_t begin, size_t end)
+{
+    const CpuParticles *p = &touch->cpu->now;
+    const FingerStep *finger = touch->finger;
+    for (size_t i = begin; i < end; i++) {
+        float d[3] = {p->x[i] - finger->at[0], p->y[i] - finger->at[1], p->z[i] - finger->at[2]};
+        float v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+        periodic_nearest(&touch->cpu->constants->periodic, d);
+        finger_apply(finger, d, v);
+        p->vx[i] = v[0];
+        p->vy[i] = v[1];
+        p->vz[i] = v[2];
+    }
+}
+
+static void touch_range(void *context, size_t begin, size_t end)
+{
+    const Touching *touch = context;
+    for (size_t i = begin, stop; cpu_run(touch->cpu, &i, end, &stop); i = stop)
+        touch_run(touch, i, stop);
+}
+
+void cpu_touch(void *state, const FingerStep *finger)
+{
+    Cpu *cpu = state;
+    Touching touch = {cpu, finger};
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, touch_range, &touch);
+}
+
 StepWatch cpu_watch(void *state)
 {
     Cpu *cpu = state;

@@ -1,6 +1,8 @@
 #include "sim/matter/flow.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 long emit_layers(const Emit *emit, double spacing, double begin, double end, long *first)
 {
@@ -76,13 +78,33 @@ static void guide_make(const WorldDef *def, int fluid, const Emit *emit, Guide *
     }
 }
 
-int flow_guides(const WorldDef *def, double time, Guide guides[GUIDES_MAX])
+void gate_name(int gate, char name[GATE_NAME_SIZE])
+{
+    if (gate < GUIDES_MAX)
+        snprintf(name, GATE_NAME_SIZE, "fluids[%d].emit[%d]", gate / EMITS_MAX, gate % EMITS_MAX);
+    else
+        snprintf(name, GATE_NAME_SIZE, "drains[%d]", gate - GUIDES_MAX);
+}
+
+int gate_find(const char *name)
+{
+    char own[GATE_NAME_SIZE];
+    for (int gate = 0; gate < GATES_MAX; gate++) {
+        gate_name(gate, own);
+        if (strcmp(own, name) == 0)
+            return gate;
+    }
+    return -1;
+}
+
+int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[GUIDES_MAX])
 {
     int count = 0;
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++) {
             const Emit *emit = &def->fluids[f].emits[i];
-            if (time >= emit->start && (emit->duration == 0 || time < emit->start + emit->duration))
+            if (!gate_shut(shut, gate_of_emitter(f, i)) && time >= emit->start &&
+                (emit->duration == 0 || time < emit->start + emit->duration))
                 guide_make(def, f, emit, &guides[count++]);
         }
     return count;

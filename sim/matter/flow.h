@@ -36,8 +36,26 @@ typedef struct Guide {
 
 enum { GUIDES_MAX = FLUIDS_MAX * EMITS_MAX };
 
-/* Those of the emitters that are at work at `time`; returns how many. */
-int flow_guides(const WorldDef *def, double time, Guide guides[GUIDES_MAX]);
+/* Gates: each emitter has one and each drain, which is a bit of what is shut. Number of a gate; of the gate
+   with a name like "fluids[0].emit[1]" or "drains[2]", -1 where the def has none of it. */
+enum { GATES_MAX = GUIDES_MAX + DRAINS_MAX, GATE_NAME_SIZE = 32 };
+static inline int gate_of_emitter(int fluid, int emitter)
+{
+    return fluid * EMITS_MAX + emitter;
+}
+static inline int gate_of_drain(int drain)
+{
+    return GUIDES_MAX + drain;
+}
+static inline bool gate_shut(uint64_t shut, int gate)
+{
+    return shut >> gate & 1;
+}
+void gate_name(int gate, char name[GATE_NAME_SIZE]);
+int gate_find(const char *name);
+
+/* Those of the emitters that are at work at `time` and not shut; returns how many. */
+int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[GUIDES_MAX]);
 
 /* Whether the guide holds a particle of that fluid at x. */
 static inline bool guide_holds(const Guide *guide, const Periodic *periodic, int fluid, const float x[3])

@@ -7,6 +7,7 @@
 #include "sim/box/box_step.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/solid_step.h"
+#include "sim/touch/finger.h"
 #include "sim/world/constants.h"
 #include "sim/world/method.h"
 #include "sim/world/reading.h"
@@ -69,6 +70,8 @@ typedef struct Backend {
     void (*kick)(void *state, const float gravity[3], float dt);
     /* What the kicks since the last call or `load` found; waits for them. */
     StepWatch (*watch)(void *state);
+    /* What sim/touch/finger.h says, to all particles of fluids. */
+    void (*touch)(void *state, const FingerStep *finger);
     /* Gives the particles in each guide the guide's velocity. */
     void (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums);           /* all members but those that need the box's pose */

@@ -33,7 +33,7 @@ static bool falls_around(const World *world)
 static bool closed(const World *world)
 {
     const WorldDef *def = &world->def;
-    bool closed = def->retries > 0 && world->backend->energy &&
+    bool closed = !finger_on(&world->finger) && def->retries > 0 && world->backend->energy &&
                   (world->method->energy || world->method->incompressible) && !world->layer &&
                   def->drain_count == 0 && !world->constants.lid &&
                   world->constants.tension_model == TENSION_NONE && !falls_around(world);

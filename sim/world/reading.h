@@ -51,6 +51,7 @@ typedef struct WorldInfo {
     BoxTarget hand;                     /* the hand's part of its pose, as the filter has it */
     double gravity[3];                  /* in the box's frame, m/s2 */
     size_t state_bytes;                 /* memory that the backend holds for its particles and grid */
+    bool touched;                       /* a finger is in the fluid */
     bool within_frame;                  /* steps of the frame are left */
     double dt;                          /* of the last step, s */
     StepLimit limit;                    /* what bounded it */

@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const double CALM_STEPS = 200;
 
@@ -81,6 +82,8 @@ static void restore(World *world)
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;
     world->box = numbers->box;
+    if (finger_on(&numbers->finger) && finger_on(&world->finger)) /* what is asked for stays */
+        memcpy(world->finger.point, numbers->finger.point, sizeof world->finger.point);
     if (world->energy.until > 0) /* 0: forgotten since then, by a change that going back does not undo */
         world->energy = numbers->energy;
     world->stepping.max_speed = numbers->stepping.max_speed;

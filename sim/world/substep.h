@@ -3,6 +3,7 @@
 #define SLOSH_SUBSTEP_H
 
 #include "sim/matter/solid_step.h"
+#include "sim/touch/finger.h"
 #include "sim/world/backend.h"
 
 /* What a substep works on: the poses of the box at its begin, middle and end among it. */
@@ -17,6 +18,7 @@ typedef struct Substep {
     BoxStep first_half, second_half;
     int guide_count; /* of the emitters at work */
     Guide guides[GUIDES_MAX];
+    FingerStep finger;               /* of who touches the fluid */
     SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
     ApparentGravity apparent;        /* in the middle */
     float gravity[3];                /* in the box's axes in the middle, m/s2 */
@@ -60,10 +62,12 @@ static inline void substep_whole(const Substep *step, void (*method)(const Subst
             (*term)->end(step);
 }
 
-/* The kick of a step, and what emitters make of it. */
+/* The kick of a step, and what a finger and emitters make of it. */
 static inline void substep_kick(const Substep *step)
 {
     step->backend->kick(step->state, step->gravity, (float)step->dt);
+    if (step->finger.on)
+        step->backend->touch(step->state, &step->finger);
     if (step->guide_count > 0)
         step->backend->guide(step->state, step->guides, step->guide_count);
 }

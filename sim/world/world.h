@@ -10,6 +10,7 @@
 #include "sim/base/stage.h"
 #include "sim/matter/forces.h"
 #include "sim/matter/world_def.h"
+#include "sim/touch/finger.h"
 #include "sim/world/reading.h"
 #include "sim/world/step_control.h"
 
@@ -60,6 +61,14 @@ void world_set_target(World *world, const BoxTarget *target);
 
 /* Puts the box there at once and at rest; the fluid comes along as it is and feels no force. */
 void world_carry(World *world, const BoxTarget *target);
+
+/* A finger in the fluid from the next step on, or none; what is no finger is not taken. */
+void world_touch(World *world, const Finger *finger);
+
+/* Which gates of emitters and drains are shut from the next step on: bits of sim/matter/flow.h; what has no
+   gate is left out. An open emitter sends out the layers that its time has, as if it had never been shut. */
+void world_shut(World *world, uint64_t gates);
+uint64_t world_gates_shut(const World *world);
 
 /* Takes from `def` what may change while a world lives: gravity, viscosities, sound speed, negative pressure,
    dt, substeps, number and max_dt of mode cfl, the hand's limits, live keys of methods; all else must be as

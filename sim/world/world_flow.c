@@ -41,6 +41,36 @@ static bool reserve(World *world, double begin, double end)
     return births_reserve(&world->births, layers);
 }
 
+static int open_drains(const World *world, Fill open[DRAINS_MAX])
+{
+    int count = 0;
+    for (int k = 0; k < world->def.drain_count; k++)
+        if (!gate_shut(world->shut, gate_of_drain(k)))
+            open[count++] = world->def.drains[k];
+    return count;
+}
+
+static uint64_t gates_of(const WorldDef *def)
+{
+    uint64_t gates = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++)
+            gates |= 1ULL << gate_of_emitter(f, i);
+    for (int k = 0; k < def->drain_count; k++)
+        gates |= 1ULL << gate_of_drain(k);
+    return gates;
+}
+
+void world_shut(World *world, uint64_t gates)
+{
+    world->shut = gates & gates_of(&world->def);
+}
+
+uint64_t world_gates_shut(const World *world)
+{
+    return world->shut;
+}
+
 bool world_flow(World *world, Error *error)
 {
     const WorldDef *def = &world->def;
@@ -50,9 +80,12 @@ bool world_flow(World *world, Error *error)
         return error_set(error, "no memory for when particles were born");
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++)
-            let_in(world, f, &def->fluids[f].emits[i], begin, end);
-    if (def->drain_count > 0) {
-        const size_t less = world->backend->drain(world->state, def->drains, def->drain_count);
+            if (!gate_shut(world->shut, gate_of_emitter(f, i)))
+                let_in(world, f, &def->fluids[f].emits[i], begin, end);
+    Fill open[DRAINS_MAX];
+    const int count = open_drains(world, open);
+    if (count > 0) {
+        const size_t less = world->backend->drain(world->state, open, count);
         world->drained += less;
         world->count -= less;
     }

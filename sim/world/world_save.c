@@ -56,6 +56,8 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .filter = world->filter,
         .box = world->box,
         .energy = world->energy,
+        .finger = world->finger,
+        .shut = (double)world->shut,
     };
     live_save(&def, numbers->live);
 }
@@ -95,8 +97,10 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
             return error_set(error, "the saved state is damaged: a number of it is not finite");
     if (!(numbers->step >= numbers->since_step && numbers->since_step >= 0 && numbers->step < 0x1p53 &&
           numbers->stepping.dt > 0 && numbers->stepping.refine >= 1 && numbers->stepping.limit >= 0 &&
-          numbers->stepping.limit < STEP_LIMIT_COUNT && live_sound(numbers->live) && numbers->guarded >= 0 &&
-          numbers->emitted >= 0 && numbers->emitted < 0x1p31 && numbers->drained >= 0))
+          numbers->stepping.limit < STEP_LIMIT_COUNT && live_sound(numbers->live) &&
+          finger_sound(&numbers->finger) && numbers->shut >= 0 && numbers->shut < 0x1p40 &&
+          numbers->guarded >= 0 && numbers->emitted >= 0 && numbers->emitted < 0x1p31 &&
+          numbers->drained >= 0))
         return error_set(error, "the saved state is damaged: its steps do not count");
     return true;
 }
@@ -183,6 +187,8 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->target = numbers->target;
     world->filter = numbers->filter;
     world->box = numbers->box;
+    world->finger = numbers->finger;
+    world->shut = (uint64_t)numbers->shut;
     world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
     world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);

@@ -39,7 +39,10 @@ typedef struct WorldNumbers {
     BoxFilter filter;          /* where its part of the pose is */
     BoxState box;              /* the pose, in the world's frame */
     double live[LIVE_NUMBERS]; /* of the def, what may change while a world lives */
-    EnergyMark energy;         /* stands last: files may end before it */
+    EnergyMark energy;         /* these stand last: files may end before them */
+    FingerState finger;
+    double
+        shut; /* which gates of emitters and drains are, as the bits of a whole number: sim/matter/flow.h */
 } WorldNumbers;
 
 enum {

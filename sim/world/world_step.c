@@ -166,7 +166,17 @@ double world_time_at(const World *world, double step)
     return world->since_time + (step - (double)world->since_step) * world->stepping.dt;
 }
 
-/* Carries box and filter to the end of the substep. */
+/* Parts of what the sentinel bears: a particle may cross a support radius in a step, and what moves as fast
+   as sound is no fluid. */
+static FingerLimits finger_limits(const World *world)
+{
+    static const double OF_BOUND = 0.25, OF_SOUND = 0.3, OF_GAIN = 0.1;
+    const double bound = (double)world->constants.support_radius / world->stepping.dt;
+    const double sound = world->method->incompressible ? INFINITY : world->def.sound_speed;
+    return (FingerLimits){fmin(OF_BOUND * bound, OF_SOUND * sound), OF_GAIN * fmin(bound, sound)};
+}
+
+/* Carries box, filter and finger to the end of the substep. */
 static void substep_prepare(World *world, StageClock *clock, Substep *step)
 {
     const double at = (double)world->step, dt = world->stepping.dt;
@@ -186,7 +196,9 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->solves = world->solves;
     box_step(&begin, &middle, 0.5 * dt, &step->first_half);
     box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
-    step->guide_count = flow_guides(&world->def, world_time_at(world, at), step->guides);
+    const FingerLimits limits = finger_limits(world);
+    finger_step(&world->finger, &limits, dt, &step->finger);
+    step->guide_count = flow_guides(&world->def, world_time_at(world, at), world->shut, step->guides);
     for (int i = 0; i < world->def.solid_count; i++)
         for (int half = 0; half < 2; half++)
             solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
@@ -209,9 +221,10 @@ static void choose_step(World *world)
     StepState *s = &world->stepping;
     StepLimit limit = STEP_LIMIT_DT;
     const double before = world->step > 0 ? s->wanted : 0;
-    s->wanted = def->step_mode == STEP_CFL ? step_cfl(def, &world->constants.friction, s->max_speed,
-                                                      s->max_acceleration, before, &limit)
-                                           : def->dt / def->substeps;
+    s->wanted = def->step_mode == STEP_CFL
+                    ? step_cfl(def, &world->constants.friction, s->max_speed,
+                               s->max_acceleration + finger_acceleration(&world->finger), before, &limit)
+                    : def->dt / def->substeps;
     s->limit = limit;
     double dt = s->wanted / s->refine;
     if (def->step_mode == STEP_CFL)
@@ -339,6 +352,12 @@ void world_set_target(World *world, const BoxTarget *target)
     target_take(world, target);
 }
 
+void world_touch(World *world, const Finger *finger)
+{
+    if (finger_take(&world->finger, finger, world->def.dimensions))
+        energy_forget(world);
+}
+
 void world_carry(World *world, const BoxTarget *target)
 {
     if (!target_take(world, target))
@@ -399,6 +418,7 @@ void world_info(const World *world, WorldInfo *info)
         .support_radius = world->def.support * world->def.spacing,
         .spacing = world->def.spacing,
         .box = world->box,
+        .touched = finger_on(&world->finger),
         .within_frame = world->stepping.frame_left != 0,
         .dt = world->stepping.dt,
         .limit = (StepLimit)world->stepping.limit,

@@ -34,6 +34,8 @@ struct World {
     BoxTarget target;                   /* of the hand */
     BoxFilter filter;                   /* at the present time */
     BoxState box;                       /* at the present time, the hand's part included */
+    FingerState finger;                 /* at the present time */
+    uint64_t shut;                      /* gates of emitters and drains, a bit each */
     double mass;                        /* of the initial fluid, kg */
     EnergyMark energy;                  /* of sim/world/energy_watch.h */
     Forces felt, felt_before;           /* since it was last asked; of the good state */

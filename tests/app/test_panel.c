@@ -13,8 +13,9 @@
 
 enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
 
-static const char *const sections[] = {"History", "Stages", "Accuracy", "Colours", "World", "Fluids",
-                                       "Solver",  "Hand",   "Glyphs",   "Trails"}; /* View is open */
+static const char *const sections[] = {
+    "History", "Stages", "Accuracy", "Colours", "World", "Fluids",
+    "Solver",  "Hand",   "Touch",    "Glyphs",  "Trails"}; /* View is open */
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 /* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
@@ -63,6 +64,7 @@ static void draw_panel(void *user, Desk *desk)
     Session *session = user;
     PanelEvents events;
     panel_draw(session->panel, desk->ui, desk->target.width, desk->target.height, &session->data, &events);
+    session->data.shut = events.gated ? events.shut : session->data.shut;
     session->watches = events.watches;
     session->watches_probes = events.watches_probes;
     take(session, &events);
@@ -683,6 +685,26 @@ static void test_terms_have_switches(void **state)
     session_close(&session, desk);
 }
 
+/* An emitter is shut and opened again; where nothing flows there are no switches. */
+static void test_gates_have_switches(void **state)
+{
+    (void)state;
+    Session session;
+    Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
+    desk_frames(desk, 30);
+    assert_null(desk_find(desk, "Flow"));
+    session_close(&session, desk);
+    desk = session_open(&session, "fountain", 700, TALL, 13);
+    desk_frames(desk, 30);
+    for (uint64_t shut = 1; shut <= 1; shut--) {
+        desk_click_at(desk, "fluids[0].emit[0]", 0.5F);
+        desk_frames(desk, 30);
+        assert_true(session.data.shut == shut);
+    }
+    assert_nothing_is_cut(desk);
+    session_close(&session, desk);
+}
+
 /* A value is set again whole, however long it is, or has no switch. */
 static void test_a_long_term_comes_back(void **state)
 {
@@ -763,6 +785,7 @@ int main(void)
         cmocka_unit_test_teardown(test_nothing_is_cut_at_any_scale, no_gl_errors),
         cmocka_unit_test_teardown(test_nothing_is_cut_in_a_narrow_panel, no_gl_errors),
         cmocka_unit_test_teardown(test_terms_have_switches, no_gl_errors),
+        cmocka_unit_test_teardown(test_gates_have_switches, no_gl_errors),
         cmocka_unit_test_teardown(test_a_long_term_comes_back, no_gl_errors),
         cmocka_unit_test_teardown(test_small_windows_scroll, no_gl_errors),
         cmocka_unit_test_teardown(test_help_lists_every_row, no_gl_errors),

@@ -509,7 +509,7 @@ class Past(Window):
         """Near the lower edge while time runs; a press on it pauses."""
         self.open('still.yaml')
         self.drag(1, [(300, self.BAR), (300, self.BAR)])  # not there yet: the mouse brings it
-        self.keys('t')
+        self.keys('shift+t')
         self.drag(1, [(300, 100), (320, 100)])  # above it: the camera's
         out = self.quit()
         self.assertEqual((out['paused'], out['camera_auto']), (True, False))
@@ -590,6 +590,58 @@ class Mouse(Window):
         code, said = self.slosh('replay', 'b.recording')
         self.assertEqual(code, 1)
         self.assertIn('different after', said)
+
+    def test_touch_stirs_the_fluid(self):
+        """By real events: the box stays, the camera too, and the session is the same again."""
+        self.open('still.yaml', '--record', 'a.recording')
+        self.keys('t')
+        self.drag(1, [(200, 180), (230, 180), (260, 180), (290, 190)])
+        self.drag(3, [(240, 160), (240, 140)])
+        self.xdo('click', 4)
+        self.drawn()
+        self.display.press('shift')
+        self.xdo('click', 4)
+        self.display.release('shift')
+        self.keys('q')
+        self.drag(1, [(240, 180), (245, 180)])
+        self.keys('Escape')  # puts the finger away, and closes nothing
+        self.drawn()
+        self.assertIsNone(self.process.poll())
+        out = self.quit()
+        self.assertEqual(out['box_position'], [0, 0, 0])
+        self.assertTrue(out['camera_auto'])
+        self.assertGreater(out['latency_events'], 0)
+        self.assertRegex(self.messages, r'touch: radius 5\.75 spacings(.|\n)*touch: strength 1\.15')
+        text = self.read('a.recording').decode()
+        touches = re.findall(r'^\d+ touch (\w+)(.*)$', text, re.M)
+        ways = [way for way, _ in touches]
+        self.assertEqual([way for k, way in enumerate(ways) if k == 0 or way != ways[k - 1]],
+                         ['stir', 'none', 'pull', 'none', 'pull', 'none'])
+        stroke = [[float.fromhex(number) for number in rest.split()] for way, rest in touches if way == 'stir']
+        self.assertGreater(stroke[-1][0] - stroke[0][0], 0.05)  # to the right
+        self.assertTrue(all(-0.6 < x < 0.6 and 0 < y < 0.6 and abs(z) < 0.7 for x, y, z, _, _ in stroke), stroke)
+        self.assertAlmostEqual(stroke[0][3], 0.5)  # 5 spacings
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+        self.write('b.recording', re.sub(r'\d+ touch .*\n', '', text))
+        code, said = self.slosh('replay', 'b.recording')
+        self.assertEqual(code, 1)
+        self.assertIn('different after', said)
+
+    def test_a_ring_shows_the_finger(self):
+        """Also while time stands; pressed it has the colour of what the hand holds."""
+        self.open('still.yaml')
+        self.keys('space', 't')
+        self.at(240, 180)
+        self.assertEqual(self.outline(), 0)
+        self.display.fake(X.ButtonPress, [1])
+        self.wait_for(lambda: self.outline() > 50, self.process)
+        self.at(260, 170)
+        self.drawn()
+        self.assertGreater(self.outline(), 50)
+        self.display.fake(X.ButtonRelease, [1])
+        self.wait_for(lambda: self.outline() == 0, self.process)
+        self.keys('r', 't')  # begins anew with nothing in the fluid; the mouse is the camera's again
+        self.quit()
 
     def outline(self):
         """Pixels of the colour of the outline."""

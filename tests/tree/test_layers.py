@@ -24,16 +24,17 @@ SIM = {
     "kernel": "base",
     "box": "base kernel",
     "matter": "base kernel box",
+    "touch": "base",
     "mesh": "base kernel",
     "surface": "base kernel mesh",
-    "world": "base kernel box matter",
-    "cpu": "base kernel box matter world",
-    "viscosity": "base kernel box matter world cpu",
-    "change": "base kernel box matter world cpu",
+    "world": "base kernel box matter touch",
+    "cpu": "base kernel box matter touch world",
+    "viscosity": "base kernel box matter touch world cpu",
+    "change": "base kernel box matter touch world cpu",
 }
 METHODS = own_folders("sim", "Method method")
-SIM["incompressible"] = "base kernel box matter world cpu"
-SIM |= {name: "base kernel box matter world cpu incompressible" for name in METHODS}
+SIM["incompressible"] = "base kernel box matter touch world cpu"
+SIM |= {name: "base kernel box matter touch world cpu incompressible" for name in METHODS}
 SIM_INSIDE = {f"sim/{name}" for name in ["cpu", "incompressible", *METHODS]}  # for no other floor
 GL = {"": "", "compute": "", "fragment": "", "surface": ""}
 BACKENDS = {"sim/gl/compute", "sim/gl/fragment"}  # other floors know them by name only
@@ -60,6 +61,7 @@ APP = {
     "term": "scene",
     "recording": "base yaml scene",
     "hand": "base scene",
+    "touch": "base scene hand",
     "device": "base yaml scene recording hand",
     "held": "base scene hand device",
     "output": "base yaml scene",
@@ -77,7 +79,7 @@ APP = {
     "gallery": "base scene session lab",
     "window": "",
     "panel": "probe scene term hand held session shelf window",
-    "play": "base scene recording hand device held output session playback beside shelf lab window panel",
+    "play": "base scene recording hand touch device held output session playback beside shelf lab window panel",
     "manual": "base scene session",
     "film": "base scene recording output session playback beside",
     "command": "base metric probe outcome yaml scene recording hand device held output session playback export beside shelf trace case lab stability fit ablate gallery play manual film",

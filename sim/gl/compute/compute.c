@@ -326,6 +326,7 @@ const Backend backend_compute = {
     .run = compute_pass,
     .iterate = compute_iterate,
     .kick = compute_kick,
+    .touch = compute_touch,
     .guide = compute_guide,
     .emit = compute_emit,
     .drain = compute_drain,

@@ -70,3 +70,14 @@ void compute_kick(void *state, const float gravity[3], float dt)
     compute_watch_note(c, dt);
     c->felt.seconds += (double)dt;
 }
+
+void compute_touch(void *state, const FingerStep *finger)
+{
+    const Compute *c = state;
+    const GLuint program = c->program[COMPUTE_TOUCH];
+    const float *at = finger->at, *v = finger->velocity;
+    glProgramUniform4f(program, FINGER_AT, at[0], at[1], at[2], finger->inverse_radius2);
+    glProgramUniform4f(program, FINGER_VELOCITY_AT, v[0], v[1], v[2], finger->grip);
+    glProgramUniform1f(program, FINGER_KICK_AT, finger->kick);
+    compute_sweep(c, COMPUTE_TOUCH, c->count);
+}

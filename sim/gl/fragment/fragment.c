@@ -223,6 +223,7 @@ const Backend backend_fragment = {
     .grid = fragment_grid,
     .run = fragment_pass,
     .kick = fragment_kick,
+    .touch = fragment_touch,
     .watch = fragment_watch,
     .mark = fragment_mark,
     .back = fragment_back,

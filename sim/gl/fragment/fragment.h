@@ -33,6 +33,7 @@ enum {
     X(DENSITY, "fragment/screen.vert", NULL, "")                                                             \
     X(FORCE, "fragment/screen.vert", NULL, "")                                                               \
     X(KICK, "fragment/screen.vert", "fragment/kick.frag", "")                                                \
+    X(TOUCH, "fragment/screen.vert", "fragment/touch.frag", "")                                              \
     X(WATCH_FIRST, "fragment/screen.vert", "fragment/watch.frag", "#define FIRST 1\n")                       \
     X(WATCH_MORE, "fragment/screen.vert", "fragment/watch.frag", "")                                         \
     X(WATCH_LAST, "fragment/screen.vert", "fragment/watch_last.frag", "")                                    \
@@ -79,6 +80,9 @@ typedef enum FragmentPass {
     X(gravity)                                                                                               \
     X(scalar)                                                                                                \
     X(c2)                                                                                                    \
+    X(finger_at)                                                                                             \
+    X(finger_velocity)                                                                                       \
+    X(finger_kick)                                                                                           \
     X(fluid_numbers)
 
 typedef enum FragmentUniform {
@@ -210,6 +214,7 @@ void fragment_drift(void *state, const BoxStep *step);
    shaders/sim/SHADER.frag. */
 bool fragment_has(const Method *method);
 void fragment_pass(void *state, const Pass *pass, const PassInput *input);
+void fragment_touch(void *state, const FingerStep *finger);
 void fragment_kick(void *state, const float gravity[3], float dt);
 StepWatch fragment_watch(void *state);
 bool fragment_mark(void *state, Error *error);

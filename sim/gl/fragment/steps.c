@@ -96,3 +96,19 @@ void fragment_kick(void *state, const float gravity[3], float dt)
     fragment_swap(f->velocity);
     fragment_watch_gather(f, gravity, dt);
 }
+
+void fragment_touch(void *state, const FingerStep *finger)
+{
+    Fragment *f = state;
+    const GLuint program = f->program[FRAGMENT_TOUCH];
+    const float *at = finger->at, *v = finger->velocity;
+    glProgramUniform4f(program, fragment_uniform(f, FRAGMENT_TOUCH, FRAGMENT_finger_at), at[0], at[1], at[2],
+                       finger->inverse_radius2);
+    glProgramUniform4f(program, fragment_uniform(f, FRAGMENT_TOUCH, FRAGMENT_finger_velocity), v[0], v[1],
+                       v[2], finger->grip);
+    fragment_set1(f, FRAGMENT_TOUCH, FRAGMENT_finger_kick, finger->kick);
+    fragment_sample(FRAGMENT_SAMPLE_POSITION, f->position[0]);
+    fragment_sample(FRAGMENT_SAMPLE_VELOCITY, f->velocity[0]);
+    draw(f, FRAGMENT_TOUCH, &f->velocity[1], 1);
+    fragment_swap(f->velocity);
+}
