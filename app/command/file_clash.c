@@ -19,7 +19,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-enum { FILES_MAX = 2 * ARGS_SCENES_MAX + 256 }; /* a scene, and of some of them a table a fill */
+enum { FILES_MAX = 2 * ARGS_SCENES_MAX + 256 }; /* a scene, and of some of them a table or a mesh a fill */
 
 typedef enum Use { FILE_READ, FILE_REPLACED, FILE_NEW /* refused where it is there */ } Use;
 
@@ -134,8 +134,12 @@ static void add_outputs(Files *files, const Args *args)
 
 static void add_table(void *user, const char *what, const char *path)
 {
-    const bool table = strcmp(what, "table") == 0;
-    add(user, FILE_READ, table ? "the scene's table" : "the scene's volume", path, NULL);
+    const bool table = strcmp(what, "table") == 0, mesh = strcmp(what, "mesh") == 0;
+    add(user, FILE_READ,
+        table  ? "the scene's table"
+        : mesh ? "the scene's mesh"
+               : "the scene's volume",
+        path, NULL);
 }
 
 static void add_tables(Files *files, const Args *args, const char *path)

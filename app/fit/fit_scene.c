@@ -141,13 +141,20 @@ static void drop_unused(Node *mapping, const char *above, const Scene *own, cons
     }
 }
 
-/* Tables are found from the scene's folder: one that the new file would not find gets its whole name. */
+/* The file of a mesh: no other key of a scene is called so, but for views' data, whose endings are others. */
+static bool names_mesh(const Node *node)
+{
+    return node->key && strcmp(node->key, "file") == 0 && scene_names_mesh(node->text);
+}
+
+/* Tables and meshes are found from the scene's folder: one that the new file would not find gets its whole
+ * name. */
 static void keep_tables(Tree *tree, Node *node, const char *output)
 {
     char from[2 * PATH_MAX], to[2 * PATH_MAX], place[PATH_MAX], other[PATH_MAX];
     for (Node *child = node->first; child; child = child->next)
         keep_tables(tree, child, output);
-    if (!node->text || *node->text == '/' || !scene_names_table(node->text))
+    if (!node->text || *node->text == '/' || !(scene_names_table(node->text) || names_mesh(node)))
         return;
     const char *slash = strrchr(tree->path, '/'), *out = strrchr(output, '/');
     snprintf(from, sizeof from, "%.*s%.1000s", slash ? (int)(slash + 1 - tree->path) : 0, tree->path,

@@ -2,6 +2,7 @@
 #include "app/lab/run_key.h"
 
 #include "app/scene/keys.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <elf.h>
 #include <link.h>
@@ -36,12 +37,20 @@ static uint64_t hash_table(uint64_t h, const FieldTable *table)
     return h;
 }
 
+/* A mesh too. */
+static uint64_t hash_mesh(uint64_t h, const MeshUse *mesh)
+{
+    return mesh->shape ? hash(h, (const char *)&mesh->shape->hash, sizeof mesh->shape->hash) : h;
+}
+
 static uint64_t hash_tables(uint64_t h, const WorldDef *def)
 {
+    for (int k = 0; k < def->solid_count; k++)
+        h = hash_mesh(h, &def->solids[k].mesh);
     for (int f = 0; f < def->fluid_count; f++) {
         h = hash_table(h, def->fluids[f].flow_table);
         for (int i = 0; i < def->fluids[f].fill_count; i++)
-            h = hash_table(h, def->fluids[f].fills[i].heights);
+            h = hash_mesh(hash_table(h, def->fluids[f].fills[i].heights), &def->fluids[f].fills[i].mesh);
     }
     return h;
 }

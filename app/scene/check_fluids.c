@@ -30,10 +30,10 @@ static bool check_block(const Check *check, const Fill *fill, const char *path)
     return true;
 }
 
-/* A ball or a cylinder. */
+/* A ball, a cylinder or a mesh. */
 static bool check_round(const Check *check, const Fill *fill, const char *path)
 {
-    const char *shape = fill->kind == FILL_BALL ? "ball" : "cylinder";
+    const char *shape = fill->kind == FILL_BALL ? "ball" : fill->kind == FILL_MESH ? "mesh" : "cylinder";
     double low[3], high[3];
     char centre[96];
     fill_bounds(fill, low, high);
@@ -120,7 +120,7 @@ static bool check_fill(const Check *check, const Fill *fill, const char *path)
         return false;
     if (fill->kind == FILL_BLOCK)
         return check_block(check, fill, path);
-    snprintf(axis, sizeof axis, "%s.cylinder.axis", path);
+    snprintf(axis, sizeof axis, "%s.%s.axis", path, fill->kind == FILL_MESH ? "mesh" : "cylinder");
     if (fill->kind == FILL_CYLINDER && check->scene->world.dimensions == 2)
         return FAIL(check, path, "a 2D scene has no cylinders; write a ball, which is a disc there");
     return (fill->kind == FILL_BALL || scene_check_axis(check, axis, fill->axis)) &&

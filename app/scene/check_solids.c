@@ -1,5 +1,6 @@
 #include "app/scene/check_parts.h"
 #include "sim/matter/solid_step.h"
+#include "sim/mesh/mesh_shape.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -48,6 +49,8 @@ double scene_solid_width(const SolidDef *solid, int dimensions)
         return fmin(2 * solid->radius, solid->height);
     case SOLID_BOWL:
         return solid->thickness;
+    case SOLID_MESH:
+        return solid->mesh.shape ? 2 * solid->mesh.scale * solid->mesh.shape->depth : INFINITY;
     default:
         return 2 * solid->radius;
     }

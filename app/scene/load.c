@@ -88,7 +88,7 @@ static int dimensions_of(const Tree *tree)
 
 /* A run that goes on has its places already; the spacing that gives a number of particles comes of the
  * tables. */
-static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Error *error)
+static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     const bool needs_tables = !settings->recorded && (!settings->goes_on || settings->particles > 0);
     tree->dimensions = dimensions_of(tree);
@@ -96,7 +96,8 @@ static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Er
         return false;
     out->world.dimensions = tree->dimensions;
     snprintf(out->beside, sizeof out->beside, "%s", settings->beside ? settings->beside : "");
-    return scene_check(tree, out, error) && (!needs_tables || scene_read_tables(tree, out, error));
+    return scene_read_meshes(tree, out, settings->recorded, notes, error) && scene_check(tree, out, error) &&
+           (!needs_tables || scene_read_tables(tree, out, error));
 }
 
 /* A bowl's wall is thick enough to keep fluids apart, whatever the spacing became. */
@@ -184,7 +185,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
 {
     ScalarNames scalars;
     file_scalars(tree, scalars);
-    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, error) ||
+    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, notes, error) ||
         !scene_read_view_files(tree, settings->recorded, out, notes, error))
         return false;
     out->purpose = settings->purpose;

@@ -141,6 +141,17 @@ static void find_in(const Finder *finder, const Node *fluid, const char *key)
         finder->found(finder->user, "table", path);
 }
 
+static void find_mesh(const Finder *finder, const Node *shape)
+{
+    const Node *mesh = shape->kind == NODE_MAPPING ? node_child(shape, "mesh") : NULL;
+    const Node *file = mesh && mesh->kind == NODE_MAPPING ? node_child(mesh, "file") : NULL;
+    char path[1200];
+    Error none;
+    if (file && file->kind == NODE_SCALAR && file->text &&
+        scene_beside_path(finder->scene, file->text, path, &none))
+        finder->found(finder->user, "mesh", path);
+}
+
 static void find_all(const Finder *finder, const Node *fluids)
 {
     for (const Node *fluid = fluids ? fluids->first : NULL; fluid; fluid = fluid->next) {
@@ -148,6 +159,8 @@ static void find_all(const Finder *finder, const Node *fluids)
         find_in(finder, fluid, "velocity_table");
         for (const Node *fill = fills ? fills->first : NULL; fill; fill = fill->next)
             find_in(finder, fill, "below");
+        for (const Node *fill = fills ? fills->first : NULL; fill; fill = fill->next)
+            find_mesh(finder, fill);
     }
 }
 
@@ -196,6 +209,9 @@ void scene_find_tables(const char *path, const char *bytes, size_t size, const S
         ok = tree_set(&tree, settings->set[i], settings->said[i], &none);
     if (ok) {
         find_all(&finder, tree_at(&tree, "fluids"));
+        const Node *solids = tree_at(&tree, "solids");
+        for (const Node *solid = solids ? solids->first : NULL; solid; solid = solid->next)
+            find_mesh(&finder, solid);
         find_views(&finder, tree_at(&tree, "view"));
         find_views(&finder, tree_at(&tree, "views"));
     }

@@ -1,4 +1,4 @@
-/* The files that a scene names: tables of heights and velocities at the start. */
+/* The files that a scene names: tables of heights and velocities at the start, meshes. */
 #ifndef SLOSH_SCENE_TABLES_H
 #define SLOSH_SCENE_TABLES_H
 
@@ -11,15 +11,22 @@
  */
 bool scene_read_tables(const Tree *tree, Scene *scene, Error *error);
 
+/* Reads the meshes that it names, found in the same way and kept as long; NULL notes are allowed. `lenient`:
+   one that cannot be read stays without a shape, and the notes say so. */
+bool scene_read_meshes(const Tree *tree, Scene *scene, bool lenient, Notes *notes, Error *error);
+
 /* Whether the value of a key is the name of a table: it ends in ".csv". */
 bool scene_names_table(const char *text);
+
+/* The same of a mesh, by the endings of their formats. */
+bool scene_names_mesh(const char *text);
 
 /* The path of a file that a scene names, from the scene's folder. */
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
 
-/* Calls `found` with each "table" and "volume" that the scene in these bytes names once the settings (NULL:
-   none) are made, for whoever must not write over them: of a volume with its header and its raw file. Reads
-   headers alone; of a text that is no scene, finds none. */
+/* Calls `found` with each "table", "mesh" and "volume" that the scene in these bytes names once the settings
+   (NULL: none) are made, for whoever must not write over them: of a volume with its header and its raw file.
+   Reads headers alone; of a text that is no scene, finds none. */
 void scene_find_tables(const char *path, const char *bytes, size_t size, const SceneSettings *settings,
                        void (*found)(void *user, const char *what, const char *path), void *user);
 

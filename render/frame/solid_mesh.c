@@ -24,7 +24,7 @@ static void *grown(void *items, size_t *room, size_t wanted, size_t size)
     return moved;
 }
 
-static bool make_room(SolidMesh *mesh, size_t vertices, size_t indices)
+bool solid_mesh_room(SolidMesh *mesh, size_t vertices, size_t indices)
 {
     SolidVertex *vertex =
         grown(mesh->vertices, &mesh->vertex_room, mesh->vertex_count + vertices, sizeof *vertex);
@@ -42,8 +42,8 @@ static bool make_room(SolidMesh *mesh, size_t vertices, size_t indices)
 static bool begin_grid(Pen *pen, int rows, int columns)
 {
     SolidMesh *mesh = pen->mesh;
-    pen->whole = pen->whole && make_room(mesh, (size_t)rows * (size_t)columns,
-                                         6 * (size_t)(rows - 1) * (size_t)(columns - 1));
+    pen->whole = pen->whole && solid_mesh_room(mesh, (size_t)rows * (size_t)columns,
+                                               6 * (size_t)(rows - 1) * (size_t)(columns - 1));
     if (!pen->whole)
         return false;
     const uint32_t first = (uint32_t)mesh->vertex_count, step = (uint32_t)columns;
@@ -211,6 +211,8 @@ bool solid_mesh_add(SolidMesh *mesh, const SolidDef *solid, double slab, uint32_
     Pen pen = {mesh, number, true};
     const bool flat = slab > 0;
     const double radius = solid->radius, outer = radius + solid->thickness;
+    if (solid->kind == SOLID_MESH)
+        return solid_mesh_add_file(mesh, &solid->mesh, number);
     if (solid->kind == SOLID_BOX)
         add_block(&pen, solid->size, flat ? slab : solid->size[2]);
     else if (solid->kind == SOLID_CYLINDER)
@@ -237,5 +239,5 @@ bool solid_mesh_same(const SolidDef *a, const SolidDef *b)
 {
     return a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
            a->thickness == b->thickness && a->size[0] == b->size[0] && a->size[1] == b->size[1] &&
-           a->size[2] == b->size[2];
+           a->size[2] == b->size[2] && a->mesh.shape == b->mesh.shape && a->mesh.scale == b->mesh.scale;
 }

@@ -24,6 +24,14 @@ typedef struct SolidMesh {
 /* Adds a solid. `slab` > 0 is the depth of a flat box, m: the solid is then what it is in the plane, extruded
    along z; a cylinder has no such form and stays one. False, and the mesh unusable, when memory is short. */
 bool solid_mesh_add(SolidMesh *mesh, const SolidDef *solid, double slab, uint32_t number);
+
+/* Room for more; false when memory is short. */
+bool solid_mesh_room(SolidMesh *mesh, size_t vertices, size_t indices);
+
+/* Adds the triangles of a mesh from a file, which are smooth but where its faces meet at an edge; of one that
+   is gone, nothing. */
+bool solid_mesh_add_file(SolidMesh *mesh, const MeshUse *use, uint32_t number);
+
 void solid_mesh_destroy(SolidMesh *mesh);
 
 /* Whether both have the same mesh. */

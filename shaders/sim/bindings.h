@@ -11,6 +11,10 @@
 #define SOLID_STEPS_BLOCK  6
 #define FLOW_BLOCK         7
 #define EXACT_SHAPES_BLOCK 8
+#define MESH_BLOCK         9
+
+/* Texture units */
+#define MESH_VALUES_TEXTURE 15
 
 /* Storage buffers, of which a driver need not have more than eight; solids and a method's own columns need
    more. A pass has one of each number. */

@@ -27,9 +27,9 @@ bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
     if (at_end >= 0.0 && solid_distance(k, from) + at_end >= way)
         return false;
     real t = way > 0.0 ? meeting(k, from, to, way, slack) : 0.0;
-    if (t > 1.0)
+    if (t > 1.0 && at_end >= 0.0)
         return false;
-    rvec3 entry = from + t * (to - from);
+    rvec3 entry = from + min(t, 1.0) * (to - from); // a mesh's distance may be a little more than it is
     normal = solid_normal(k, entry);
     real depth = dot(entry - to, normal) + slack - solid_distance(k, entry);
     if (depth <= 0.0 && at_end >= 0.0) // it was at the surface and leaves it
@@ -39,8 +39,11 @@ bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
         depth = slack - at_end;
     }
     to += depth * normal;
-    depth = -solid_distance(k, to); // where the surface bends towards the way its tangent plane is within it, a little
-    if (depth > 0.0) {
+    // where the surface bends towards the way its tangent plane is within it, a little; a mesh's edge takes more than one go
+    for (int i = 0; i < 8; i++) {
+        depth = -solid_distance(k, to);
+        if (depth <= 0.0)
+            break;
         normal = solid_normal(k, to);
         to += (depth + slack) * normal;
     }

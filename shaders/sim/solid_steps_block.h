@@ -8,6 +8,7 @@
 #define SOLID_BOX      1
 #define SOLID_CYLINDER 2
 #define SOLID_BOWL     3
+#define SOLID_MESH     4
 
 BLOCK_STRUCT(Pose)
 {

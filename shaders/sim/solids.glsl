@@ -17,6 +17,10 @@ const real slack_share = 1e-6lf; // of the reach: how far above a surface a part
 const real slack_share = 4e-6;
 #endif
 
+#ifdef MESHES
+#include "sim/mesh_distance.glsl"
+#endif
+
 vec3 solid_to_box(Pose pose, vec3 x)
 {
     precise vec3 at;
@@ -66,6 +70,10 @@ real solid_distance(int k, rvec3 x)
         real wall = abs(length(x) - (radius + 0.5 * thickness)) - 0.5 * thickness;
         return wall > 0.0 ? wall : max(wall, x.y);
     }
+#ifdef MESHES
+    case SOLID_MESH:
+        return mesh_distance(k, x);
+#endif
     default:
         return length(x) - radius;
     }
@@ -119,6 +127,10 @@ vec3 solid_normal(int k, vec3 x)
                  : kind == SOLID_CYLINDER ? cylinder_slope(solids[k].radius, solids[k].half_edges.y, x)
                  : kind == SOLID_BOWL     ? bowl_slope(solids[k].radius, solids[k].thickness, x)
                                           : x;
+#ifdef MESHES
+    if (kind == SOLID_MESH)
+        slope = mesh_slope(k, x);
+#endif
     float norm = length(slope);
     return norm > 0.0 ? slope / norm : vec3(0.0, 1.0, 0.0);
 }

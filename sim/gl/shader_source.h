@@ -20,7 +20,7 @@ typedef struct EmbeddedShader {
 
 extern const EmbeddedShader embedded_shaders[]; /* ended by a NULL path; made at build time */
 
-enum { SHADER_FILES_MAX = 32, SHADER_PATH_MAX = 128 };
+enum { SHADER_FILES_MAX = 40, SHADER_PATH_MAX = 128 };
 
 typedef struct ShaderSource {
     char *text; /* owned; complete, with #version and the defines */

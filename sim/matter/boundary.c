@@ -1,5 +1,8 @@
 #include "sim/matter/boundary.h"
 
+#include "sim/matter/boundary_mesh.h"
+#include "sim/mesh/mesh_shape.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -187,6 +190,10 @@ static void measures(const SolidDef *solid, int dimensions, double *volume, doub
         *volume = flat ? M_PI / 2 * (outer * outer - r * r) : 2 * M_PI / 3 * (cube(outer) - cube(r));
         *area = flat ? M_PI * (outer + r) : 2 * M_PI * (outer * outer + r * r);
         break;
+    case SOLID_MESH:
+        *volume = cube(solid->mesh.scale) * solid->mesh.shape->volume;
+        *area = solid->mesh.scale * solid->mesh.scale * solid->mesh.shape->area;
+        break;
     default:
         *volume = flat ? M_PI * r * r : 4 * M_PI / 3 * cube(r);
         *area = flat ? 2 * M_PI * r : 4 * M_PI * r * r;
@@ -224,29 +231,48 @@ static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, 
     return kept;
 }
 
-bool boundary_create(Boundary *boundary, const WorldDef *def)
+/* The layers of a solid of the def in memory of their own; NULL when memory is short. */
+static float *layers_of(const WorldDef *def, const SolidDef *solid, size_t *count)
 {
     const double depth = def->support * def->spacing;
+    if (solid->kind == SOLID_MESH)
+        return boundary_mesh_layers(&solid->mesh, def->spacing, depth, count);
+    *count = boundary_layers(solid, def->dimensions, def->spacing, depth, NULL);
+    float *position = malloc((3 * *count + 1) * sizeof *position);
+    if (position)
+        boundary_layers(solid, def->dimensions, def->spacing, depth, position);
+    return position;
+}
+
+static bool add_solid(Boundary *boundary, const WorldDef *def, int index)
+{
+    size_t count;
+    float *layers = layers_of(def, &def->solids[index], &count);
+    if (!layers)
+        return false;
+    count = keep_in_box(&def->solids[index], def, layers, count);
+    const size_t all = boundary->count + count;
+    float *rest = realloc(boundary->rest, (3 * all + 1) * sizeof *rest);
+    boundary->rest = rest ? rest : boundary->rest;
+    uint8_t *solid = realloc(boundary->solid, all + 1);
+    boundary->solid = solid ? solid : boundary->solid;
+    if (rest && solid) {
+        memcpy(rest + 3 * boundary->count, layers, 3 * count * sizeof *rest);
+        memset(solid + boundary->count, index, count);
+        boundary->count = all;
+    }
+    free(layers);
+    return rest && solid;
+}
+
+bool boundary_create(Boundary *boundary, const WorldDef *def)
+{
     memset(boundary, 0, sizeof *boundary);
     for (int i = 0; i < def->solid_count; i++)
-        boundary->count += boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, NULL);
-    if (boundary->count == 0)
-        return true;
-    boundary->rest = malloc(3 * boundary->count * sizeof *boundary->rest);
-    boundary->solid = malloc(boundary->count);
-    if (!boundary->rest || !boundary->solid) {
-        boundary_destroy(boundary);
-        return false;
-    }
-    size_t at = 0;
-    for (int i = 0; i < def->solid_count; i++) {
-        float *rest = boundary->rest + 3 * at;
-        const size_t all = boundary_layers(&def->solids[i], def->dimensions, def->spacing, depth, rest);
-        const size_t more = keep_in_box(&def->solids[i], def, rest, all);
-        memset(boundary->solid + at, i, more);
-        at += more;
-    }
-    boundary->count = at;
+        if (!add_solid(boundary, def, i)) {
+            boundary_destroy(boundary);
+            return false;
+        }
     return true;
 }
 

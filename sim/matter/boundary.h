@@ -17,8 +17,9 @@ typedef struct Boundary {
 bool boundary_create(Boundary *boundary, const WorldDef *def);
 void boundary_destroy(Boundary *boundary);
 
-/* The layers of one solid, up to `depth` m behind the surface: writes 3 floats a particle, in the solid's
-   frame, and returns how many there are; with NULL it only counts. In two dimensions all have z = 0. */
+/* The layers of one solid that is no mesh, up to `depth` m behind the surface: writes 3 floats a particle, in
+   the solid's frame, and returns how many there are; with NULL it only counts. In two dimensions all have z =
+   0. */
 size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, double depth, float *position);
 
 /* About as many, without making them. */

@@ -26,7 +26,9 @@ static double fill_top(const WorldDef *def, const Fill *fill, const double low[3
 {
     double min[3], max[3];
     for (int k = 0; k < 3; k++) {
-        const double reach = fill->radius + (fill->kind == FILL_CYLINDER ? 0.5 * fill->height : 0);
+        const double reach = fill->kind == FILL_MESH
+                                 ? mesh_use_reach(&fill->mesh)
+                                 : fill->radius + (fill->kind == FILL_CYLINDER ? 0.5 * fill->height : 0);
         const bool block = fill->kind == FILL_BLOCK;
         min[k] = fmax(low[k], block ? fill->min[k] : fill->centre[k] - reach);
         max[k] = fmin(high[k], block ? fill->max[k] : fill->centre[k] + reach);

@@ -1,5 +1,7 @@
 #include "sim/matter/fill.h"
 
+#include "sim/mesh/mesh_shape.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -8,9 +10,31 @@ double fill_volume(const Fill *fill, int dimensions)
     const double r = fill->radius, depth = dimensions == 3 ? fill->max[2] - fill->min[2] : 1;
     if (fill->kind == FILL_CYLINDER)
         return M_PI * r * r * fill->height;
+    if (fill->kind == FILL_MESH)
+        return fill->mesh.shape ? pow(fill->mesh.scale, 3) * fill->mesh.shape->volume : 0;
     if (fill->kind == FILL_BALL)
         return dimensions == 3 ? 4 * M_PI / 3 * r * r * r : M_PI * r * r;
     return (fill->max[0] - fill->min[0]) * (fill->max[1] - fill->min[1]) * depth;
+}
+
+/* From the box's frame to the mesh's own: the rows of the turn back. */
+static void mesh_rows(const Fill *fill, double row[3][3])
+{
+    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double q[4];
+    solid_turn(fill->axis, fill->angle_deg, q);
+    for (int k = 0; k < 3; k++)
+        quat_rotate(q, axes[k], row[k]);
+}
+
+/* How far a mesh reaches from its middle along an axis of the box. */
+static double mesh_reach(const Fill *fill, int axis)
+{
+    double row[3][3], reach = 0;
+    mesh_rows(fill, row);
+    for (int k = 0; k < 3 && fill->mesh.shape; k++)
+        reach += fabs(row[k][axis]) * fill->mesh.scale * fill->mesh.shape->half[k];
+    return reach;
 }
 
 void fill_bounds(const Fill *fill, double low[3], double high[3])
@@ -22,7 +46,7 @@ void fill_bounds(const Fill *fill, double low[3], double high[3])
             high[k] = fill->max[k];
             continue;
         }
-        double reach = fill->radius;
+        double reach = fill->kind == FILL_MESH ? mesh_reach(fill, k) : fill->radius;
         if (fill->kind == FILL_CYLINDER) {
             const double along2 = a[k] * a[k] / length2;
             reach = 0.5 * fill->height * sqrt(along2) + fill->radius * sqrt(fmax(0, 1 - along2));
@@ -43,6 +67,16 @@ static bool cylinder_holds(const Fill *fill, const double x[3])
     }
     const double along2 = along * along / length2;
     return along2 <= 0.25 * fill->height * fill->height && r2 - along2 <= fill->radius * fill->radius;
+}
+
+static bool mesh_holds(const Fill *fill, const double x[3])
+{
+    const double d[3] = {x[0] - fill->centre[0], x[1] - fill->centre[1], x[2] - fill->centre[2]};
+    double row[3][3], at[3];
+    mesh_rows(fill, row);
+    for (int k = 0; k < 3; k++)
+        at[k] = row[k][0] * d[0] + row[k][1] * d[1] + row[k][2] * d[2];
+    return mesh_use_distance(&fill->mesh, at) <= 0;
 }
 
 /* Points of a lattice ask for the same few formulas, one after the other, and a column of them for the same
@@ -108,6 +142,8 @@ static bool shape_holds(const Fill *fill, int dimensions, const double x[3], dou
     }
     if (fill->kind == FILL_CYLINDER)
         return cylinder_holds(fill, x);
+    if (fill->kind == FILL_MESH)
+        return mesh_holds(fill, x);
     double r2 = 0;
     for (int k = 0; k < axes; k++)
         r2 += (x[k] - fill->centre[k]) * (x[k] - fill->centre[k]);

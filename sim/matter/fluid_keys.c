@@ -47,6 +47,7 @@ static void fill_init(void *element, int index)
     (void)index;
     Fill *fill = element;
     fill->axis[1] = 1;
+    fill->mesh.scale = 1;
     snprintf(fill->below, sizeof fill->below, "none");
 }
 
@@ -70,7 +71,7 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].taylor_green", 0, "m/s", 0, 1000, FLUID(taylor_green), "besides it at the start Taylor and Green's vortices of that speed, two by two in x and y, with their pressure"),
     COLOR("fluids[].color", L | I | KEY_SINGLE, FLUID(color), "by turn", "sRGB: [red, green, blue], each 0 to 1"),
     LIST("fluids[].fill", 0, 1, FILLS_MAX, FLUID(fills), FLUID(fill_count), Fill, fill_init,
-         "what the fluid fills at the start: blocks, balls and cylinders; a fluid needs this or emitters"),
+         "what the fluid fills at the start: blocks, balls, cylinders and meshes; a fluid needs this or emitters"),
     TEXT("fluids[].fill[].below", 0, FORMULA_SIZE, FILL(below), NULL, "where the fill ends at a height of its own, m: a formula of x and z as in velocity_formula; or a file .csv as in velocity_table, with the columns x, z and height; its particles are moved to end there"),
     VARIANT("fluids[].fill[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),
     VEC3("fluids[].fill[].block.min", R, "m", -1000, 1000, FILL(min), "its corner with the least x, y, z"),
@@ -83,6 +84,12 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].fill[].cylinder.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
     NUMBER("fluids[].fill[].cylinder.height", R | O, "m", 0, 1000, FILL(height), "its length"),
     VEC3("fluids[].fill[].cylinder.axis", 0, "", -1000, 1000, FILL(axis), "its direction"),
+    VARIANT("fluids[].fill[].mesh", FILL(kind), FILL_MESH, "what a closed mesh of triangles from a file encloses, in three dimensions"),
+    TEXT("fluids[].fill[].mesh.file", R, MESH_NAME_SIZE, FILL(mesh.file), NULL, "as of solids[].mesh"),
+    VEC3("fluids[].fill[].mesh.centre", R, "m", -1000, 1000, FILL(centre), "where the middle of the block around it is"),
+    NUMBER("fluids[].fill[].mesh.scale", O, "m", 0, 1e6, FILL(mesh.scale), "of a unit of the file"),
+    VEC3("fluids[].fill[].mesh.axis", 0, "", -1000, 1000, FILL(axis), "what it is turned about"),
+    NUMBER("fluids[].fill[].mesh.angle", 0, "degrees", -360, 360, FILL(angle_deg), "how far it is turned"),
 
     LIST("fluids[].emit", 0, 0, EMITS_MAX, FLUID(emits), FLUID(emit_count), Emit, NULL,
          "what sends it out: a lattice at rest density, layer by layer, where there is room"),

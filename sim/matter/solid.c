@@ -1,5 +1,7 @@
 #include "sim/matter/solid.h"
 
+#include "sim/mesh/mesh_shape.h"
+
 #include <math.h>
 #include <stddef.h>
 
@@ -32,16 +34,21 @@ static void turn_from_y(const double axis[3], double q[4])
     q[0] = 0.5 * a[2] / w, q[1] = 0, q[2] = -0.5 * a[0] / w, q[3] = w;
 }
 
+void solid_turn(const double axis[3], double angle_deg, double q[4])
+{
+    const double angle = angle_deg * (M_PI / 180), norm = length(axis);
+    const double turn[3] = {axis[0] / norm * angle, axis[1] / norm * angle, axis[2] / norm * angle};
+    q[0] = q[1] = q[2] = 0, q[3] = 1;
+    quat_turn(turn, q);
+}
+
 static void rest_orientation(const SolidDef *solid, double q[4])
 {
     q[0] = q[1] = q[2] = 0, q[3] = 1;
     if (solid->kind == SOLID_CYLINDER || solid->kind == SOLID_BOWL) {
         turn_from_y(solid->axis, q);
-    } else if (solid->kind == SOLID_BOX && solid->angle_deg != 0) {
-        const double angle = solid->angle_deg * (M_PI / 180), norm = length(solid->axis);
-        const double turn[3] = {solid->axis[0] / norm * angle, solid->axis[1] / norm * angle,
-                                solid->axis[2] / norm * angle};
-        quat_turn(turn, q);
+    } else if (solid->angle_deg != 0 && (solid->kind == SOLID_BOX || solid->kind == SOLID_MESH)) {
+        solid_turn(solid->axis, solid->angle_deg, q);
     }
 }
 
@@ -86,6 +93,17 @@ static double bowl_distance(const SolidDef *solid, const double x[3])
     return wall > 0 ? wall : fmax(wall, x[1]);
 }
 
+double mesh_use_distance(const MeshUse *mesh, const double x[3])
+{
+    const double scale = mesh->scale, at[3] = {x[0] / scale, x[1] / scale, x[2] / scale};
+    return mesh->shape ? scale * distance_at(&mesh->shape->distance, at, NULL) : INFINITY;
+}
+
+double mesh_use_reach(const MeshUse *mesh)
+{
+    return mesh->shape ? mesh->scale * mesh->shape->reach : 0;
+}
+
 double solid_distance(const SolidDef *solid, int dimensions, const double x[3])
 {
     const double half[3] = {0.5 * solid->size[0], 0.5 * solid->size[1], 0.5 * solid->size[2]};
@@ -96,6 +114,8 @@ double solid_distance(const SolidDef *solid, int dimensions, const double x[3])
         return cylinder_distance(solid, x);
     case SOLID_BOWL:
         return bowl_distance(solid, x);
+    case SOLID_MESH:
+        return mesh_use_distance(&solid->mesh, x);
     default:
         return length(x) - solid->radius;
     }
@@ -127,6 +147,8 @@ double solid_reach(const SolidDef *solid)
         return hypot(solid->radius, 0.5 * solid->height);
     case SOLID_BOWL:
         return solid->radius + solid->thickness;
+    case SOLID_MESH:
+        return mesh_use_reach(&solid->mesh);
     default:
         return solid->radius;
     }
@@ -149,13 +171,16 @@ static double way_along(const SolidDef *solid, int axis)
 
 bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high)
 {
-    bool turned = solid->kind != SOLID_BOX || solid->angle_deg != 0;
+    const MeshUse *mesh = solid->kind == SOLID_MESH && solid->mesh.shape ? &solid->mesh : NULL;
+    bool turned = (solid->kind != SOLID_BOX && !mesh) || solid->angle_deg != 0;
     for (int i = 0; i < solid->motion_count; i++)
         turned |= !motion_translates(&solid->motions[i]);
     SolidDef flat = *solid;
     if (dimensions == 2)
         flat.size[2] = 0;
-    const double half = turned ? solid_reach(&flat) : 0.5 * solid->size[axis];
+    const double half = turned ? solid_reach(&flat)
+                        : mesh ? mesh->scale * mesh->shape->half[axis]
+                               : 0.5 * solid->size[axis];
     const double reach = (1 - 1e-9) * half + way_along(solid, axis);
     return solid->centre[axis] - reach >= low && solid->centre[axis] + reach <= high;
 }

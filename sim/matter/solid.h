@@ -1,8 +1,8 @@
 /* Solids: bodies in the box, at rest in it or moving on a prescribed path, that the fluid flows around.
 
    A solid has a frame of its own: a sphere is centred there, a box has its edges along the axes, a cylinder
-   lies along y, a bowl (half of a hollow sphere) opens towards +y. Its pose places that frame in the box's
-   frame. */
+   lies along y, a bowl (half of a hollow sphere) opens towards +y, a mesh has the middle of the block around
+   it there. Its pose places that frame in the box's frame. */
 #ifndef SLOSH_SOLID_H
 #define SLOSH_SOLID_H
 
@@ -13,11 +13,14 @@
 enum { SOLIDS_MAX = 16 };
 
 /* X(ENUM, name, help) */
-#define SOLID_LIST(X)                                                                                        \
-    X(SPHERE, "sphere", "a ball; in two dimensions a disc")                                                  \
-    X(BOX, "box", "a block, turned by `angle` about `axis`")                                                 \
-    X(CYLINDER, "cylinder", "a cylinder along `axis`; not in two dimensions")                                \
-    X(BOWL, "bowl", "half of a hollow sphere that opens towards `axis`; in two dimensions half of a ring")
+#define SOLID_LIST(X)                                                                                         \
+    X(SPHERE, "sphere", "a ball; in two dimensions a disc")                                                   \
+    X(BOX, "box", "a block, turned by `angle` about `axis`")                                                  \
+    X(CYLINDER, "cylinder", "a cylinder along `axis`; not in two dimensions")                                 \
+    X(BOWL, "bowl", "half of a hollow sphere that opens towards `axis`; in two dimensions half of a ring")    \
+    X(MESH, "mesh",                                                                                           \
+      "a closed mesh of triangles from a file (OBJ, PLY, STL, glTF), turned by `angle` about `axis`; not in " \
+      "two dimensions")
 
 typedef enum SolidKind {
 #define X(NAME, name, help) SOLID_##NAME,
@@ -31,6 +34,17 @@ typedef enum Slip { SLIP_FREE, SLIP_NONE } Slip;
 
 extern const char *const slip_names[]; /* in its order, ended by NULL */
 
+enum { MESH_NAME_SIZE = 96 };
+struct MeshShape;
+
+/* A mesh that a solid or a fill has the shape of. */
+typedef struct MeshUse {
+    char file[MESH_NAME_SIZE];     /* the name of the file that `shape` was read from */
+    double scale;                  /* m of a unit of the file */
+    const struct MeshShape *shape; /* sim/mesh/mesh_shape.h; must outlive all copies. NULL: no kind of mesh,
+                                      or its file is gone */
+} MeshUse;
+
 /* Fields that a kind does not name are unused. All in the box's frame. */
 typedef struct SolidDef {
     SolidKind kind;
@@ -39,21 +53,26 @@ typedef struct SolidDef {
     double radius;    /* sphere, cylinder, bowl (inside), m */
     double height;    /* cylinder, m */
     double thickness; /* bowl: of its wall, m */
-    double axis[3];   /* cylinder, bowl: its direction; box: what it is turned about; any length but zero */
-    double angle_deg; /* box, degrees */
-    int slip;         /* a Slip */
-    float color[3];   /* linear RGB 0..1: for the views, no solver reads it */
+    double axis[3]; /* cylinder, bowl: its direction; box, mesh: what it is turned about; any length but 0 */
+    double angle_deg; /* box, mesh, degrees */
+    MeshUse mesh;
+    int slip;       /* a Slip */
+    float color[3]; /* linear RGB 0..1: for the views, no solver reads it */
     int motion_count;
     Motion motions[MOTIONS_MAX]; /* act together, as the box's own do; turns go about the centre */
 } SolidDef;
 
 const char *solid_name(SolidKind kind);
 
+/* The turn by `angle_deg` about `axis`. */
+void solid_turn(const double axis[3], double angle_deg, double q[4]);
+
 /* Where the solid's frame is at `time` (s), in the box's frame, and how it moves there. */
 void solid_pose(const SolidDef *solid, double time, BoxState *pose);
 
 /* Signed distance of x (the solid's frame, m) from the surface: less than 0 inside; outside it is exact,
-   inside no more than the true depth. In two dimensions x[2] must be 0. */
+   inside no more than the true depth; of a mesh as sim/mesh/distance.h has it. In two dimensions x[2] must be
+   0. */
 double solid_distance(const SolidDef *solid, int dimensions, const double x[3]);
 
 /* Unit vector along which the distance grows fastest. */
@@ -65,5 +84,9 @@ bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, 
 
 /* Radius of a ball about the origin of the solid's own frame that holds the solid, m. */
 double solid_reach(const SolidDef *solid);
+
+/* The same of a mesh of that size: x about its middle, m; INFINITY and 0 without a shape. */
+double mesh_use_distance(const MeshUse *mesh, const double x[3]);
+double mesh_use_reach(const MeshUse *mesh);
 
 #endif

@@ -26,6 +26,13 @@
     RADIUS(S, "inside")                                                                                      \
     NUMBER(S ".thickness", 0, "m", 0, 1000, SOLID(thickness), "of its wall; 0: the support radius"),         \
         DIRECTION(S, "where it opens to")
+#define FIELDS_MESH(S)                                                                                       \
+    TEXT(S ".file", R, MESH_NAME_SIZE, SOLID(mesh.file), NULL,                                               \
+         "found from the scene's folder: .obj, .ply, .stl, .gltf or .glb, of at most 2,000,000 triangles"),  \
+        CENTRE(S, "where the middle of the block around it is")                                              \
+            NUMBER(S ".scale", O, "m", 0, 1e6, SOLID(mesh.scale), "of a unit of the file"),                  \
+        DIRECTION(S, "what it is turned about")                                                              \
+            NUMBER(S ".angle", 0, "degrees", -360, 360, SOLID(angle_deg), "how far it is turned"),
 #define SOLID_ROWS(KIND, NAME, HELP)                                                                         \
     VARIANT("solids[]." NAME, SOLID(kind), SOLID_##KIND, HELP), FIELDS_##KIND("solids[]." NAME)
 
@@ -34,6 +41,7 @@ static void solid_init(void *element, int index)
     (void)index;
     SolidDef *solid = element;
     solid->axis[1] = 1;
+    solid->mesh.scale = 1;
     for (int k = 0; k < 3; k++)
         solid->color[k] = (float)srgb_to_linear(0.62); /* a grey that no fluid has */
 }

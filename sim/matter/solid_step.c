@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+enum { LEAVES = 8 };
+
 static void store(const double v[3], float out[3])
 {
     for (int k = 0; k < 3; k++)
@@ -128,15 +130,18 @@ static double meeting(const Way *way, double length, double slack)
     return t;
 }
 
-/* Where the surface bends towards the way its tangent plane is within it, a little. */
+/* Where the surface bends towards the way its tangent plane is within it, a little. The distance from a mesh
+   grows by less than the way does at its edges: there it takes more than one go. */
 static void leave(Way *way, double slack, double normal[3])
 {
-    const double depth = -solid_distance(way->solid, way->dimensions, way->to);
-    if (depth <= 0)
-        return;
-    solid_normal(way->solid, way->dimensions, way->to, normal);
-    for (int k = 0; k < 3; k++)
-        way->to[k] += (depth + slack) * normal[k];
+    for (int i = 0; i < LEAVES; i++) {
+        const double depth = -solid_distance(way->solid, way->dimensions, way->to);
+        if (depth <= 0)
+            return;
+        solid_normal(way->solid, way->dimensions, way->to, normal);
+        for (int k = 0; k < 3; k++)
+            way->to[k] += (depth + slack) * normal[k];
+    }
 }
 
 /* Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there.
@@ -150,10 +155,11 @@ static bool hold(Way *way, double normal[3])
     if (at_end >= 0 && distance_on(way, 0) + at_end >= length)
         return false;
     const double t = length > 0 ? meeting(way, length, slack) : 0;
-    if (t > 1)
+    if (t > 1 && at_end >= 0)
         return false;
     double entry[3], depth = 0;
-    along(way, t, entry);
+    along(way, fmin(t, 1),
+          entry); /* a mesh's distance may be a little more than it is, and lead past the end */
     solid_normal(way->solid, way->dimensions, entry, normal);
     for (int k = 0; k < 3; k++)
         depth += (entry[k] - way->to[k]) * normal[k];

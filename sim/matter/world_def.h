@@ -27,15 +27,17 @@ typedef struct BackendDef {
     _Alignas(8) unsigned char bytes[BACKEND_DEF_SIZE];
 } BackendDef;
 
-typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER } FillKind;
+typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER, FILL_MESH } FillKind;
 
 /* A region that is full of a fluid at the start: it takes the points of one lattice that all fills share,
    with the scene's spacing, half a spacing from the floor and centred between the walls. */
 typedef struct Fill {
     FillKind kind;
     double min[3], max[3];     /* block, m */
-    double centre[3], radius;  /* ball and cylinder, m */
+    double centre[3], radius;  /* ball and cylinder, m; of a mesh the middle of the block around it */
     double axis[3], height;    /* cylinder: its direction, of any length but zero; m. 3D only */
+    double angle_deg;          /* mesh: its turn about `axis`, degrees */
+    MeshUse mesh;              /* 3D only */
     char below[FORMULA_SIZE];  /* it ends at this height (m), a formula of x and z, if one is given; or the
                                   name of the file that `heights` was read from */
     const FieldTable *heights; /* NULL: `below` is a formula or not given; column 0: m. For world_create */

@@ -42,6 +42,9 @@ static bool shape_check(const SolidDef *solid, int dimensions)
                positive(length2(solid->axis));
     case SOLID_BOWL:
         return positive(solid->radius) && positive(solid->thickness) && positive(length2(solid->axis));
+    case SOLID_MESH:
+        return dimensions == 3 && solid->mesh.shape && positive(solid->mesh.scale) &&
+               positive(length2(solid->axis));
     default:
         return positive(solid->radius);
     }
@@ -63,8 +66,8 @@ static bool solids_check(const WorldDef *def, Error *error)
     for (int i = 0; i < def->solid_count; i++) {
         const SolidDef *solid = &def->solids[i];
         if (!shape_check(solid, def->dimensions))
-            return error_set(error, "solid %d: lengths must be positive, an axis not zero, no cylinder in 2D",
-                             i);
+            return error_set(
+                error, "solid %d: lengths must be positive, an axis not zero, no cylinder or mesh in 2D", i);
         if (def->dimensions == 2 && !solid_in_plane(solid))
             return error_set(error, "solid %d: leaves the plane of a 2D scene", i);
         if (!motions_check(solid->motions, solid->motion_count, def->dimensions, error))
@@ -78,6 +81,10 @@ static bool fills_check(const FluidDef *fluid, int dimensions)
     for (int i = 0; i < fluid->fill_count; i++)
         if (fluid->fills[i].kind == FILL_CYLINDER &&
             (dimensions != 3 || !positive(length2(fluid->fills[i].axis))))
+            return false;
+        else if (fluid->fills[i].kind == FILL_MESH &&
+                 (dimensions != 3 || !fluid->fills[i].mesh.shape || !positive(fluid->fills[i].mesh.scale) ||
+                  !positive(length2(fluid->fills[i].axis))))
             return false;
     return true;
 }

@@ -47,6 +47,7 @@ class Docs(CommandTest):
     def test_examples_of_keys_load(self):
         examples = re.findall(r'```yaml\n(.*?)```', (ROOT / 'docs/keys.md').read_text(), re.S)
         self.assertGreater(len(examples), 15)
+        os.symlink(ROOT / 'scenes/meshes', self.path('meshes'))
         for k, example in enumerate(examples):
             self.write(f'{k}.yaml', ''.join({**PARTS, **example_parts(example)}.values()))
             code, said = self.slosh('run', f'{k}.yaml', '-o', 'out.h5part', '--time', '0', '--quiet')

@@ -6,6 +6,7 @@
 #include "shaders/sim/dfsph/dfsph_block.h"
 #include "shaders/sim/exact_shapes_block.h"
 #include "shaders/sim/flow_block.h"
+#include "shaders/sim/mesh_block.h"
 #include "shaders/sim/pbf/pbf_block.h"
 #include "shaders/sim/solid_steps_block.h"
 #include "shaders/sim/step_block.h"
@@ -23,6 +24,7 @@
 #define STEPS(member)    MEMBER(SolidStepsBlock, member)
 #define SHAPE(member)    MEMBER(ExactShapesBlock, member)
 #define FLOW(member)     MEMBER(FlowBlock, member)
+#define MESH(member)     MEMBER(MeshBlock, member)
 
 #define SOLVER_BLOCKS                                                                                        \
     BLOCK("sim/constant_block.h", ConstantBlock, CONSTANT(support), CONSTANT(inverse_support),               \
@@ -58,6 +60,10 @@
               STEPS(solids[0].spin), STEPS(solids[0].kind), STEPS(solids[0].change), STEPS(solids[0].alpha), \
               STEPS(solids[0].half_edges), STEPS(solids[0].radius), STEPS(solids[0].thickness),              \
               STEPS(solids[0].reach), STEPS(solids[15].reach)),                                              \
+        BLOCK("sim/mesh_block.h", MeshBlock, MESH(meshes[0].exact_low), MESH(meshes[0].exact_cell),          \
+              MESH(meshes[0].exact_inner), MESH(meshes[0].exact_scale), MESH(meshes[0].low),                 \
+              MESH(meshes[0].cell), MESH(meshes[0].inner), MESH(meshes[0].scale), MESH(meshes[0].size),      \
+              MESH(meshes[0].first), MESH(meshes[15].first)),                                                \
         BLOCK("sim/exact_shapes_block.h", ExactShapesBlock, SHAPE(exact_shapes[0].half_edges),               \
               SHAPE(exact_shapes[0].radius), SHAPE(exact_shapes[0].thickness), SHAPE(exact_shapes[0].reach), \
               SHAPE(exact_shapes[15].reach)),                                                                \

@@ -10,6 +10,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define MESH SLOSH_SOURCE_DIR "/scenes/meshes/rabbit.obj"
+
 /* Every mapping, variant and list of the table, so that --set can reach every key. */
 static const char everything[] =
     "box: {size: [1, 1, 1]}\n"
@@ -22,6 +24,7 @@ static const char everything[] =
     "  - emit:\n"
     "      - disk: {centre: [0, 0.5, 0], direction: [0, 1, 0], radius: 0.1}\n"
     "        speed: 1\n"
+    "  - fill: [{mesh: {file: " MESH ", centre: [-0.2, 0.74, 0.3], scale: 0.5}}]\n"
     "motion:\n"
     "  - shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 1}\n"
     "  - rock: {axis: [1, 0, 0], angle: 1, frequency: 1}\n"
@@ -42,6 +45,7 @@ static const char everything[] =
     "  - box: {centre: [0.4, 0.9, 0.4], size: [0.2, 0.2, 0.2]}\n"
     "  - cylinder: {centre: [0.4, 0.9, 0.4], radius: 0.1, height: 0.2}\n"
     "  - bowl: {centre: [0.4, 0.9, 0.4], radius: 0.1}\n"
+    "  - mesh: {file: " MESH ", centre: [0.4, 0.9, 0.4], scale: 0.4}\n"
     "probes:\n"
     "  - {name: a, point: {at: [0, 0, 0]}}\n"
     "  - {name: b, height: {at: [0, 0, 0]}}\n"
@@ -65,6 +69,7 @@ static void path_in_scene(const char *row, char path[128])
     snprintf(path, 128, "%s", row);
     replace(path, "fluids[].fill[].ball", "fluids[1].fill[0].ball");
     replace(path, "fluids[].fill[].cylinder", "fluids[2].fill[0].cylinder");
+    replace(path, "fluids[].fill[].mesh", "fluids[4].fill[0].mesh");
     replace(path, "fluids[].fill[]", "fluids[0].fill[0]");
     replace(path, "fluids[].emit[]", "fluids[3].emit[0]");
     replace(path, "drains[].block", "drains[0].block");

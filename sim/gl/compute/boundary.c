@@ -117,6 +117,7 @@ void compute_boundary_bind(const Compute *c)
         return;
     glBindBufferBase(GL_UNIFORM_BUFFER, SOLID_STEPS_BLOCK, b->block);
     glBindBufferBase(GL_UNIFORM_BUFFER, EXACT_SHAPES_BLOCK, b->exact);
+    compute_meshes_bind(c);
     glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, BOUNDARY_POSITIONS_BUFFER, 4,
                       (const GLuint[]){b->position, b->velocity, b->state, b->start});
 }

@@ -42,6 +42,7 @@ static void compute_destroy(void *state)
     mailbox_destroy(&c->solve);
     mailbox_destroy(&c->parts);
     compute_boundary_destroy(c);
+    compute_meshes_destroy(c);
     compute_flow_destroy(c);
     for (int p = 0; p < COMPUTE_PASS_COUNT; p++)
         glDeleteProgram(c->program[p]);
@@ -87,6 +88,8 @@ static bool buffers_create(Compute *c, Error *error)
     }
     compute_flow_create(c);
     const bool bounded = compute_boundary_create(c);
+    if (!compute_meshes_create(c, error))
+        return false;
     return (bounded && !c->full && compute_iterate_fit(c) &&
             mailbox_create(&c->watch, "watch", sizeof(WatchBlock))) ||
            compute_no_memory(c, error);

@@ -93,6 +93,12 @@ typedef struct ComputeBoundary {
     bool due;                           /* solids have moved since they were sorted */
 } ComputeBoundary;
 
+/* The distances from solids that are meshes; all 0 without them. */
+typedef struct ComputeMeshes {
+    unsigned block;           /* uniforms */
+    unsigned values, texture; /* float each */
+} ComputeMeshes;
+
 /* Emitters and drains; all 0 without them. */
 typedef struct ComputeFlow {
     unsigned block;        /* uniforms */
@@ -112,6 +118,7 @@ typedef struct Compute {
     size_t count, capacity; /* particles; room for them */
     size_t gridded;         /* by `grid`: how many it has seen */
     ComputeBoundary boundary;
+    ComputeMeshes meshes;
     ComputeFlow flow;
     ComputeParticles now, spare, marked; /* marked: none before the first `mark` */
     ComputeOwn own;
@@ -275,6 +282,13 @@ void compute_scan(Compute *compute, unsigned buffer, size_t size);
 bool compute_boundary_create(Compute *compute);
 void compute_boundary_destroy(Compute *compute);
 void compute_boundary_bind(const Compute *compute);
+
+/* meshes.c: without meshes these do nothing. False, and an error, when a texture of the driver is too small
+   for their distances. */
+bool compute_meshes_create(Compute *compute, Error *error);
+void compute_meshes_destroy(Compute *compute);
+void compute_meshes_bind(const Compute *compute);
+
 void compute_boundary_move(Compute *compute, const SolidStep *steps);
 void compute_boundary_grid(Compute *compute); /* sorts boundary particles after they have moved */
 void compute_boundary_fill(const Compute *compute);

@@ -12,6 +12,14 @@ static size_t put_define(char out[COMPUTE_DEFINES_MAX], size_t used, const char 
     return used + (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", name);
 }
 
+static bool has_meshes(const Constants *s)
+{
+    for (int k = 0; k < s->solid_count; k++)
+        if (s->solids[k].kind == SOLID_MESH)
+            return true;
+    return false;
+}
+
 static size_t put_defines(const Constants *s, const ShaderTerm *terms, char out[COMPUTE_DEFINES_MAX],
                           size_t used)
 {
@@ -28,6 +36,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         const char *name;
     } terms[] = {
         {s->solid_count > 0, "SOLIDS"},
+        {has_meshes(s), "MESHES"},
         {s->reproducible, "REPRODUCIBLE"},
         {s->fluid_count == 1, "ONE_FLUID"},
         {s->viscous, "VISCOUS"},

@@ -1,0 +1,209 @@
+#include "app/mesh_file/mesh_file.h"
+
+#include "app/base/read_file.h"
+#include "app/mesh_file/mesh_count.h"
+#include "sim/base/parallel.h"
+
+#include <assimp/cimport.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { HEAD_SIZE = 1 << 16 };
+
+/* ---- before it is read ---- */
+
+static bool too_many(double count, Error *error)
+{
+    char has[32], most[32];
+    number_grouped((size_t)count, has);
+    number_grouped(TRIANGLES_MAX, most);
+    return error_set(error,
+                     "%s triangles, more than the %s that there may be; simplify the mesh in a modeller", has,
+                     most);
+}
+
+/* What a few bytes of it and its size say. */
+static bool head_fits(const char *path, MeshFormat format, Error *error)
+{
+    static char head[HEAD_SIZE];
+    struct stat about;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return error_set(error, "%s; name a file that is there", strerror(errno));
+    const bool regular = fstat(fileno(file), &about) == 0 && S_ISREG(about.st_mode);
+    const size_t size = regular ? fread(head, 1, sizeof head, file) : 0;
+    fclose(file);
+    if (!regular)
+        return error_set(error, "it is no file; name a file that has a mesh");
+    const double count = mesh_count(format, head, size, (size_t)about.st_size);
+    if (count > TRIANGLES_MAX)
+        return too_many(count, error);
+    return about.st_size <= (off_t)MESH_FILE_MIB_MAX << 20 ||
+           error_set(error, "%.0f MiB, more than the %d that there may be; simplify the mesh in a modeller",
+                     (double)about.st_size / (1 << 20), MESH_FILE_MIB_MAX);
+}
+
+/* ---- reading it ---- */
+
+/* Of the points and lines among its faces nothing is taken. */
+static size_t triangles_of(const struct aiMesh *mesh)
+{
+    size_t count = 0;
+    for (unsigned f = 0; f < mesh->mNumFaces; f++)
+        count += mesh->mFaces[f].mNumIndices == 3;
+    return count;
+}
+
+static bool allocate(const struct aiScene *scene, Triangles *triangles, Error *error)
+{
+    size_t vertices = 0, count = 0;
+    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
+        vertices += scene->mMeshes[m]->mNumVertices;
+        count += triangles_of(scene->mMeshes[m]);
+    }
+    if (count > TRIANGLES_MAX)
+        return too_many((double)count, error);
+    if (count == 0)
+        return error_set(error, "it has no triangles; a solid is a closed surface of them");
+    triangles->vertex = malloc((vertices + 1) * sizeof *triangles->vertex);
+    triangles->triangle = malloc((count + 1) * sizeof *triangles->triangle);
+    return (triangles->vertex && triangles->triangle) ||
+           error_set(error, "no memory for its %zu triangles", count);
+}
+
+static void take(const struct aiMesh *mesh, Triangles *triangles)
+{
+    const uint32_t first = (uint32_t)triangles->vertex_count;
+    for (unsigned f = 0; f < mesh->mNumFaces; f++)
+        if (mesh->mFaces[f].mNumIndices == 3) {
+            uint32_t *corner = triangles->triangle[triangles->triangle_count++];
+            for (int c = 0; c < 3; c++)
+                corner[c] = first + mesh->mFaces[f].mIndices[c];
+        }
+    for (unsigned v = 0; v < mesh->mNumVertices; v++) {
+        const struct aiVector3D *from = &mesh->mVertices[v];
+        float *to = triangles->vertex[triangles->vertex_count++];
+        to[0] = from->x, to[1] = from->y, to[2] = from->z;
+    }
+}
+
+bool mesh_file_read(const char *path, Triangles *triangles, Error *error)
+{
+    *triangles = (Triangles){0};
+    if (mesh_format(path) == MESH_UNKNOWN)
+        return error_set(
+            error, "its ending is of no format that is read; name a file .obj, .ply, .stl, .gltf or .glb");
+    if (!head_fits(path, mesh_format(path), error))
+        return false;
+    const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+    if (!scene)
+        return error_set(error, "it cannot be read: %.300s; write it anew with a modeller",
+                         aiGetErrorString());
+    const bool ok = allocate(scene, triangles, error);
+    for (unsigned m = 0; ok && m < scene->mNumMeshes; m++)
+        take(scene->mMeshes[m], triangles);
+    aiReleaseImport(scene);
+    if (!ok)
+        triangles_free(triangles);
+    return ok;
+}
+
+/* ---- those that were read ---- */
+
+typedef struct Kept {
+    struct Kept *next;
+    uint64_t hash; /* of the file's bytes */
+    size_t size;
+    MeshShape *shape;
+    MeshState state;
+} Kept;
+
+/* Scenes are read on the main thread. */
+static Kept *all_kept;
+
+static uint64_t hash(const char *bytes, size_t size)
+{
+    uint64_t h = 0xcbf29ce484222325ULL;
+    for (size_t i = 0; i < size; i++) /* FNV-1a */
+        h = (h ^ (uint8_t)bytes[i]) * 0x100000001b3ULL;
+    return h;
+}
+
+static const Kept *find_kept(uint64_t of, size_t size)
+{
+    const Kept *kept = all_kept;
+    while (kept && (kept->hash != of || kept->size != size))
+        kept = kept->next;
+    return kept;
+}
+
+/* Takes the triangles over. */
+static const Kept *keep(Triangles *triangles, uint64_t of, size_t size, Error *error)
+{
+    Kept *kept = calloc(1, sizeof *kept);
+    if (kept)
+        kept->shape = mesh_shape_make(triangles, parallel_processors(), &kept->state, error);
+    else
+        error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
+    triangles_free(triangles);
+    if (!kept || !kept->shape) {
+        free(kept);
+        return NULL;
+    }
+    kept->hash = of, kept->size = size, kept->next = all_kept;
+    return all_kept = kept;
+}
+
+/* A text of lines is counted before assimp takes many times its size. */
+static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t *size, Error *error)
+{
+    char *bytes = read_file(path, (size_t)MESH_FILE_MIB_MAX << 20, "mesh", size, error);
+    if (!bytes)
+        return false;
+    const double count = mesh_count(format, bytes, *size, *size);
+    *of = hash(bytes, *size);
+    free(bytes);
+    return count <= TRIANGLES_MAX || too_many(count, error);
+}
+
+/* A glTF in text names further files: it is known by what it makes. */
+static const Kept *look_up(const char *path, MeshFormat format, Error *error)
+{
+    Triangles triangles;
+    uint64_t of;
+    size_t size;
+    if (!bytes_fit(path, format, &of, &size, error))
+        return NULL;
+    const Kept *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
+    if (kept || !mesh_file_read(path, &triangles, error))
+        return kept;
+    if (format == MESH_GLTF) {
+        of = hash((const char *)triangles.vertex, triangles.vertex_count * sizeof *triangles.vertex);
+        size = triangles.triangle_count;
+        kept = find_kept(of, size);
+    }
+    if (!kept)
+        return keep(&triangles, of, size, error);
+    triangles_free(&triangles);
+    return kept;
+}
+
+const MeshShape *mesh_file_load(const char *path, MeshState *state, Error *error)
+{
+    const MeshFormat format = mesh_format(path);
+    const Kept *kept = NULL;
+    if (format == MESH_UNKNOWN)
+        error_set(error,
+                  "its ending is of no format that is read; name a file .obj, .ply, .stl, .gltf or .glb");
+    else if (head_fits(path, format, error))
+        kept = look_up(path, format, error);
+    if (!kept)
+        return NULL;
+    *state = kept->state;
+    return kept->shape;
+}

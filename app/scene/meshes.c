@@ -1,0 +1,78 @@
+/* The meshes that a scene names, and what its user should know of them. */
+#include "app/base/notes.h"
+#include "app/mesh_file/mesh_count.h"
+#include "app/mesh_file/mesh_file.h"
+#include "app/scene/advise.h"
+#include "app/scene/check_parts.h"
+#include "app/scene/tables.h"
+
+#include <stdio.h>
+
+bool scene_names_mesh(const char *text)
+{
+    return mesh_format(text) != MESH_UNKNOWN;
+}
+
+typedef struct Reader {
+    Check check;
+    bool lenient;
+    Notes *notes;
+} Reader;
+
+/* What was mended, or cannot be. */
+static void say_state(const Reader *reader, const char *key, const char *file, const MeshState *state)
+{
+    const TrianglesState *triangles = &state->triangles;
+    if (triangles->inside_out)
+        advise(reader->check.tree, key, reader->notes, "%.90s: the mesh is inside out; its faces are turned",
+               file);
+    if (triangles->flat > 0)
+        advise(reader->check.tree, key, reader->notes,
+               "%.90s: %zu of its triangles ha%s no area and are left out", file, triangles->flat,
+               triangles->flat == 1 ? "s" : "ve");
+    if (state->cutting > 0)
+        advise(reader->check.tree, key, reader->notes,
+               "%.90s: the mesh cuts itself, at %s%zu pair%s of triangles; what any part encloses is solid",
+               file, state->all_looked_at ? "" : "at least ", state->cutting, plural(state->cutting));
+}
+
+static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
+{
+    const Check *check = &reader->check;
+    char path[1200];
+    MeshState state;
+    Error why = {""};
+    if (check->scene->world.dimensions == 2)
+        return FAIL(check, key, "a 2D scene has no meshes; write another shape");
+    if (scene_beside_path(check->tree->path, mesh->file, path, &why))
+        mesh->shape = mesh_file_load(path, &state, &why);
+    if (!mesh->shape && !reader->lenient)
+        return FAIL(check, key, "%.90s: %s", mesh->file, why.message);
+    if (!reader->notes)
+        return true;
+    if (mesh->shape)
+        say_state(reader, key, mesh->file, &state);
+    else
+        notes_add(reader->notes, "%.90s: %.300s; it is not drawn", mesh->file, why.message);
+    return true;
+}
+
+bool scene_read_meshes(const Tree *tree, Scene *scene, bool lenient, Notes *notes, Error *error)
+{
+    const Reader reader = {{tree, scene, error}, lenient, notes};
+    char key[96];
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++) {
+            Fill *fill = &scene->world.fluids[f].fills[i];
+            snprintf(key, sizeof key, "fluids[%d].fill[%d].mesh.file", f, i);
+            if (fill->kind == FILL_MESH && !read_one(&reader, key, &fill->mesh))
+                return false;
+        }
+    for (int k = 0; k < scene->world.solid_count; k++) {
+        SolidDef *solid = &scene->world.solids[k];
+        snprintf(key, sizeof key, "solids[%d].mesh.file", k);
+        if (solid->kind == SOLID_MESH && !read_one(&reader, key, &solid->mesh))
+            return false;
+    }
+    return true;
+}

@@ -1,0 +1,350 @@
+#include "sim/mesh/distance.h"
+
+#include "sim/base/bins.h"
+#include "sim/base/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    CELLS = 80, /* along the longest side */
+    ACROSS = 3, /* through a part that is as thick as the mean */
+    ROOM = 8,   /* cells around the surface, and a part of one more */
+    COARSE = 4, /* cells from one value of the coarse grid to the next */
+    NODES_MOST = 1 << 23
+};
+
+/* What lies on a plane of a model's own lattice is on no line of the grid. */
+static const double aside[3] = {0.3819660113, 0.4142135624, 0.2679491924};
+
+size_t distance_count(const DistanceGrid *grid)
+{
+    return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2];
+}
+
+static size_t index_of(const DistanceGrid *grid, int i, int j, int k)
+{
+    return (size_t)i + (size_t)grid->size[0] * ((size_t)j + (size_t)grid->size[1] * (size_t)k);
+}
+
+/* ---- its shape ---- */
+
+static double nodes_of(DistanceGrid *grid, double cell)
+{
+    double nodes = 1;
+    for (int k = 0; k < 3; k++) {
+        const int cells = (int)ceil(2 * grid->inner[k] / cell) + 2 * ROOM + 1;
+        grid->size[k] = (cells + COARSE - 1) / COARSE * COARSE + 1;
+        grid->low[k] = -grid->inner[k] - (ROOM + aside[k]) * cell;
+        nodes *= grid->size[k];
+    }
+    grid->cell = cell;
+    return nodes;
+}
+
+static void shape(DistanceGrid *grid, const Triangles *of)
+{
+    double low[3];
+    triangles_bounds(of, low, grid->inner);
+    const double longest = 2 * fmax(fmax(grid->inner[0], grid->inner[1]), grid->inner[2]);
+    const double thick = 2 * triangles_volume(of) / triangles_area(of); /* of a plate */
+    double cell = longest / CELLS;
+    if (thick > 0)
+        cell = fmax(fmin(cell, thick / ACROSS), longest / (16 * CELLS));
+    while (nodes_of(grid, cell) > NODES_MOST)
+        cell *= 1.1;
+}
+
+/* ---- distances without a sign ---- */
+
+typedef struct Work {
+    DistanceGrid *grid;
+    const TriangleTree *tree;
+    const Bins *bins; /* of triangles, by layers of the grid along z */
+    int16_t *winding;
+} Work;
+
+static void place_of(const DistanceGrid *grid, int i, int j, int k, double x[3])
+{
+    const int at[3] = {i, j, k};
+    for (int a = 0; a < 3; a++)
+        x[a] = grid->low[a] + at[a] * grid->cell;
+}
+
+static float exact_at(const Work *work, int i, int j, int k, uint32_t *near)
+{
+    double x[3];
+    place_of(work->grid, i, j, k, x);
+    return (float)triangle_tree_nearest(work->tree, x, near);
+}
+
+static void coarse_range(void *context, size_t begin, size_t end)
+{
+    const Work *work = context;
+    DistanceGrid *grid = work->grid;
+    for (size_t row = begin; row < end; row++) {
+        const int rows = (grid->size[1] - 1) / COARSE + 1;
+        const int j = (int)row % rows * COARSE, k = (int)row / rows * COARSE;
+        uint32_t near = 0;
+        for (int i = 0; i < grid->size[0]; i += COARSE)
+            grid->value[index_of(grid, i, j, k)] = exact_at(work, i, j, k, &near);
+    }
+}
+
+/* Of a block of the coarse grid: the corners that it ends with, on each axis, are the next block's. */
+typedef struct Block {
+    int low[3];
+    double corner[8]; /* distances */
+} Block;
+
+static void block_at(const DistanceGrid *grid, int i, int j, int k, Block *block)
+{
+    block->low[0] = i, block->low[1] = j, block->low[2] = k;
+    for (int c = 0; c < 8; c++)
+        block->corner[c] = grid->value[index_of(grid, i + (c & 1) * COARSE, j + (c >> 1 & 1) * COARSE,
+                                                k + (c >> 2) * COARSE)];
+}
+
+static double between(const double corner[8], const double t[3])
+{
+    double sum = 0;
+    for (int c = 0; c < 8; c++)
+        sum += corner[c] * (c & 1 ? t[0] : 1 - t[0]) * (c & 2 ? t[1] : 1 - t[1]) * (c & 4 ? t[2] : 1 - t[2]);
+    return sum;
+}
+
+/* Whether all of a block is farther from the surface than two and a half cells. */
+static bool is_far(const Work *work, const Block *block, uint32_t *near)
+{
+    const int half = COARSE / 2, *low = block->low;
+    const double corner = sqrt(3) * half, margin = 2.5;
+    return exact_at(work, low[0] + half, low[1] + half, low[2] + half, near) >
+           (corner + margin) * work->grid->cell;
+}
+
+static void fill_block(const Work *work, const Block *block, uint32_t *near)
+{
+    DistanceGrid *grid = work->grid;
+    const bool far = is_far(work, block, near);
+    for (int k = 0; k < COARSE; k++)
+        for (int j = 0; j < COARSE; j++)
+            for (int i = 0; i < COARSE; i++) {
+                const int at[3] = {block->low[0] + i, block->low[1] + j, block->low[2] + k};
+                float *value = &grid->value[index_of(grid, at[0], at[1], at[2])];
+                if (i + j + k == 0)
+                    continue;
+                *value =
+                    far ? (float)between(block->corner, (double[]){(double)i / COARSE, (double)j / COARSE,
+                                                                   (double)k / COARSE})
+                        : exact_at(work, at[0], at[1], at[2], near);
+            }
+}
+
+/* Layers of blocks. The coarse values of a layer's far side are the next one's, and stay what they are. */
+static void fine_range(void *context, size_t begin, size_t end)
+{
+    const Work *work = context;
+    const DistanceGrid *grid = work->grid;
+    Block block;
+    uint32_t near = 0;
+    for (size_t layer = begin; layer < end; layer++)
+        for (int j = 0; j + 1 < grid->size[1]; j += COARSE)
+            for (int i = 0; i + 1 < grid->size[0]; i += COARSE) {
+                block_at(grid, i, j, (int)layer * COARSE, &block);
+                fill_block(work, &block, &near);
+            }
+}
+
+/* ---- the sign ---- */
+
+/* Which side of the line from a to b, in y and z, the point p is on: the same number for both triangles of an
+   edge but for its sign. What is on the line is taken for moved aside a little in y, and less in z. */
+static double side_of(const float a[3], const float b[3], const double p[3])
+{
+    const double ay = a[1] - p[1], az = a[2] - p[2], by = b[1] - p[1], bz = b[2] - p[2];
+    const double twice = ay * bz - az * by;
+    if (twice != 0)
+        return twice;
+    const double y = (double)a[2] - b[2], z = (double)b[1] - a[1];
+    return y != 0 ? copysign(1e-300, y) : z != 0 ? copysign(1e-300, z) : 0;
+}
+
+static double ordered_side(const Triangles *of, uint32_t a, uint32_t b, const double p[3])
+{
+    return a < b ? side_of(of->vertex[a], of->vertex[b], p) : -side_of(of->vertex[b], of->vertex[a], p);
+}
+
+/* Where the line along x through p meets the triangle: 1 where it comes out there, -1 where it goes in, 0: it
+   does not meet it. */
+static int crossing(const Triangles *of, size_t t, const double p[3], double *x)
+{
+    const uint32_t *c = of->triangle[t];
+    const double s[3] = {ordered_side(of, c[1], c[2], p), ordered_side(of, c[2], c[0], p),
+                         ordered_side(of, c[0], c[1], p)};
+    const bool in = s[0] > 0 && s[1] > 0 && s[2] > 0, out = s[0] < 0 && s[1] < 0 && s[2] < 0;
+    if (!in && !out)
+        return 0;
+    const double sum = s[0] + s[1] + s[2];
+    *x = (s[0] * of->vertex[c[0]][0] + s[1] * of->vertex[c[1]][0] + s[2] * of->vertex[c[2]][0]) / sum;
+    return in ? 1 : -1;
+}
+
+static void span_of(const DistanceGrid *grid, const Triangles *of, size_t t, int axis, int *begin, int *end)
+{
+    double low = INFINITY, high = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        const double x = of->vertex[of->triangle[t][c]][axis];
+        low = fmin(low, x);
+        high = fmax(high, x);
+    }
+    *begin = (int)fmax(0, ceil((low - grid->low[axis]) / grid->cell - 1e-6));
+    *end = (int)fmin(grid->size[axis], floor((high - grid->low[axis]) / grid->cell + 1e-6) + 1);
+}
+
+static BinSpan layers_of(const void *context, size_t t)
+{
+    const Work *work = context;
+    int begin, end;
+    span_of(work->grid, work->tree->of, t, 2, &begin, &end);
+    return (BinSpan){(size_t)begin, (size_t)(end > begin ? end : begin)};
+}
+
+/* Puts down where the lines of a layer cross the triangle. */
+static void cross_layer(const Work *work, size_t t, int k)
+{
+    const DistanceGrid *grid = work->grid;
+    int begin, end;
+    span_of(grid, work->tree->of, t, 1, &begin, &end);
+    for (int j = begin; j < end; j++) {
+        double p[3], x = 0;
+        place_of(grid, 0, j, k, p);
+        const int way = crossing(work->tree->of, t, p, &x);
+        const double at = floor((x - grid->low[0]) / grid->cell) + 1;
+        if (way != 0 && at >= 0 && at < grid->size[0])
+            work->winding[index_of(grid, (int)at, j, k)] -= (int16_t)way;
+    }
+}
+
+static void sign_range(void *context, size_t begin, size_t end)
+{
+    const Work *work = context;
+    const DistanceGrid *grid = work->grid;
+    for (size_t k = begin; k < end; k++) {
+        for (size_t m = work->bins->begin[k]; m < work->bins->begin[k + 1]; m++)
+            cross_layer(work, work->bins->member[m], (int)k);
+        for (int j = 0; j < grid->size[1]; j++)
+            for (int i = 0, winding = 0; i < grid->size[0]; i++) {
+                const size_t at = index_of(grid, i, j, (int)k);
+                winding += work->winding[at];
+                if (winding != 0)
+                    grid->value[at] = -grid->value[at];
+            }
+    }
+}
+
+bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads)
+{
+    Bins bins = {0};
+    *grid = (DistanceGrid){0};
+    shape(grid, tree->of);
+    const size_t layers = (size_t)grid->size[2], rows = (size_t)(grid->size[1] - 1) / COARSE + 1;
+    Work work = {.grid = grid, .tree = tree, .bins = &bins};
+    grid->value = malloc(distance_count(grid) * sizeof *grid->value);
+    work.winding = calloc(distance_count(grid), sizeof *work.winding);
+    const bool ok =
+        grid->value && work.winding && bins_fill(&bins, layers, tree->of->triangle_count, layers_of, &work);
+    for (size_t i = 0; ok && i < distance_count(grid); i++)
+        grid->value[i] = (float)(ROOM * grid->cell); /* the last planes, which are no block's */
+    if (ok) {
+        parallel_ranges(threads, rows * ((layers - 1) / COARSE + 1), 8, coarse_range, &work);
+        parallel_ranges(threads, (layers - 1) / COARSE, 1, fine_range, &work);
+        parallel_ranges(threads, layers, 4, sign_range, &work);
+    } else {
+        distance_free(grid);
+    }
+    free(work.winding);
+    bins_free(&bins);
+    return ok;
+}
+
+void distance_free(DistanceGrid *grid)
+{
+    free(grid->value);
+    *grid = (DistanceGrid){0};
+}
+
+/* ---- reading it ---- */
+
+/* Where x is among the values: the cell that it is in or nearest to, how far along it, and how far from it.
+ */
+typedef struct Spot {
+    double t[3], corner[8], beyond;
+} Spot;
+
+static void spot_at(const DistanceGrid *grid, const double x[3], Spot *spot)
+{
+    double beyond2 = 0;
+    int at[3];
+    for (int k = 0; k < 3; k++) {
+        const double along = (x[k] - grid->low[k]) / grid->cell, last = grid->size[k] - 1;
+        const double in = fmin(fmax(along, 0), last), beyond = (along - in) * grid->cell;
+        at[k] = (int)fmin(in, last - 1);
+        spot->t[k] = in - at[k];
+        beyond2 += beyond * beyond;
+    }
+    for (int c = 0; c < 8; c++)
+        spot->corner[c] =
+            grid->value[index_of(grid, at[0] + (c & 1), at[1] + (c >> 1 & 1), at[2] + (c >> 2))];
+    spot->beyond = sqrt(beyond2);
+}
+
+/* From the block that the surface is in. */
+static double outside(const DistanceGrid *grid, const double x[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double d = fmax(0, fabs(x[k]) - grid->inner[k]);
+        sum += d * d;
+    }
+    return sqrt(sum);
+}
+
+static void slope_of(const DistanceGrid *grid, const Spot *spot, double slope[3])
+{
+    for (int k = 0; k < 3; k++) {
+        double low[3], high[3];
+        memcpy(low, spot->t, sizeof low);
+        memcpy(high, spot->t, sizeof high);
+        low[k] = 0, high[k] = 1;
+        slope[k] = (between(spot->corner, high) - between(spot->corner, low)) / grid->cell;
+    }
+}
+
+double distance_at(const DistanceGrid *grid, const double x[3], double slope[3])
+{
+    Spot spot;
+    spot_at(grid, x, &spot);
+    const double value = between(spot.corner, spot.t);
+    if (slope)
+        slope_of(grid, &spot, slope);
+    return spot.beyond > 0 ? fmax(outside(grid, x), value - spot.beyond) : value;
+}
+
+double distance_deepest(const DistanceGrid *grid)
+{
+    float deepest = 0;
+    for (size_t i = 0; i < distance_count(grid); i++)
+        deepest = fminf(deepest, grid->value[i]);
+    return -deepest;
+}
+
+/* A cell about each value, cut by the level across the way that the distance grows. */
+double distance_volume_below(const DistanceGrid *grid, double depth)
+{
+    const double cell = grid->cell;
+    double sum = 0;
+    for (size_t i = 0; i < distance_count(grid); i++)
+        sum += fmin(fmax(0.5 + (-depth - grid->value[i]) / cell, 0), 1);
+    return sum * cell * cell * cell;
+}

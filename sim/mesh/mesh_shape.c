@@ -1,0 +1,95 @@
+#include "sim/mesh/mesh_shape.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { CUTS_COUNTED = 1000, PAIRS_MOST = 20000000 };
+
+static bool check(const Triangles *triangles, const TrianglesState *state, Error *error)
+{
+    if (state->open > 0)
+        return error_set(
+            error,
+            "the mesh is open: %zu edge%s lack%s a triangle; a solid is a closed surface, so close its "
+            "holes",
+            state->open, plural(state->open), state->open == 1 ? "s" : "");
+    if (state->opposed > 0)
+        return error_set(
+            error, "at %zu of its edges triangles turn opposite ways; turn all faces of the mesh outwards",
+            state->opposed);
+    return triangles_volume(triangles) > 0 || error_set(error, "the mesh encloses nothing; give it a volume");
+}
+
+static void measure(MeshShape *shape)
+{
+    const Triangles *of = &shape->triangles;
+    double low[3];
+    triangles_bounds(of, low, shape->half);
+    shape->volume = triangles_volume(of);
+    shape->area = triangles_area(of);
+    for (size_t i = 0; i < of->vertex_count; i++) {
+        const float *x = of->vertex[i];
+        shape->reach =
+            fmax(shape->reach, sqrt((double)x[0] * x[0] + (double)x[1] * x[1] + (double)x[2] * x[2]));
+    }
+    shape->depth = distance_deepest(&shape->distance);
+}
+
+static uint64_t hash(uint64_t h, const void *bytes, size_t size)
+{
+    const uint8_t *at = bytes;
+    for (size_t i = 0; i < size; i++) /* FNV-1a */
+        h = (h ^ at[i]) * 0x100000001b3ULL;
+    return h;
+}
+
+static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
+{
+    TriangleTree tree;
+    if (!triangles_mend(&shape->triangles, state->middle, &state->triangles, error) ||
+        !check(&shape->triangles, &state->triangles, error))
+        return false;
+    bool ok = triangle_tree_make(&tree, &shape->triangles);
+    if (ok) {
+        state->cutting = triangle_tree_cuts(&tree, CUTS_COUNTED, PAIRS_MOST, &state->all_looked_at);
+        ok = distance_make(&shape->distance, &tree, threads);
+        triangle_tree_free(&tree);
+    }
+    if (!ok)
+        return error_set(error, "no memory for its %zu triangles", shape->triangles.triangle_count);
+    measure(shape);
+    shape->hash = hash(0xcbf29ce484222325ULL, shape->triangles.vertex,
+                       shape->triangles.vertex_count * sizeof *shape->triangles.vertex);
+    shape->hash = hash(shape->hash, shape->triangles.triangle,
+                       shape->triangles.triangle_count * sizeof *shape->triangles.triangle);
+    return shape->depth > 0 ||
+           error_set(error, "the mesh is thinner than a %d-th of its length everywhere; give it a body",
+                     (int)lround(2 * fmax(fmax(shape->half[0], shape->half[1]), shape->half[2]) /
+                                 shape->distance.cell));
+}
+
+MeshShape *mesh_shape_make(Triangles *triangles, int threads, MeshState *state, Error *error)
+{
+    MeshShape *shape = calloc(1, sizeof *shape);
+    *state = (MeshState){0};
+    if (!shape) {
+        error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
+        triangles_free(triangles);
+        return NULL;
+    }
+    shape->triangles = *triangles;
+    *triangles = (Triangles){0};
+    if (make(shape, threads, state, error))
+        return shape;
+    mesh_shape_free(shape);
+    return NULL;
+}
+
+void mesh_shape_free(MeshShape *shape)
+{
+    if (!shape)
+        return;
+    triangles_free(&shape->triangles);
+    distance_free(&shape->distance);
+    free(shape);
+}

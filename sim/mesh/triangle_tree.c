@@ -1,0 +1,333 @@
+#include "sim/mesh/triangle_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LEAF = 4, DEPTH = 64 };
+
+/* ---- making it ---- */
+
+typedef struct Maker {
+    TriangleTree *tree;
+    float (*middle)[3]; /* of each triangle */
+} Maker;
+
+static void swap(uint32_t *a, uint32_t *b)
+{
+    const uint32_t t = *a;
+    *a = *b;
+    *b = t;
+}
+
+/* Puts the item that belongs at `at` there, lesser ones before and greater ones behind it: Hoare, "Algorithm
+   65: find", 1961. */
+static void select_middle(const Maker *maker, uint32_t *item, long count, long at, int axis)
+{
+    long low = 0, high = count - 1;
+    while (low < high) {
+        const float pivot = maker->middle[item[at]][axis];
+        long i = low, j = high;
+        do {
+            while (maker->middle[item[i]][axis] < pivot)
+                i++;
+            while (pivot < maker->middle[item[j]][axis])
+                j--;
+            if (i <= j)
+                swap(&item[i++], &item[j--]);
+        } while (i <= j);
+        if (j < at)
+            low = i;
+        if (at < i)
+            high = j;
+    }
+}
+
+static void bound(const Maker *maker, const uint32_t *item, size_t count, TreeNode *node)
+{
+    const Triangles *of = maker->tree->of;
+    for (int k = 0; k < 3; k++) {
+        node->low[k] = INFINITY, node->high[k] = -INFINITY;
+        for (size_t i = 0; i < 3 * count; i++) {
+            const float x = of->vertex[of->triangle[item[i / 3]][i % 3]][k];
+            node->low[k] = fminf(node->low[k], x);
+            node->high[k] = fmaxf(node->high[k], x);
+        }
+    }
+}
+
+static int longest_axis(const TreeNode *node)
+{
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+        if (node->high[k] - node->low[k] > node->high[axis] - node->low[axis])
+            axis = k;
+    return axis;
+}
+
+static void make_node(const Maker *maker, uint32_t first, uint32_t count)
+{
+    TriangleTree *tree = maker->tree;
+    uint32_t *item = tree->order + first;
+    TreeNode *node = &tree->node[tree->node_count++];
+    bound(maker, item, count, node);
+    node->first = first;
+    node->count = count;
+    if (count <= LEAF)
+        return;
+    select_middle(maker, item, count, count / 2, longest_axis(node));
+    node->count = 0;
+    make_node(maker, first, count / 2);
+    node->first = (uint32_t)tree->node_count;
+    make_node(maker, first + count / 2, count - count / 2);
+}
+
+static void plane_of(const float corner[9], double plane[4])
+{
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = (double)corner[3 + k] - corner[k];
+        b[k] = (double)corner[6 + k] - corner[k];
+    }
+    const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    plane[3] = 0;
+    for (int k = 0; k < 3; k++) {
+        plane[k] = length > 0 ? n[k] / length : 0;
+        plane[3] += plane[k] * corner[k];
+    }
+}
+
+static void middles(const Triangles *of, float (*middle)[3])
+{
+    for (size_t t = 0; t < of->triangle_count; t++)
+        for (int k = 0; k < 3; k++)
+            middle[t][k] = of->vertex[of->triangle[t][0]][k] + of->vertex[of->triangle[t][1]][k] +
+                           of->vertex[of->triangle[t][2]][k];
+}
+
+bool triangle_tree_make(TriangleTree *tree, const Triangles *triangles)
+{
+    const size_t count = triangles->triangle_count;
+    *tree = (TriangleTree){.of = triangles};
+    tree->node = malloc((count + 1) * sizeof *tree->node); /* leaves have two triangles at least */
+    tree->order = malloc((count + 1) * sizeof *tree->order);
+    tree->corner = malloc((count + 1) * sizeof *tree->corner);
+    tree->plane = malloc((count + 1) * sizeof *tree->plane);
+    Maker maker = {tree, malloc((count + 1) * sizeof *maker.middle)};
+    const bool ok = tree->node && tree->order && tree->corner && tree->plane && maker.middle;
+    if (ok) {
+        middles(triangles, maker.middle);
+        for (size_t t = 0; t < count; t++)
+            tree->order[t] = (uint32_t)t;
+        make_node(&maker, 0, (uint32_t)count);
+        for (size_t i = 0; i < 3 * count; i++)
+            memcpy(tree->corner[i / 3] + 3 * (i % 3),
+                   triangles->vertex[triangles->triangle[tree->order[i / 3]][i % 3]], 3 * sizeof(float));
+        for (size_t i = 0; i < count; i++)
+            plane_of(tree->corner[i], tree->plane[i]);
+    } else {
+        triangle_tree_free(tree);
+    }
+    free(maker.middle);
+    return ok;
+}
+
+void triangle_tree_free(TriangleTree *tree)
+{
+    free(tree->node);
+    free(tree->order);
+    free(tree->corner);
+    free(tree->plane);
+    *tree = (TriangleTree){0};
+}
+
+/* ---- the nearest ---- */
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* From the point at `p`, relative to the segment's begin, to the segment along d. */
+static double segment_distance2(const double p[3], const double d[3])
+{
+    const double d2 = dot(d, d), along = dot(p, d), t = along <= 0 ? 0 : along >= d2 ? 1 : along / d2;
+    const double r[3] = {p[0] - t * d[0], p[1] - t * d[1], p[2] - t * d[2]};
+    return dot(r, r);
+}
+
+/* Above the triangle its plane counts, else the nearest of its sides. `best2` where it is not nearer. */
+static double triangle_distance2(const float corner[9], const double plane[4], const double x[3],
+                                 double best2)
+{
+    const double height = dot(plane, x) - plane[3];
+    double p[3][3], side[3][3], least = best2;
+    bool above = dot(plane, plane) > 0;
+    if (height * height >= best2)
+        return best2;
+    for (int c = 0; c < 3; c++)
+        for (int k = 0; k < 3; k++) {
+            p[c][k] = x[k] - corner[3 * c + k];
+            side[c][k] = (double)corner[(3 * c + 3) % 9 + k] - corner[3 * c + k];
+        }
+    for (int c = 0; c < 3 && above; c++) {
+        const double *d = side[c];
+        const double inward[3] = {plane[1] * d[2] - plane[2] * d[1], plane[2] * d[0] - plane[0] * d[2],
+                                  plane[0] * d[1] - plane[1] * d[0]};
+        above = dot(inward, p[c]) >= 0;
+    }
+    if (above)
+        return height * height;
+    for (int c = 0; c < 3; c++) {
+        const double d2 = segment_distance2(p[c], side[c]);
+        least = d2 < least ? d2 : least;
+    }
+    return least;
+}
+
+static double block_distance2(const TreeNode *node, const double x[3])
+{
+    double sum = 0;
+    for (int k = 0; k < 3; k++) {
+        const double below = node->low[k] - x[k], above = x[k] - node->high[k];
+        const double d = below > 0 ? below : above > 0 ? above : 0;
+        sum += d * d;
+    }
+    return sum;
+}
+
+double triangle_tree_nearest(const TriangleTree *tree, const double x[3], uint32_t *near)
+{
+    struct {
+        uint32_t node;
+        double d2;
+    } left[DEPTH];
+    int count = 0;
+    double best = triangle_distance2(tree->corner[*near], tree->plane[*near], x, INFINITY);
+    left[count].node = 0;
+    left[count++].d2 = 0;
+    while (count > 0) {
+        count--;
+        if (left[count].d2 >= best)
+            continue;
+        const uint32_t at = left[count].node;
+        const TreeNode *node = &tree->node[at];
+        for (uint32_t i = node->first; i < node->first + node->count; i++) {
+            const double d2 = triangle_distance2(tree->corner[i], tree->plane[i], x, best);
+            if (d2 < best) {
+                best = d2;
+                *near = i;
+            }
+        }
+        if (node->count > 0)
+            continue;
+        const double one = block_distance2(&tree->node[at + 1], x),
+                     other = block_distance2(&tree->node[node->first], x);
+        const bool swapped = other < one; /* the nearer one on top */
+        left[count].node = swapped ? at + 1 : node->first;
+        left[count].d2 = swapped ? one : other;
+        count += left[count].d2 < best;
+        left[count].node = swapped ? node->first : at + 1;
+        left[count].d2 = swapped ? other : one;
+        count += left[count].d2 < best;
+    }
+    return sqrt(best);
+}
+
+/* ---- triangles that cut each other ---- */
+
+typedef struct Cuts {
+    const TriangleTree *tree;
+    size_t found, most, tests;
+} Cuts;
+
+/* Six times the volume of the tetrahedron. */
+static double volume6(const float a[3], const float b[3], const float c[3], const float d[3])
+{
+    double u[3], v[3], w[3];
+    for (int k = 0; k < 3; k++) {
+        u[k] = (double)b[k] - a[k];
+        v[k] = (double)c[k] - a[k];
+        w[k] = (double)d[k] - a[k];
+    }
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+           u[2] * (v[0] * w[1] - v[1] * w[0]);
+}
+
+/* Whether the segment goes through the inside of the triangle; one that only touches does not. */
+static bool pierces(const float p[3], const float q[3], const float t[9])
+{
+    if (volume6(t, t + 3, t + 6, p) * volume6(t, t + 3, t + 6, q) >= 0)
+        return false;
+    const double a = volume6(p, q, t, t + 3), b = volume6(p, q, t + 3, t + 6), c = volume6(p, q, t + 6, t);
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
+static bool share_vertex(const TriangleTree *tree, uint32_t i, uint32_t j)
+{
+    const uint32_t *a = tree->of->triangle[tree->order[i]], *b = tree->of->triangle[tree->order[j]];
+    for (int c = 0; c < 9; c++)
+        if (a[c / 3] == b[c % 3])
+            return true;
+    return false;
+}
+
+static void test_pair(Cuts *cuts, uint32_t i, uint32_t j)
+{
+    const TriangleTree *tree = cuts->tree;
+    const float *a = tree->corner[i], *b = tree->corner[j];
+    cuts->tests--;
+    if (share_vertex(tree, i, j))
+        return;
+    for (int c = 0; c < 3; c++)
+        if (pierces(a + 3 * c, a + 3 * ((c + 1) % 3), b) || pierces(b + 3 * c, b + 3 * ((c + 1) % 3), a)) {
+            cuts->found++;
+            return;
+        }
+}
+
+static bool blocks_meet(const TreeNode *a, const TreeNode *b)
+{
+    for (int k = 0; k < 3; k++)
+        if (a->low[k] > b->high[k] || b->low[k] > a->high[k])
+            return false;
+    return true;
+}
+
+static void leaves_cut(Cuts *cuts, const TreeNode *a, const TreeNode *b)
+{
+    for (uint32_t i = a->first; i < a->first + a->count; i++)
+        for (uint32_t j = a == b ? i + 1 : b->first; j < b->first + b->count; j++)
+            if (cuts->found < cuts->most && cuts->tests > 0)
+                test_pair(cuts, i, j);
+}
+
+/* Those of one part of the tree with those of another, or among themselves. */
+static void parts_cut(Cuts *cuts, uint32_t a, uint32_t b)
+{
+    const TreeNode *one = &cuts->tree->node[a], *other = &cuts->tree->node[b];
+    if (cuts->found >= cuts->most || cuts->tests == 0 || !blocks_meet(one, other))
+        return;
+    if (one->count > 0 && other->count > 0) {
+        leaves_cut(cuts, one, other);
+    } else if (a == b) {
+        parts_cut(cuts, a + 1, a + 1);
+        parts_cut(cuts, one->first, one->first);
+        parts_cut(cuts, a + 1, one->first);
+    } else if (one->count > 0) {
+        parts_cut(cuts, a, b + 1);
+        parts_cut(cuts, a, other->first);
+    } else {
+        parts_cut(cuts, a + 1, b);
+        parts_cut(cuts, one->first, b);
+    }
+}
+
+size_t triangle_tree_cuts(const TriangleTree *tree, size_t most, size_t tests, bool *whole)
+{
+    Cuts cuts = {.tree = tree, .most = most, .tests = tests};
+    parts_cut(&cuts, 0, 0);
+    *whole = cuts.tests > 0 && cuts.found < most;
+    return cuts.found;
+}

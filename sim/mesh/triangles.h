@@ -1,0 +1,47 @@
+/* A closed surface of triangles that came from somewhere else: what is wrong with it, and what of that can be
+   mended. */
+#ifndef SLOSH_TRIANGLES_H
+#define SLOSH_TRIANGLES_H
+
+#include "sim/base/error.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { TRIANGLES_MAX = 2000000 }; /* what is ready within some seconds and some hundred MB */
+
+/* Counter-clockwise seen from outside. Whoever made it owns the arrays. */
+typedef struct Triangles {
+    size_t vertex_count, triangle_count;
+    float (*vertex)[3];
+    uint32_t (*triangle)[3];
+} Triangles;
+
+void triangles_free(Triangles *triangles); /* a zeroed one is allowed */
+
+/* What triangles_mend found. */
+typedef struct TrianglesState {
+    size_t open;     /* edges that a triangle lacks at */
+    size_t opposed;  /* edges whose triangles turn opposite ways */
+    size_t flat;     /* triangles without area; those whose corners coincide were taken out */
+    bool inside_out; /* it enclosed less than nothing, and was turned */
+} TrianglesState;
+
+/* Vertices that share a place, to a millionth of the whole, become one; those of no triangle go; the whole is
+   turned so that it encloses a volume above 0, and moved so that the middle of the block around it is at 0:
+   `middle` says where that was. False when there is nothing left, a number is not finite, or memory is short;
+   open and opposed edges are for the caller to refuse. */
+bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *state, Error *error);
+
+/* What it encloses, and the area, in the cube and the square of its unit. */
+double triangles_volume(const Triangles *triangles);
+double triangles_area(const Triangles *triangles);
+
+/* The corners of the least block around it. */
+void triangles_bounds(const Triangles *triangles, double low[3], double high[3]);
+
+/* Normal of a triangle, twice its area long. */
+void triangle_normal(const Triangles *triangles, size_t t, double normal[3]);
+
+#endif

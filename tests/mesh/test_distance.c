@@ -1,0 +1,199 @@
+/* Meshes as shapes: what is wrong with them, and the distance from them. */
+#include "tests/mesh_models.h"
+#include "tests/near.h"
+
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+static const double origin[3] = {0}, unit[3] = {1, 1, 1};
+
+/* What making it says; "" where it is made. */
+static const char *said(Triangles *model, MeshState *state)
+{
+    static Error error;
+    error.message[0] = '\0';
+    mesh_shape_free(mesh_shape_make(model, 1, state, &error));
+    return error.message;
+}
+
+static Triangles a_box(void)
+{
+    Triangles model = model_room(1000, 1000);
+    model_box(&model, origin, unit, 3);
+    return model;
+}
+
+static void what_is_wrong_is_said(void **state)
+{
+    (void)state;
+    MeshState found;
+    Triangles model = a_box();
+    assert_string_equal(said(&model, &found), "");
+    assert_false(found.triangles.inside_out);
+    assert_int_equal(found.triangles.flat + found.cutting, 0);
+    assert_true(found.all_looked_at);
+
+    model = a_box();
+    model.triangle_count -= 2;
+    assert_non_null(strstr(said(&model, &found), "the mesh is open: 4 edges lack a triangle; "));
+    model = a_box();
+    model.triangle_count = 1;
+    assert_non_null(strstr(said(&model, &found), "the mesh is open: 3 edges lack a triangle; "));
+
+    model = a_box();
+    const uint32_t other = model.triangle[7][0];
+    model.triangle[7][0] = model.triangle[7][1];
+    model.triangle[7][1] = other;
+    assert_non_null(strstr(said(&model, &found), "at 3 of its edges triangles turn opposite ways; "));
+
+    model = a_box();
+    model.vertex[5][1] = NAN;
+    assert_string_equal(said(&model, &found), "y of vertex 6 of 96 is no finite number; mend the file");
+
+    model = a_box();
+    for (size_t i = 0; i < model.vertex_count; i++)
+        model.vertex[i][2] = 0;
+    assert_non_null(strstr(said(&model, &found), "; ")); /* encloses nothing */
+    model = model_room(3, 0);
+    assert_non_null(strstr(said(&model, &found), "none of its triangles has an area; "));
+}
+
+static void what_can_be_is_mended(void **state)
+{
+    (void)state;
+    MeshState found;
+    Triangles model = a_box();
+    for (size_t t = 0; t < model.triangle_count; t++) {
+        const uint32_t other = model.triangle[t][0];
+        model.triangle[t][0] = model.triangle[t][1];
+        model.triangle[t][1] = other;
+    }
+    MeshShape *shape = mesh_shape_make(&model, 1, &found, NULL);
+    assert_non_null(shape);
+    assert_true(found.triangles.inside_out);
+    check_near(shape->volume, 1, 1e-6, "volume of what was inside out");
+    assert_true(distance_at(&shape->distance, origin, NULL) < 0);
+    mesh_shape_free(shape);
+
+    model = a_box();
+    model_triangle(&model, 4, 4, 9); /* nothing */
+    model_triangle(&model, 0, 3, 0);
+    assert_string_equal(said(&model, &found), "");
+    assert_int_equal(found.triangles.flat, 2);
+
+    model = model_room(1000, 1000); /* two boxes into each other: one body */
+    model_box(&model, origin, unit, 3);
+    model_box(&model, (double[3]){0.6, 0.1, 0.1}, unit, 3);
+    shape = mesh_shape_make(&model, 1, &found, NULL);
+    assert_true(found.cutting > 8);
+    check_near(found.middle[0], 0.3, 1e-6, "its middle");
+    assert_true(distance_at(&shape->distance, (double[3]){0.05, 0, 0}, NULL) < 0); /* in both */
+    assert_true(distance_at(&shape->distance, (double[3]){0.7, 0, 0}, NULL) < 0);
+    assert_true(distance_at(&shape->distance, (double[3]){0.7, -0.52, 0}, NULL) > 0);
+    check_near(distance_volume_below(&shape->distance, 0), 2 - 0.4 * 0.9 * 0.9, 0.02, "volume of both");
+    mesh_shape_free(shape);
+}
+
+/* Against the formula, of a polyhedron that leaves its sphere by less than is asked for. */
+static void distance_from_a_ball(void **state)
+{
+    (void)state;
+    Triangles model = model_room(20000, 40000);
+    MeshState found;
+    model_ball(&model, 0.5, 90);
+    MeshShape *shape = mesh_shape_make(&model, 2, &found, NULL);
+    assert_non_null(shape);
+    assert_int_equal(found.cutting, 0);
+    const double cell = shape->distance.cell;
+    double worst = 0, worst_far = 0, worst_slope = 0;
+    unsigned bits = 1;
+    for (int i = 0; i < 20000; i++) {
+        double x[3], slope[3], along = 0, r = 0;
+        for (int k = 0; k < 3; k++) {
+            bits = bits * 1664525 + 1013904223;
+            x[k] = 1.6 * (bits * 0x1p-32 - 0.5);
+            r += x[k] * x[k];
+        }
+        r = sqrt(r);
+        const double d = distance_at(&shape->distance, x, slope), off = fabs(d - (r - 0.5));
+        if (r < 10 * cell)
+            continue; /* the middle is a kink, which a coarse grid does not have */
+        if (fabs(r - 0.5) < 2 * cell)
+            worst = fmax(worst, off);
+        else if (fabs(x[0]) < 0.5 && fabs(x[1]) < 0.5 && fabs(x[2]) < 0.5)
+            worst_far = fmax(worst_far, off);
+        else
+            assert_true(d <= r - 0.5 + 0.1 * cell && d > 0); /* beyond the grid no more than it is */
+        for (int k = 0; k < 3; k++)
+            along += slope[k] * x[k] / r;
+        if (fabs(r - 0.5) < 2 * cell)
+            worst_slope = fmax(worst_slope, fabs(along - 1));
+    }
+    printf("a ball of %zu triangles: off by %.3f cells near its surface, %.3f far from it; slope by %.3f\n",
+           shape->triangles.triangle_count, worst / cell, worst_far / cell, worst_slope);
+    assert_true(worst < 0.05 * cell);
+    assert_true(worst_far < 0.5 * cell);
+    assert_true(worst_slope < 0.05);
+    check_near(shape->volume, 4 * M_PI / 3 / 8, 1e-3, "volume");
+    check_near(shape->area, M_PI, 1e-3, "area");
+    check_near(distance_volume_below(&shape->distance, 0.2), 4 * M_PI / 3 * 0.3 * 0.3 * 0.3, 2e-3,
+               "volume within");
+    mesh_shape_free(shape);
+}
+
+static void any_number_of_threads_gives_the_same(void **state)
+{
+    (void)state;
+    MeshShape *shape[2];
+    for (int k = 0; k < 2; k++) {
+        Triangles model = model_room(3000, 5000);
+        MeshState found;
+        model_box(&model, origin, (double[3]){1, 0.7, 0.4}, 8);
+        model_ball(&model, 0.4, 20);
+        shape[k] = mesh_shape_make(&model, 1 + 3 * k, &found, NULL);
+    }
+    const DistanceGrid *a = &shape[0]->distance, *b = &shape[1]->distance;
+    assert_int_equal(distance_count(a), distance_count(b));
+    assert_memory_equal(a->value, b->value, distance_count(a) * sizeof *a->value);
+    for (int k = 0; k < 2; k++)
+        mesh_shape_free(shape[k]);
+}
+
+/* Thinner than what the length alone would give a cell: finer cells. */
+static void a_plate_has_two_sides(void **state)
+{
+    (void)state;
+    MeshShape *shape = model_box_shape(1, 0.02, 1);
+    assert_non_null(shape);
+    for (double x = -0.45; x < 0.45; x += 0.013)
+        assert_true(distance_at(&shape->distance, (double[3]){x, 0, 0.3 * x}, NULL) < -0.005);
+    mesh_shape_free(shape);
+}
+
+/* The figure of docs/performance.md: CPU time of one thread, of 100,000 triangles. */
+static void a_hundred_thousand_are_soon_ready(void **state)
+{
+    (void)state;
+    Triangles model = model_room(60000, 110000);
+    MeshState found;
+    model_ball(&model, 0.5, 159);
+    const size_t count = model.triangle_count;
+    const clock_t began = clock();
+    MeshShape *shape = mesh_shape_make(&model, 1, &found, NULL);
+    const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
+    assert_non_null(shape);
+    printf("%zu triangles, %zu values: %.2f s\n", count, distance_count(&shape->distance), seconds);
+    assert_true(seconds < 20); /* under a sanitizer */
+    mesh_shape_free(shape);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_is_wrong_is_said), cmocka_unit_test(what_can_be_is_mended),
+        cmocka_unit_test(distance_from_a_ball),  cmocka_unit_test(any_number_of_threads_gives_the_same),
+        cmocka_unit_test(a_plate_has_two_sides), cmocka_unit_test(a_hundred_thousand_are_soon_ready),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
