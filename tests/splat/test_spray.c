@@ -191,6 +191,7 @@ static void a_drop_covers_its_disc(void **state)
         SplatScene scene = drop_scene(spacings[i]);
         double centre[3], taken = 0;
         splat_def(&scene.def)->attenuation = 1e-5;
+        splat_def(&scene.def)->sprite = i & 1 ? SPLAT_QUAD : SPLAT_POINT;
         for (int k = 0; k < 3; k++)
             scene.world.fluids[0].color[k] = 1e-4F;
         draw(&scene, lay_grey);
