@@ -94,7 +94,8 @@ static void draw_marks(Play *play)
             !renderer_is_flat(panels_renderer(picture->panels, i)))
             draw_outline(&look, &goal, picture->text);
         grip_draw(&play->grip, &look, picture->text);
-        if (play->touch.on && i == picture_panel_at(picture, play->grip.mouse[0], play->grip.mouse[1]))
+        if (play->touch.on && !renderer_is_flat(panels_renderer(picture->panels, i)) &&
+            i == picture_panel_at(picture, play->grip.mouse[0], play->grip.mouse[1]))
             draw_finger(play, &look, picture->text);
     }
     picture->over |= readout_draw(&play->readout, picture->panels, picture->width, picture->height,

@@ -75,9 +75,13 @@ static uint64_t touch(Play *play)
     TouchTool *tool = &play->touch;
     const Scene *scene = &play->model.open.scene;
     Finger finger;
-    touch_travel(tool, play->model.travels);
+    touch_travel(tool, play->model.travels, play->model.told_script == SCRIPT_PLAYS);
     if (!input_touches(&play->input) || !picture_visible(&play->picture)) {
         touch_release(tool, play->model.status.past.behind);
+    } else if (renderer_is_flat(panels_renderer(play->picture.panels, play->picture.chosen))) {
+        if (!tool->spent)
+            notice_tell(&play->notice, "a flat picture has no depth to touch; use another view");
+        tool->spent = true;
     } else {
         const Look look = play_look(play, play->picture.chosen);
         SightRay ray;

@@ -9,7 +9,8 @@
 /* What changes no bit: how the fluid is drawn, and how many processors compute. */
 static bool is_allowed(const char *setting)
 {
-    static const char *const keys[] = {"view.", "view=", "solver.threads=", "solver.simd="};
+    static const char *const keys[] = {"view.",  "view=",           "touch.",
+                                       "touch=", "solver.threads=", "solver.simd="};
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
         if (strncmp(setting, keys[i], strlen(keys[i])) == 0)
             return true;

@@ -150,8 +150,7 @@ void simulator_obey_recorded(Simulator *simulator)
         simulator_tell_travel(simulator);
 }
 
-/* A finger that is in the fluid leaves it here: its end is of a future that will not be, or of none yet. */
-static void lift_finger(Simulator *simulator)
+void simulator_lift_finger(Simulator *simulator)
 {
     WorldInfo info;
     world_info(simulator->world, &info);
@@ -173,7 +172,7 @@ void simulator_cut(Simulator *simulator)
     simulator->behind = false;
     simulator->recording.count = simulator->next;
     past_cut(simulator->past, simulator->at);
-    lift_finger(simulator);
+    simulator_lift_finger(simulator);
     if (!simulator->follows)
         simulator_tell(simulator, false, words);
     for (int i = 0; i < simulator->follower_count; i++) /* also where the setting is not theirs */
@@ -309,8 +308,8 @@ static void finish_present(Simulator *simulator, Work *work)
         work->commands.commands[i].step = info.step;
         simulator_obey(simulator, &work->commands.commands[i]);
     }
-    if (!simulator->behind)
-        lift_finger(simulator);
+    if (!simulator->behind && !simulator->scripted) /* a script goes on where it was */
+        simulator_lift_finger(simulator);
     if (!at_its_place(simulator))
         frame_again(simulator);
 }

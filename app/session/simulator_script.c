@@ -23,6 +23,7 @@ void simulator_script_leave(Simulator *simulator)
     if (!simulator->scripted)
         return;
     simulator->scripted = false;
+    simulator_lift_finger(simulator);
     set_state(simulator, SCRIPT_LEFT);
 }
 
@@ -62,6 +63,7 @@ void simulator_script_obey(Simulator *simulator)
     set_state(simulator, script->cut                                    ? SCRIPT_CUT
                          : world_hash(simulator->world) == script->hash ? SCRIPT_SAME
                                                                         : SCRIPT_OTHER);
+    simulator_lift_finger(simulator);
 }
 
 typedef struct ScriptWords {

@@ -175,6 +175,9 @@ void simulator_cut(Simulator *simulator);
 /* The same where one of the commands to be obeyed changes that. */
 void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int count);
 
+/* A finger that is in the fluid leaves it: its end is of a future that will not be, or of none yet. */
+void simulator_lift_finger(Simulator *simulator);
+
 /* Settings and hand are what a recorded command made of them. */
 void simulator_tell_travel(Simulator *simulator);
 

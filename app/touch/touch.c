@@ -29,12 +29,12 @@ void touch_forget(TouchTool *tool)
     tool->told = (Finger){.way = FINGER_NONE};
 }
 
-void touch_travel(TouchTool *tool, unsigned travels)
+void touch_travel(TouchTool *tool, unsigned travels, bool scripted)
 {
-    if (tool->travels == travels)
-        return;
+    if (tool->travels != travels && !tool->scripted)
+        tool->spent = tool->holds;
     tool->travels = travels;
-    tool->spent = tool->holds;
+    tool->scripted = scripted;
 }
 
 bool touch_move(TouchTool *tool, const SightRay *ray, const double forward[3], int dimensions)

@@ -16,7 +16,8 @@ typedef struct TouchTool {
     FingerWay way;    /* what it does */
     double at[3];     /* where the pointer is; without a drag, where it would begin */
     Finger told;      /* as it was last sent */
-    unsigned travels; /* jumps in time that were seen */
+    unsigned travels; /* jumps in time that were seen, */
+    bool scripted;    /* and whether a recorded session was played then */
 } TouchTool;
 
 /* What the other button does than that which does `way`. */
@@ -31,8 +32,9 @@ void touch_release(TouchTool *tool, bool behind);
 /* Nothing is in the fluid: the scene begins anew, or another one is open. */
 void touch_forget(TouchTool *tool);
 
-/* Time has jumped so many times: a drag does nothing more from then on. */
-void touch_travel(TouchTool *tool, unsigned travels);
+/* Time has jumped so many times: a drag does nothing more from then on. Where a recorded session is played
+   its commands count as jumps, and the drag takes over from it. */
+void touch_travel(TouchTool *tool, unsigned travels, bool scripted);
 
 /* Where `ray` meets the plane through the tool's place that faces the camera looking along `forward`, or that
    of a fluid in two dimensions: the tool's place from now on. False where they do not meet. */

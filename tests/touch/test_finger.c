@@ -173,6 +173,9 @@ static void its_work_is_no_trouble(void **state)
         world_touch(world, &finger);
         fixture_step(world, 1);
     }
+    const Finger finger = touch_at(FINGER_PULL, 0.5, 0.8, 0, 2, 20); /* that goes on without a command */
+    world_touch(world, &finger);
+    fixture_step(world, 80);
     world_touch(world, &(Finger){.way = FINGER_NONE});
     fixture_step(world, 30);
     world_info(world, &info);

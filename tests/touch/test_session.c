@@ -187,12 +187,48 @@ static void no_finger_stays_behind(void **state)
     assert_true(replay("a.rec") > 0);
 }
 
+/* A recorded stroke that is done again comes to its end, also where one has looked back; who acts in the
+   middle of it has no foreign finger in the fluid. */
+static void a_session_that_is_done_again(void **state)
+{
+    (void)state;
+    uint64_t hash[FRAMES + 1];
+    Recording script;
+    Rig rig;
+    rig_open(&rig, scenes[0].text, 64 * MIB);
+    stroke(&rig, hash);
+    rig_save(&rig, "a.rec");
+    rig_close(&rig);
+    must(recording_read("a.rec", &script, &error));
+    rig_start(&rig, scenes[0].text, (SimulatorSetup){.past_bytes = 64 * MIB, .script = &script});
+    rig_ready(&rig);
+    for (int i = 1; i <= 4; i++)
+        rig_step(&rig);
+    rig_back(&rig);
+    rig_go(&rig, INFINITY);
+    assert_true(touched(&rig) && rig_hash(&rig) == hash[4]);
+    for (int i = 5; i <= FRAMES + 1; i++)
+        rig_step(&rig);
+    assert_true(rig.status.script == SCRIPT_SAME && !touched(&rig));
+    rig_close(&rig);
+    rig_start(&rig, scenes[0].text, (SimulatorSetup){.past_bytes = 64 * MIB, .script = &script});
+    rig_ready(&rig);
+    for (int i = 1; i <= 4; i++)
+        rig_step(&rig);
+    assert_true(touched(&rig));
+    rig_target(&rig, 0.1);
+    rig_step(&rig);
+    assert_true(rig.status.script == SCRIPT_LEFT && !touched(&rig));
+    rig_close(&rig);
+    recording_destroy(&script);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_replayed_and_undone), cmocka_unit_test(the_recording_has_it),
         cmocka_unit_test(commands_of_one_step),      cmocka_unit_test(a_new_start_has_no_finger),
-        cmocka_unit_test(no_finger_stays_behind),
+        cmocka_unit_test(no_finger_stays_behind),    cmocka_unit_test(a_session_that_is_done_again),
     };
     return cmocka_run_group_tests(tests, rig_setup, rig_teardown);
 }

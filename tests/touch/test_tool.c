@@ -59,16 +59,20 @@ static void a_jump_ends_it(void **state)
     Finger finger;
     touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
     assert_true(asks(&tool, &finger));
-    touch_travel(&tool, 3);
+    touch_travel(&tool, 3, false);
     assert_false(asks(&tool, &finger));
     touch_release(&tool, true);
     assert_false(asks(&tool, &finger));
-    touch_travel(&tool, 3);
+    touch_travel(&tool, 3, false);
     touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
     assert_true(asks(&tool, &finger));
-    touch_travel(&tool, 4);
+    touch_travel(&tool, 4, false);
     touch_release(&tool, false); /* nothing comes after: its end is said, whoever has lifted it */
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_NONE);
+    touch_travel(&tool, 4, true);
+    touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
+    touch_travel(&tool, 5, false); /* by a command of the session that the press has ended */
+    assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_STIR);
 }
 
 static void the_ring_shows_the_ball(void **state)
