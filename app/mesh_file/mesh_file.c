@@ -50,12 +50,21 @@ static bool head_fits(const char *path, MeshFormat format, Error *error)
 
 /* ---- reading it ---- */
 
-/* Of the points and lines among its faces nothing is taken. */
+/* Of the points and lines among its faces nothing is taken, nor of what names vertices that are not there. */
+static bool is_triangle(const struct aiMesh *mesh, unsigned f)
+{
+    const struct aiFace *face = &mesh->mFaces[f];
+    bool is = face->mNumIndices == 3;
+    for (int c = 0; c < 3 && is; c++)
+        is = face->mIndices[c] < mesh->mNumVertices;
+    return is;
+}
+
 static size_t triangles_of(const struct aiMesh *mesh)
 {
     size_t count = 0;
     for (unsigned f = 0; f < mesh->mNumFaces; f++)
-        count += mesh->mFaces[f].mNumIndices == 3;
+        count += is_triangle(mesh, f);
     return count;
 }
 
@@ -80,7 +89,7 @@ static void take(const struct aiMesh *mesh, Triangles *triangles)
 {
     const uint32_t first = (uint32_t)triangles->vertex_count;
     for (unsigned f = 0; f < mesh->mNumFaces; f++)
-        if (mesh->mFaces[f].mNumIndices == 3) {
+        if (is_triangle(mesh, f)) {
             uint32_t *corner = triangles->triangle[triangles->triangle_count++];
             for (int c = 0; c < 3; c++)
                 corner[c] = first + mesh->mFaces[f].mIndices[c];

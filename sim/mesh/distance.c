@@ -8,7 +8,7 @@
 #include <string.h>
 
 enum {
-    CELLS = 80, /* along the longest side */
+    CELLS = 64, /* along the longest side */
     ACROSS = 3, /* through a part that is as thick as the mean */
     ROOM = 8,   /* cells around the surface, and a part of one more */
     COARSE = 4, /* cells from one value of the coarse grid to the next */
@@ -79,6 +79,16 @@ static float exact_at(const Work *work, int i, int j, int k, uint32_t *near)
     return (float)triangle_tree_nearest(work->tree, x, near);
 }
 
+/* Exact where it is a few cells only. */
+static float nearly_at(const Work *work, int i, int j, int k, uint32_t *near)
+{
+    const double exact = ROOM * work->grid->cell;
+    double x[3];
+    place_of(work->grid, i, j, k, x);
+    const double d = triangle_tree_near(work->tree, x, 0.02, near);
+    return (float)(d < exact ? triangle_tree_nearest(work->tree, x, near) : d);
+}
+
 static void coarse_range(void *context, size_t begin, size_t end)
 {
     const Work *work = context;
@@ -88,7 +98,7 @@ static void coarse_range(void *context, size_t begin, size_t end)
         const int j = (int)row % rows * COARSE, k = (int)row / rows * COARSE;
         uint32_t near = 0;
         for (int i = 0; i < grid->size[0]; i += COARSE)
-            grid->value[index_of(grid, i, j, k)] = exact_at(work, i, j, k, &near);
+            grid->value[index_of(grid, i, j, k)] = nearly_at(work, i, j, k, &near);
     }
 }
 
@@ -119,7 +129,7 @@ static bool is_far(const Work *work, const Block *block, uint32_t *near)
 {
     const int half = COARSE / 2, *low = block->low;
     const double corner = sqrt(3) * half, margin = 2.5;
-    return exact_at(work, low[0] + half, low[1] + half, low[2] + half, near) >
+    return nearly_at(work, low[0] + half, low[1] + half, low[2] + half, near) >
            (corner + margin) * work->grid->cell;
 }
 

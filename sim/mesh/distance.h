@@ -2,8 +2,8 @@
 
    Values belong to the corners of cubic cells, x fastest, and are straight lines between them. Near the
    surface each is exact; far from it, where nothing but its size matters, it is that of a grid four times as
-   coarse. What is inside is said by the winding number along lines of the grid, so that parts that overlap
-   are one body. A part thinner than a cell may be lost. */
+   coarse, up to 2 % too much. What is inside is said by the winding number along lines of the grid, so that
+   parts that overlap are one body. A part thinner than a cell may be lost. */
 #ifndef SLOSH_DISTANCE_H
 #define SLOSH_DISTANCE_H
 

@@ -199,6 +199,12 @@ static double block_distance2(const TreeNode *node, const double x[3])
 
 double triangle_tree_nearest(const TriangleTree *tree, const double x[3], uint32_t *near)
 {
+    return triangle_tree_near(tree, x, 0, near);
+}
+
+double triangle_tree_near(const TriangleTree *tree, const double x[3], double part, uint32_t *near)
+{
+    const double nearer = 1 / ((1 + part) * (1 + part));
     struct {
         uint32_t node;
         double d2;
@@ -209,7 +215,7 @@ double triangle_tree_nearest(const TriangleTree *tree, const double x[3], uint32
     left[count++].d2 = 0;
     while (count > 0) {
         count--;
-        if (left[count].d2 >= best)
+        if (left[count].d2 >= best * nearer)
             continue;
         const uint32_t at = left[count].node;
         const TreeNode *node = &tree->node[at];
@@ -227,10 +233,10 @@ double triangle_tree_nearest(const TriangleTree *tree, const double x[3], uint32
         const bool swapped = other < one; /* the nearer one on top */
         left[count].node = swapped ? at + 1 : node->first;
         left[count].d2 = swapped ? one : other;
-        count += left[count].d2 < best;
+        count += left[count].d2 < best * nearer;
         left[count].node = swapped ? node->first : at + 1;
         left[count].d2 = swapped ? other : one;
-        count += left[count].d2 < best;
+        count += left[count].d2 < best * nearer;
     }
     return sqrt(best);
 }

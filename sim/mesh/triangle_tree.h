@@ -27,6 +27,9 @@ void triangle_tree_free(TriangleTree *tree);
    nearest: places that follow each other mostly have the same. */
 double triangle_tree_nearest(const TriangleTree *tree, const double x[3], uint32_t *near);
 
+/* The same, up to that part of it too much: where all triangles are nearly as near, the nearest is dear. */
+double triangle_tree_near(const TriangleTree *tree, const double x[3], double part, uint32_t *near);
+
 /* Pairs of triangles that share no vertex and cut each other: at most `most` of them, after at most `tests`
    pairs of triangles looked at; *whole says whether all were. */
 size_t triangle_tree_cuts(const TriangleTree *tree, size_t most, size_t tests, bool *whole);
