@@ -12,8 +12,8 @@ float finger_share(float x)
 vec3 finger_moved(vec3 v, vec3 d, float inverse_radius2, vec4 finger_velocity, float finger_kick)
 {
     float q2 = dot(d, d) * inverse_radius2;
-    if (!(q2 < 1.0))
+    float w = q2 < 1.0 ? (1.0 - q2) * (1.0 - q2) : 0.0;
+    if (w == 0.0)
         return v;
-    float w = (1.0 - q2) * (1.0 - q2);
     return v + finger_share(finger_velocity.w * w) * (finger_velocity.xyz - v) + finger_kick * w * d;
 }

@@ -90,7 +90,7 @@ class BadInput(CommandTest):
 
     def test_files_of_other_commands(self):
         for text, takes, commands in (
-                ('slosh recording 1\nprogram 0.1\n', 'slosh replay and slosh render take it', COMMANDS[:1]),
+                ('slosh recording 1\nprogram 0.1\n', 'the window, slosh replay and slosh render take it', COMMANDS[:1]),
                 ('\x89HDF\r\n\x1a\n', 'slosh play, slosh render and slosh export take it', COMMANDS[:2]),
                 ('slosh device recording 1\n', '--device file:PATH takes it', COMMANDS[:2])):
             self.write('other', text.encode('latin-1'))

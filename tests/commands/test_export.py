@@ -504,11 +504,11 @@ class Ply(ExportTest):
             with h5py.File(self.path('a.h5part'), 'r') as file:
                 speed = numpy.array([numpy.linalg.norm(velocity(file[f'Step#{k}'])[1], axis=1) for k in range(5)])
             found = [read_ply(self.read(f'a/a-{k:04}.ply')) for k in range(5)]
-            green = numpy.array([rows['green'] for rows in found])  # rises all the way in viridis
+            green = numpy.array([rows['green'] for rows in found])  # rises all the way in mako
             low, high = (re.findall(rb'speed from (\S+) to (\S+) m/s', self.read(f'a/a-{k:04}.ply'))[0] for k in (0, 4))
             self.assertEqual(low, high)
             numpy.testing.assert_allclose([float(number) for number in low], [speed.min(), speed.max()], rtol=1e-5)
-            self.assertEqual((green.min(), green.max()), (0x01, 0xe7))
+            self.assertEqual((green.min(), green.max()), (0x5d, 0xf5))
             order = numpy.argsort(speed, axis=None)
             self.assertGreaterEqual(numpy.diff(green.flatten()[order].astype(int)).min(), -1)
         self.export('a.ply', '--color-by', 'pressure', '--surface', '--time', '0.1')

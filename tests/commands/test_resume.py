@@ -332,7 +332,8 @@ class Resume(CommandTest):
             self.assertIn(said, answer)
             self.assertRegex(answer, r'; only the \d+ before it can be exported\n')
 
-    MARK = 33  # doubles of EnergyMark (sim/world/world_state.h), the last of the restart's numbers
+    MARK = 33  # doubles of EnergyMark (sim/world/world_state.h)
+    LAST = MARK + 10  # with what stands behind it, the last of the restart's numbers
 
     def test_a_file_whose_energy_was_watched_in_another_way(self):
         """Four of the mark's numbers are in it: they are left out, and the watch begins anew."""
@@ -343,14 +344,14 @@ class Resume(CommandTest):
                 del file[f'Step#{k}']
             last = file[f'Step#{steps // 2 - 1}']
             whole = last.attrs['restart']
-            numbers = whole[:4 - self.MARK]
+            numbers = whole[:4 - self.LAST]
             del last.attrs['restart']
             last.attrs['restart'] = numbers
         self.go('--resume')
         with h5py.File(self.path('a.h5part'), 'r+') as file:
             last = file[f'Step#{steps // 2 - 1}']
             last.attrs['restart'] = whole
-        self.same('whole.h5part', 'a.h5part', self.MARK)
+        self.same('whole.h5part', 'a.h5part', self.LAST)
 
     def test_other_particles_are_refused(self):
         self.go()
