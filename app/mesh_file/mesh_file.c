@@ -81,8 +81,10 @@ static bool allocate(const struct aiScene *scene, Triangles *triangles, Error *e
         return error_set(error, "it has no triangles; a solid is a closed surface of them");
     triangles->vertex = malloc((vertices + 1) * sizeof *triangles->vertex);
     triangles->triangle = malloc((count + 1) * sizeof *triangles->triangle);
-    return (triangles->vertex && triangles->triangle) ||
-           error_set(error, "no memory for its %zu triangles", count);
+    if (triangles->vertex && triangles->triangle)
+        return true;
+    error_set(error, "no memory for its %zu triangles", count);
+    return false;
 }
 
 static void take(const struct aiMesh *mesh, Triangles *triangles)
@@ -114,7 +116,7 @@ bool mesh_file_read(const char *path, Triangles *triangles, Error *error)
         return error_set(error, "it cannot be read: %.300s; write it anew with a modeller",
                          aiGetErrorString());
     const bool ok = allocate(scene, triangles, error);
-    for (unsigned m = 0; ok && m < scene->mNumMeshes; m++)
+    for (unsigned m = 0; ok && triangles->vertex && m < scene->mNumMeshes; m++)
         take(scene->mMeshes[m], triangles);
     aiReleaseImport(scene);
     if (!ok)

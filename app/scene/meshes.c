@@ -40,7 +40,7 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
 {
     const Check *check = &reader->check;
     char path[1200];
-    MeshState state;
+    MeshState state = {.cutting = 0};
     Error why = {""};
     if (check->scene->world.dimensions == 2)
         return FAIL(check, key, "a 2D scene has no meshes; write another shape");
