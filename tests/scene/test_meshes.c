@@ -29,6 +29,11 @@ static void write_bytes(const char *name, const void *bytes, size_t size)
     fclose(file);
 }
 
+static void write_text(const char *name, const char *text)
+{
+    write_bytes(name, text, strlen(text));
+}
+
 /* A unit box; `faces` of its 12 triangles, turned inwards if so. */
 static void write_box(const char *name, int faces, bool inwards)
 {
@@ -41,7 +46,7 @@ static void write_box(const char *name, int faces, bool inwards)
     for (int f = 0; f < faces; f++)
         snprintf(text + strlen(text), sizeof text - strlen(text), "f %d %d %d\n", corner[f][0],
                  corner[f][inwards ? 2 : 1], corner[f][inwards ? 1 : 2]);
-    write_bytes(name, text, strlen(text));
+    write_text(name, text);
 }
 
 #define TANK                                                                                                 \
@@ -124,7 +129,7 @@ static void what_cannot_be_had_is_refused(void **state)
 {
     (void)state;
     expect_refusal("none.obj", "none.obj: No such file or directory; name a file that is there");
-    write_bytes("box.xyz", "v 0 0 0\n", 8);
+    write_text("box.xyz", "v 0 0 0\n");
     expect_refusal(
         "box.xyz",
         "box.xyz: its ending is of no format that is read; name a file .obj, .ply, .stl, .gltf or .glb");
@@ -132,11 +137,11 @@ static void what_cannot_be_had_is_refused(void **state)
     expect_refusal("folder.obj", "folder.obj: it is no file; name a file that has a mesh");
     write_box("open.obj", 11, false);
     expect_refusal("open.obj", "open.obj: the mesh is open: 3 edges lack a triangle; ");
-    write_bytes("text.ply", "no mesh\n", 8);
+    write_text("text.ply", "no mesh\n");
     expect_refusal("text.ply", "text.ply: it cannot be read: ");
-    write_bytes("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", 24);
+    write_text("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     expect_refusal("points.obj", "points.obj: it ");
-    write_bytes("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n", 71);
+    write_text("nan.obj", "v 0 0 0\nv 1 nan 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     expect_refusal("nan.obj", " is no finite number; mend the file");
     assert_false(load("box: {size: [1, 1]}\nparticles: {spacing: 0.05}\nfluids:\n"
                       "  - fill: [{mesh: {file: box.obj, centre: [0, 0.5]}}]\n",
@@ -157,7 +162,7 @@ static void what_is_too_large_is_refused_unread(void **state)
     static const char ply[] = "ply\nformat ascii 1.0\nelement vertex 5\nelement face 10000000\nend_header\n";
     write_bytes("huge.ply", ply, sizeof ply - 1);
     expect_refusal("huge.ply", "huge.ply: 10,000,000 triangles, more than the 2,000,000 that there may be; ");
-    write_bytes("huge.obj", "v 0 0 0\n", 8);
+    write_text("huge.obj", "v 0 0 0\n");
     assert_int_equal(truncate(in_folder("huge.obj"), 600 << 20), 0);
     expect_refusal("huge.obj", "huge.obj: 600 MiB, more than the 256 that there may be; ");
 }
