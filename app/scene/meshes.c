@@ -1,5 +1,6 @@
 /* The meshes that a scene names, and what its user should know of them. */
 #include "app/base/notes.h"
+#include "app/base/path.h"
 #include "app/mesh_file/mesh_count.h"
 #include "app/mesh_file/mesh_file.h"
 #include "app/scene/advise.h"
@@ -7,6 +8,8 @@
 #include "app/scene/tables.h"
 
 #include <stdio.h>
+#include <string.h>
+#include <unistd.h>
 
 bool scene_names_mesh(const char *text)
 {
@@ -36,6 +39,18 @@ static void say_state(const Reader *reader, const char *key, const char *file, c
                file, state->all_looked_at ? "" : "at least ", state->cutting, plural(state->cutting));
 }
 
+/* Beside the scene; of a scene that a file of snapshots has, else where scenes are looked for. */
+static bool find(const Reader *reader, const char *file, char path[1200], Error *why)
+{
+    char found[SCENE_PATH_SIZE];
+    Error none = {""};
+    if (!scene_beside_path(reader->check.tree->path, file, path, why))
+        return false;
+    if (reader->lenient && access(path, R_OK) != 0 && scene_path_find(file, found, &none))
+        memcpy(path, found, sizeof found);
+    return true;
+}
+
 static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
 {
     const Check *check = &reader->check;
@@ -44,7 +59,7 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
     Error why = {""};
     if (check->scene->world.dimensions == 2)
         return FAIL(check, key, "a 2D scene has no meshes; write another shape");
-    if (scene_beside_path(check->tree->path, mesh->file, path, &why))
+    if (find(reader, mesh->file, path, &why))
         mesh->shape = mesh_file_load(path, &state, &why);
     if (!mesh->shape && !reader->lenient)
         return FAIL(check, key, "%.90s: %s", mesh->file, why.message);
