@@ -54,6 +54,7 @@ void main()
     if (gl_LocalInvocationID.x == 0u) { // count, instances, first, base instance
         command[0] = 6u * rects;
         command[1] = 1u;
-        command[2] = command[3] = 0u;
+        command[2] = 0u;
+        command[3] = 0u;
     }
 }

@@ -3,6 +3,7 @@
 #include "sim/gl/shader_source.h"
 
 #include <epoxy/gl.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { LOG_MAX = 4096 };
@@ -58,16 +59,15 @@ unsigned program_begin(const char *label, const char *const stages[], const char
 }
 
 /* With the names of files, which are read again. */
-static bool say_log(GLuint shader, const char *path, const char *defines, Error *error)
+static bool say_log(const char *log, const char *label, const char *path, const char *defines, Error *error)
 {
-    char log[LOG_MAX], named[LOG_MAX];
+    char named[LOG_MAX];
     ShaderSource source;
-    glGetShaderInfoLog(shader, sizeof log, NULL, log);
     if (!shader_source_load(&source, path, defines, error))
         return false;
-    shader_source_log(&source, log, named, sizeof named);
+    const bool placed = shader_source_log(&source, log, named, sizeof named);
     shader_source_free(&source);
-    return error_set(error, "%s", named);
+    return error_set(error, "%s%s%s%s", label, placed ? "" : path, placed ? "" : ": ", named);
 }
 
 static bool compiled(GLuint program, const char *const stages[], const char *defines, Error *error)
@@ -82,8 +82,11 @@ static bool compiled(GLuint program, const char *const stages[], const char *def
         glGetShaderiv(shaders[i], GL_COMPILE_STATUS, &good);
         glGetShaderiv(shaders[i], GL_SHADER_TYPE, &kind);
         for (int k = 0; !good && done && stages[k]; k++)
-            if (stage_kind(stages[k]) == (GLenum)kind)
-                done = say_log(shaders[i], stages[k], defines, error);
+            if (stage_kind(stages[k]) == (GLenum)kind) {
+                char log[LOG_MAX];
+                glGetShaderInfoLog(shaders[i], sizeof log, NULL, log);
+                done = say_log(log, "", stages[k], defines, error);
+            }
     }
     return done;
 }
@@ -97,9 +100,12 @@ bool program_finish(unsigned program, const char *label, const char *const stage
     glGetProgramiv(program, GL_LINK_STATUS, &done);
     if (done)
         return true;
-    char log[LOG_MAX];
+    char log[LOG_MAX], before[160];
     glGetProgramInfoLog(program, sizeof log, NULL, log);
-    return error_set(error, "%s: the program does not link: %s", label, log);
+    snprintf(before, sizeof before, "%s: the program does not link: ", label);
+    if (!stages[1]) /* places are in this one's text */
+        return say_log(log, before, stages[0], defines, error);
+    return error_set(error, "%s%s", before, log);
 }
 
 unsigned program_create(const char *label, const char *const stages[], const char *defines, Error *error)

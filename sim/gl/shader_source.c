@@ -232,23 +232,27 @@ static int parse_place(const char *text, int *file, int *line)
     return 0;
 }
 
-void shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size)
+bool shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size)
 {
     size_t used = 0;
+    bool placed = false;
     out[0] = 0;
     while (*log && used + 1 < out_size) {
         int file = -1, line = 0, place = parse_place(log, &file, &line);
         size_t rest = strcspn(log + place, "\n");
         file = line / LINES_MAX;
-        if (place && file >= 0 && file < source->file_count)
+        if (place && file >= 0 && file < source->file_count) {
             used +=
                 (size_t)snprintf(out + used, out_size - used, "%s:%d:", source->file[file], line % LINES_MAX);
-        else
+            placed = true;
+        } else {
             place = 0, rest = strcspn(log, "\n");
+        }
         if (used < out_size)
             used += (size_t)snprintf(out + used, out_size - used, "%.*s", (int)rest, log + place);
         log += (size_t)place + rest;
         if (*log == '\n' && *++log && used + 1 < out_size)
             out[used++] = '\n', out[used] = 0;
     }
+    return placed;
 }

@@ -45,7 +45,8 @@ void shader_source_free(ShaderSource *source);
 /* Whether it is there, in the program or the directory. */
 bool shader_source_has(const char *path);
 
-/* Copies the compiler's log with "file:line:" in place of its numbers. */
-void shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size);
+/* Copies the compiler's log with "file:line:" in place of its numbers. Returns whether there was such a
+   place: some logs have none for what is missing at a text's end. */
+bool shader_source_log(const ShaderSource *source, const char *log, char *out, size_t out_size);
 
 #endif

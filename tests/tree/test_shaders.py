@@ -44,6 +44,28 @@ class Shaders(unittest.TestCase):
         self.assertGreater(len(names), 50)
         self.assertEqual([name for name in names if read[name] < 2], [])
 
+    def test_what_is_only_written_is_not_read(self):
+        """NVIDIA's compiler holds to it: `a[i] = b[i] = x` reads b."""
+        def reads(text):
+            text = re.sub(r'//[^\n]*|^#.*', '', text, flags=re.M)
+            for name in re.findall(r'\bwriteonly\s+buffer\s+\w+\s*\{\s*\w+\s+(\w+)\[', text):
+                for found in re.finditer(rf'\b{name}\[', text):
+                    end, depth = found.end(), 1
+                    while depth:
+                        depth += {'[': 1, ']': -1}.get(text[end], 0)
+                        end += 1
+                    before = re.split(r'[;{})],?|\belse\b', text[:found.start()])[-1]
+                    if text[found.start() - 1:found.start()] == '{' or 'buffer' in before or text[end:end + 1] == ';':
+                        continue
+                    assigned = re.match(r'(\.\w+)*\s*=(?!=)', text[end:])
+                    if before.strip() or not assigned:
+                        yield text[found.start():end]
+
+        declared = 'layout(std430) writeonly buffer Moves { vec4 move[]; };\n'
+        self.assertEqual(list(reads(declared + 'if (a) move[i] = x; else move[j[1]].w = 1.0;')), [])
+        self.assertEqual(list(reads(declared + 'x = move[i] = 1.0; move[j] += 1.0;')), ['move[i]', 'move[j]'])
+        self.assertEqual([f'{path}: {found}' for path, text in self.stages.items() for found in reads(text)], [])
+
     def test_a_location_is_one_uniform(self):
         common = NAME.findall((SHADERS / 'shared/bindings.h').read_text())
         for path in sorted(SHADERS.glob('*/*_bindings.h')):

@@ -22,7 +22,9 @@ void main()
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights;
     float d = max(dot(whole, whole) / mass + squares, least_squares / mass);
     scratch[SCRATCH_factor + i] = d > 0.0 ? min(1.0, rest_number_density / n) / d : 0.0;
-    position[i].w = velocity[i].w = 1.0 / n;
+    float volume = 1.0 / n;
+    position[i].w = volume;
+    velocity[i].w = volume;
     pressure[i] = vec2(pressure_of_term * own[OWN_kept_term + i], 0.0);
     near[i] = vec4(x, 0.0);
 }

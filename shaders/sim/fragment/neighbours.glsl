@@ -14,9 +14,11 @@ int image_count = 0;
 void images_make(vec3 x)
 {
     int end = images_end(x);
-    for (int walls = 1; walls < end; walls++)
-        if (image_of(x, walls, images[image_count]))
-            image_count++;
+    for (int walls = 1; walls < end; walls++) {
+        Image image;
+        if (image_of(x, walls, image))
+            images[image_count++] = image;
+    }
 }
 
 // Whether particle i at x stands in the buckets itself.

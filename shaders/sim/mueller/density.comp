@@ -41,7 +41,9 @@ void main()
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif
-    position[i].w = velocity[i].w = 1.0 / n;
+    float volume = 1.0 / n;
+    position[i].w = volume;
+    velocity[i].w = volume;
     pressure[i] = vec2(p, p / (n * n));
     near[i] = vec4(x, p / (n * n));
 }

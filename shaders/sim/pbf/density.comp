@@ -37,7 +37,9 @@ void main()
     scratch[SCRATCH_miss + i] = miss_of(residual, k);
     scratch[SCRATCH_change + i] = change;
     near[i] = vec4(x, dt * dt * change);
-    position[i].w = velocity[i].w = 1.0 / n;
+    float volume = 1.0 / n;
+    position[i].w = volume;
+    velocity[i].w = volume;
     vec3 moved = vec3(own[OWN_moved + i], own[OWN_STRIDE + OWN_moved + i], own[2u * OWN_STRIDE + OWN_moved + i]);
     motion[i] = vec4(velocity[i].xyz + moved / dt, 1.0 / n);
 }

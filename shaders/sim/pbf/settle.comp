@@ -14,6 +14,8 @@ void main()
     if (i >= particle_count())
         return;
     walk_pairs(i, position[i].xyz);
-    position[i].w = velocity[i].w = 1.0 / (kernel_scale * heights);
+    float volume = 1.0 / (kernel_scale * heights);
+    position[i].w = volume;
+    velocity[i].w = volume;
     pressure[i] = vec2(pressure_of_term * own[OWN_term + i], 0.0);
 }
