@@ -24,7 +24,7 @@ static void answer_at_once(PlaneProbe *probe, const PlaneSum *sum, const PlanePr
 static void take(PlaneProbe *probe)
 {
     const GLsync fence = probe->fence;
-    if (!fence || glClientWaitSync(fence, 0, 0) == GL_TIMEOUT_EXPIRED)
+    if (!fence || glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, 0) == GL_TIMEOUT_EXPIRED)
         return;
     glDeleteSync(fence);
     probe->fence = NULL;

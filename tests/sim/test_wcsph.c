@@ -546,7 +546,8 @@ static void any_threads_give_the_same_bits(void **state)
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    const WorldDef one = splash(1), two = splash(2);
+    WorldDef one = splash(1), two = splash(2);
+    one.reproducible = two.reproducible = true; /* a GPU else sorts as it comes */
     World *straight = fixture_world(&one), *loaded = fixture_world(&two);
     WorldState saved = {.count = 0};
     Error error;

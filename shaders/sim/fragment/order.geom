@@ -16,15 +16,6 @@ void list(uint entry)
     EmitVertex();
 }
 
-// What is above a layer that is not full is of old.
-bool in_use(ivec2 bucket, int layer)
-{
-    for (int below = 0; below < layer; below++)
-        if (texelFetch(buckets, ivec3(bucket, below), 0).w == 0u)
-            return false;
-    return true;
-}
-
 void main()
 {
     if (placeless == 1) {
@@ -33,10 +24,7 @@ void main()
         return;
     }
     ivec2 bucket = bucket_of(number[0] / bucket_layers);
-    int layer = number[0] % bucket_layers;
-    if (!in_use(bucket, layer))
-        return;
-    uvec4 four = texelFetch(buckets, ivec3(bucket, layer), 0);
+    uvec4 four = texelFetch(buckets, ivec3(bucket, number[0] % bucket_layers), 0);
     for (int k = 0; k < 4 && four[k] != 0u; k++)
         list(four[k]);
 }

@@ -27,11 +27,8 @@ static void fill_place(const Fragment *f, int place)
 
 static void fill_layer(const Fragment *f, int layer)
 {
-    static const GLuint empty[4] = {0};
     glUseProgram(f->program[FRAGMENT_BUCKET]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->bucket_framebuffer[layer]);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glClearBufferuiv(GL_COLOR, 0, empty);
     for (int k = 0; k < 3; k++)
         fill_place(f, 4 * layer + k);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, f->full[layer]);
@@ -55,7 +52,7 @@ static void list_waiting(const Fragment *f, int layer)
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
-/* Where no cell filled a layer the next one stays as it was: nobody reads it. */
+/* Where no cell filled a layer the next one stays empty. */
 static void fill_layers(const Fragment *f)
 {
     fill_layer(f, 0);
@@ -76,6 +73,9 @@ void fragment_grid(void *state)
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->bucket_framebuffer[0]);
     glViewport(0, 0, f->bucket_width, f->bucket_height);
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 0, 0);
+    /* All layers, whatever the conditions below say: NVIDIA's driver (580) left out a layer's glClearBuffer
+       that stood under one and drew into the layer. */
+    glClearTexImage(f->buckets, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);
     glEnable(GL_STENCIL_TEST);

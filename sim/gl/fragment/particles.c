@@ -175,11 +175,8 @@ uint32_t *fragment_buckets_read(const Fragment *f)
 
 uint32_t fragment_bucket_at(const Fragment *f, const uint32_t *places, size_t cell, int place)
 {
-    const size_t layer = (size_t)f->bucket_width * (size_t)f->bucket_height, above = (size_t)place / 4;
-    for (size_t below = 0; below < above; below++) /* what is above a layer that is not full is of old */
-        if (places[4 * (below * layer + cell) + 3] == 0)
-            return 0;
-    return places[4 * (above * layer + cell) + (size_t)place % 4];
+    const size_t layer = (size_t)f->bucket_width * (size_t)f->bucket_height;
+    return places[4 * ((size_t)place / 4 * layer + cell) + (size_t)place % 4];
 }
 
 /* Others with r < h of particle i, in three cells. */
