@@ -1,5 +1,7 @@
 #include "sim/matter/balance.h"
 
+#include "sim/base/parallel.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,23 +27,46 @@ static double lightness(const Balance *b, const double *density, size_t i, size_
     return density ? 2 / (density[b->fluid[i]] + density[b->fluid[j]]) : 1;
 }
 
-/* out = A x, the sum over faces of what x falls by; `diagonal`: of A, where not NULL. */
-static void apply(const Balance *b, const double *density, const double *x, double *out, double *diagonal)
+/* The entries of A: what each particle's open faces and each touch weigh, and its diagonal. */
+static void weigh(Balance *b, const double *density, double *diagonal)
 {
     const Touches *t = &b->touches;
     for (size_t i = 0; i < t->count; i++) {
-        const double open = 2 * open_count(b, i) * lightness(b, density, i, i) / (b->spacing * b->spacing);
-        double sum = open * x[i], self = open;
+        double self = 2 * open_count(b, i) * lightness(b, density, i, i) / (b->spacing * b->spacing);
+        b->open_weight[i] = self;
         for (size_t k = t->begin[i]; k < t->begin[i + 1]; k++) {
-            const size_t j = t->at[k].other;
-            const double w = (double)t->at[k].weight * lightness(b, density, i, j);
-            sum += w * (x[i] - x[j]);
-            self += w;
+            b->weight[k] = (double)t->at[k].weight * lightness(b, density, i, t->at[k].other);
+            b->other[k] = t->at[k].other;
+            self += b->weight[k];
         }
-        out[i] = sum;
-        if (diagonal)
-            diagonal[i] = self > 0 ? self : 1;
+        diagonal[i] = self > 0 ? self : 1;
     }
+}
+
+typedef struct Rows {
+    const Balance *balance;
+    const double *x;
+    double *out;
+} Rows;
+
+static void apply_rows(void *context, size_t begin, size_t end)
+{
+    const Rows *rows = context;
+    const Balance *b = rows->balance;
+    const double *x = rows->x;
+    for (size_t i = begin; i < end; i++) {
+        double sum = b->open_weight[i] * x[i];
+        for (size_t k = b->touches.begin[i]; k < b->touches.begin[i + 1]; k++)
+            sum += b->weight[k] * (x[i] - x[b->other[k]]);
+        rows->out[i] = sum;
+    }
+}
+
+/* out = A x, the sum over faces of what x falls by. */
+static void apply(const Balance *b, const double *x, double *out)
+{
+    Rows rows = {b, x, out};
+    parallel_ranges(parallel_processors(), b->touches.count, 4096, apply_rows, &rows);
 }
 
 static double product(const double *a, const double *b, size_t count)
@@ -54,18 +79,19 @@ static double product(const double *a, const double *b, size_t count)
 
 /* A x = rhs, by conjugate gradients with Jacobi's preconditioner from the x that is there, until the
    residual's square is `enough`. */
-static void solve(const Balance *b, const double *density, const double *rhs, double enough, double *x)
+static void solve(Balance *b, const double *density, const double *rhs, double enough, double *x)
 {
     const size_t n = b->touches.count;
     double *r = b->work + 2 * n, *p = r + n, *q = p + n, *diagonal = q + n, rz = 0;
-    apply(b, density, x, r, diagonal);
+    weigh(b, density, diagonal);
+    apply(b, x, r);
     for (size_t i = 0; i < n; i++) {
         r[i] = rhs[i] - r[i];
         p[i] = r[i] / diagonal[i];
         rz += r[i] * p[i];
     }
     for (int it = 0; it < ITERATIONS_MAX && product(r, r, n) > enough; it++) {
-        apply(b, density, p, q, NULL);
+        apply(b, p, q);
         const double step = rz / product(p, q, n), before = rz;
         rz = 0;
         for (size_t i = 0; i < n; i++) {
@@ -111,9 +137,12 @@ bool balance_create(Balance *b, const WorldDef *def, const Periodic *periodic, s
     b->order = malloc((count + 1) * sizeof *b->order);
     b->part_begin = malloc((count + 1) * sizeof *b->part_begin);
     b->work = malloc((ARRAYS * count + 1) * sizeof *b->work);
+    b->open_weight = malloc((count + 1) * sizeof *b->open_weight);
+    b->weight = malloc((b->touches.begin[count] + 1) * sizeof *b->weight);
+    b->other = malloc((b->touches.begin[count] + 1) * sizeof *b->other);
     for (int f = 0; f < def->fluid_count; f++)
         b->density[f] = def->fluids[f].density;
-    if (!b->order || !b->part_begin || !b->work)
+    if (!b->order || !b->part_begin || !b->work || !b->open_weight || !b->weight || !b->other)
         return false;
     find_parts(b);
     return true;
@@ -125,6 +154,9 @@ void balance_destroy(Balance *b)
     free(b->order);
     free(b->part_begin);
     free(b->work);
+    free(b->open_weight);
+    free(b->weight);
+    free(b->other);
 }
 
 /* The product with the outward normals of the open faces. */

@@ -20,7 +20,9 @@ typedef struct Balance {
     uint32_t *order;            /* particles, what hangs together side by side */
     uint32_t *part_begin;       /* where the parts begin in it, and where the last one ends */
     size_t parts;
-    double *work; /* for the solution */
+    double *work;                 /* for the solution */
+    double *open_weight, *weight; /* of the equations, for each particle and each touch */
+    uint32_t *other;              /* whom each touch is with, side by side */
 } Balance;
 
 /* Arguments as those of touches_create. False when memory is short. */
