@@ -3,6 +3,8 @@
 #include "app/scene/tables.h"
 #include "render/renderer.h"
 #include "sim/gl/particle_buffers.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
 #include "sim/world/column.h"
 #include "sim/world/world.h"
 
@@ -67,6 +69,13 @@ unsigned beside_simulated_attributes(const WorldDef *def)
     WorldDef could = *def;
     could.acceleration = true;
     return renderer_attributes(NULL) & (columns_scalars(&could) | ~(unsigned)OWN_SCALARS);
+}
+
+size_t beside_simulated_room(const WorldDef *def)
+{
+    WorldDef could = *def;
+    could.pours = true;
+    return flow_capacity(&could, seed_count(def, def->spacing));
 }
 
 bool beside_simulated_has(const WorldDef *def, const ViewDef *view, Error *error)

@@ -34,6 +34,9 @@ bool beside_simulated_has(const WorldDef *def, const ViewDef *view, Error *error
 /* PARTICLE_*: what such states may come to have, of all that views read. */
 unsigned beside_simulated_attributes(const WorldDef *def);
 
+/* Particles that such states may come to have, what a user pours included. */
+size_t beside_simulated_room(const WorldDef *def);
+
 /* Opens the view's file, found from the folder of the scene at that path; what is to be said of the file goes
    into `notes`. False with the reason: as of recorded_open, or it lacks what the view reads. */
 bool beside_open_file(const char *scene, const ViewDef *view, int entry, Recorded *out, Notes *notes,

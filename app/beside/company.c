@@ -153,7 +153,7 @@ static bool start_simulator(Member *member, const SimulatorSetup *how, Error *er
     if (!world_can(def, error))
         return false;
     if (!world_on_gpu(def) &&
-        !(member->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
+        !(member->upload = upload_create(beside_simulated_room(def),
                                          upload_of_worlds(beside_simulated_attributes(def)), error)))
         return false;
     SimulatorSetup setup = *how;

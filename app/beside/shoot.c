@@ -46,19 +46,33 @@ static bool reel_open(ShootSource *source, Error *error)
     return source->reel != NULL;
 }
 
+/* Room for what the world may hold now. */
+static bool uploads_fit(ShootSource *source, Error *error)
+{
+    WorldInfo info;
+    world_info(source->session->world, &info);
+    if (info.capacity <= source->room)
+        return true;
+    upload_destroy(source->upload_between);
+    upload_destroy(source->upload);
+    source->upload_between = source->upload = NULL;
+    if (source->interpolates &&
+        !(source->upload_between = upload_create(2 * info.capacity, source->attributes, error)))
+        return false;
+    if (!world_shares(source->session->world) &&
+        !(source->upload = upload_create(info.capacity, upload_of_worlds(source->attributes), error)))
+        return false;
+    source->room = info.capacity;
+    return true;
+}
+
 static bool source_open(ShootSource *source, bool interpolates, Error *error)
 {
     const Session *session = source->session;
     if (!session)
         return reel_open(source, error);
     source->interpolates = interpolates && session->scene.world.step_mode == STEP_FIXED;
-    if (source->interpolates &&
-        !(source->upload_between = upload_create(2 * session->info.capacity, source->attributes, error)))
-        return false;
-    if (world_shares(session->world))
-        return true;
-    source->upload = upload_create(session->info.capacity, upload_of_worlds(source->attributes), error);
-    return source->upload;
+    return uploads_fit(source, error);
 }
 
 static void source_close(ShootSource *source)
@@ -130,6 +144,8 @@ static bool take_between(ShootSource *source, double time, Error *error)
     const Session *session = source->session;
     const unsigned attributes = source->attributes;
     Still *between = &source->between;
+    if (!uploads_fit(source, error))
+        return false;
     if (!still_read(&source->after, session->world, attributes) ||
         !still_reserve(between, source->before.state.count + source->after.state.count, attributes) ||
         !between_states(&source->before, &source->after, session->scene.world.periodic, time, between))
@@ -141,6 +157,8 @@ static bool take_between(ShootSource *source, double time, Error *error)
 static bool take_present(ShootSource *source, Error *error)
 {
     World *world = source->session->world;
+    if (!uploads_fit(source, error))
+        return false;
     if (!world_shares(world))
         return upload_write(source->upload, world, error) && upload_take(source->upload, &source->state);
     world_share(world, source->attributes, &source->state);

@@ -29,6 +29,7 @@ typedef struct ShootSource {
     ReelWatch reel_watch;
     unsigned attributes; /* that its views read */
     Upload *upload;      /* NULL: the world has its particles on the GPU */
+    size_t room;         /* of both: particles of the world, which a recorded session may raise */
     bool interpolates;
     Upload *upload_between;       /* of what is between two states; NULL: none is asked for */
     Still before, after, between; /* the state before the last step, and so on */

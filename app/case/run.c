@@ -99,7 +99,7 @@ static World *start_world(const Case *of, const WorldDef *def, Error *error)
         return own;
     if (starting_read(&s, own)) {
         of->start(def, &(CaseStart){s.count, s.position, s.velocity, s.density, s.fluid});
-        with.initial = &(InitialState){s.count, s.position, s.velocity, s.fluid, s.density, s.pressure};
+        with.initial = &(InitialState){s.count, s.position, s.velocity, s.fluid, s.density, s.pressure, 0};
         world = world_create(&with, error);
     } else {
         error_set(error, "no memory for the start; use a larger spacing");

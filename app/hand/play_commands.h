@@ -40,6 +40,7 @@ typedef enum PlayCommand {
     PLAY_NEUTRAL,
     PLAY_TOUCH,
     PLAY_TOUCH_WAY,
+    PLAY_TOUCH_FLUID,
     PLAY_PLANE_BACK, /* from here in the order of ViewStep (render/frame/view.h) */
     PLAY_PLANE_FORWARD,
     PLAY_PLANE_LEFT,

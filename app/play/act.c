@@ -176,6 +176,14 @@ static void tell_touch(Play *play)
                 finger_way_name(left), finger_way_name(touch_other(left)));
 }
 
+/* The fluid that is poured. */
+static const FluidDef *poured(const Play *play)
+{
+    const Scene *scene = &play->model.open.scene;
+    const int last = scene->world.fluid_count - 1;
+    return &scene->world.fluids[scene->touch.fluid < last ? scene->touch.fluid : last];
+}
+
 static void turn_touch(Play *play, bool on)
 {
     play->touch.on = play->input.touching = on;
@@ -197,6 +205,23 @@ static void next_touch_way(Play *play)
         tell_touch(play);
     else
         turn_touch(play, true);
+}
+
+/* A press of the key begins with it, then goes to the next one. */
+static void next_touch_fluid(Play *play)
+{
+    const Scene *scene = &play->model.open.scene;
+    const int fluids = scene->world.fluid_count, present = (int)(poured(play) - scene->world.fluids);
+    char setting[64];
+    if (scene->touch.way + 1 == FINGER_POUR)
+        snprintf(setting, sizeof setting, "touch.fluid=%d", (present + 1) % fluids);
+    else
+        snprintf(setting, sizeof setting, "touch.way=%s", finger_way_name(FINGER_POUR));
+    if (!model_set(&play->model, setting))
+        return;
+    if (!play->touch.on)
+        turn_touch(play, true);
+    notice_tell(&play->notice, "touch: left drag pours %s", poured(play)->name);
 }
 
 /* By notches of the wheel. */
@@ -378,6 +403,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_TOUCH_WAY:
         next_touch_way(play);
+        break;
+    case PLAY_TOUCH_FLUID:
+        next_touch_fluid(play);
         break;
     case PLAY_QUIT:
         quit_or_close(play);

@@ -57,6 +57,29 @@ void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward
     memcpy(forward, middle.along, sizeof middle.along);
 }
 
+/* What is poured comes from above what it falls on, where there is room for it. */
+static void lift(const ParticleBuffers *particles, const WorldDef *def, double at[3])
+{
+    static const double SPACINGS = 2;
+    double down[3];
+    quat_rotate_inverse(particles->box.orientation, def->gravity, down);
+    const double length = sqrt(down[0] * down[0] + down[1] * down[1] + down[2] * down[2]);
+    for (int k = 0; k < 3; k++)
+        at[k] -= length > 0 ? SPACINGS * def->spacing * down[k] / length : 0;
+}
+
+/* Said where the backend takes no new particles. */
+static bool may_pour(Play *play)
+{
+    Error error = {{0}};
+    WorldDef def = play->model.open.scene.world;
+    def.pours = true;
+    if (world_can(&def, &error))
+        return true;
+    notice_error(&play->notice, error.message);
+    return false;
+}
+
 /* Where a press begins: at the fluid under the mouse, else as deep as the middle of the box. */
 static void press(Play *play, const SightRay *ray)
 {
@@ -64,9 +87,13 @@ static void press(Play *play, const SightRay *ray)
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
     double at[3] = {0, 0.5 * play->model.particles.box_size[1], 0};
     model_take(&play->model); /* a solver on the GPU has gone on in the buffers of the one that was drawn */
-    if (play->model.has_particles)
-        particle_place_under(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at);
-    touch_press(tool, play->input.drag == PLAY_TOUCH_OTHER ? touch_other(left) : left, at);
+    const FingerWay way = play->input.drag == PLAY_TOUCH_OTHER ? touch_other(left) : left;
+    if (play->model.has_particles &&
+        particle_place_under(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at) &&
+        way == FINGER_POUR)
+        lift(&play->model.particles, &play->model.open.scene.world, at);
+    touch_press(tool, way, at);
+    tool->spent = way == FINGER_POUR && !may_pour(play);
 }
 
 /* The finger goes where the mouse is. Returns the number of its command, or 0. */
@@ -91,7 +118,10 @@ static uint64_t touch(Play *play)
             press(play, &ray);
         touch_move(tool, &ray, forward, scene->world.dimensions);
     }
-    if (!touch_asks(tool, &scene->touch, scene->world.spacing, &finger))
+    TouchDef def = scene->touch;
+    if (def.fluid >= scene->world.fluid_count)
+        def.fluid = scene->world.fluid_count - 1;
+    if (!touch_asks(tool, &def, scene->world.spacing, &finger))
         return 0;
     play->picture.over = true;
     return model_touch(&play->model, &finger);

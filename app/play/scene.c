@@ -4,8 +4,6 @@
 #include "app/beside/beside.h"
 #include "app/scene/advise.h"
 #include "app/session/recording_play.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -126,7 +124,7 @@ bool play_scene_make_upload(PlayScene *open, Error *error)
 {
     const WorldDef *def = &open->scene.world;
     if (!open->upload && !world_on_gpu(def))
-        open->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
+        open->upload = upload_create(beside_simulated_room(def),
                                      upload_of_worlds(beside_simulated_attributes(def)), error);
     return open->upload || world_on_gpu(def);
 }

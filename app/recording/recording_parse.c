@@ -32,7 +32,8 @@ static bool read_target(const Reader *reader, const char *at, BoxTarget *target)
     return !*at || reader_fail(reader, "'%.40s' follows the seven numbers; leave it out", at);
 }
 
-/* What a finger does; then, unless that is nothing, its point, radius and strength. */
+/* What a finger does; then, unless that is nothing, its point, radius and strength, and of what is poured the
+   number of the fluid. */
 static bool read_finger(const Reader *reader, const char *at, Finger *finger)
 {
     char name[8] = "";
@@ -45,7 +46,7 @@ static bool read_finger(const Reader *reader, const char *at, Finger *finger)
     finger->way = finger_way_find(name);
     if (finger->way == (double)FINGER_WAYS)
         return reader_fail(
-            reader, "'%.40s' does not say what a finger does; none, stir, pull or push must stand here",
+            reader, "'%.40s' does not say what a finger does; none, stir, pull, push or pour must stand here",
             at + 1);
     at += 1 + length;
     for (int k = 0; k < 5 && finger->way != (double)FINGER_NONE; k++)
@@ -55,6 +56,12 @@ static bool read_finger(const Reader *reader, const char *at, Finger *finger)
                 "number %d of 5 is missing or not finite; the point x y z (m), the radius (m) and "
                 "the strength must stand here",
                 k + 1);
+    if (finger->way == (double)FINGER_POUR) {
+        double fluid = 0;
+        if (!take_number(&at, &fluid) || !(fluid >= 0 && fluid < FINGER_FLUIDS) || fluid != floor(fluid))
+            return reader_fail(reader, "which fluid is poured must stand behind its speed: 0 is the first");
+        finger->way += fluid;
+    }
     if (*at)
         return reader_fail(reader, "'%.40s' follows what the finger does; leave it out", at);
     return finger_take(&taken, finger, 3) ||

@@ -55,6 +55,8 @@ static void put_finger(FILE *file, const SimCommand *command)
     fprintf(file, "%" PRIu64 " touch %s", command->step, finger_way_name((FingerWay)f->way));
     if (f->way != (double)FINGER_NONE)
         fprintf(file, " %a %a %a %a %a", f->at[0], f->at[1], f->at[2], f->radius, f->strength);
+    if (finger_fluid(f) >= 0)
+        fprintf(file, " %d", finger_fluid(f));
     putc('\n', file);
 }
 

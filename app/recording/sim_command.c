@@ -73,6 +73,8 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
         world_carry(*world, &command->target);
         break;
     case SIM_TOUCH:
+        if (finger_fluid(&command->finger) >= 0 && !world_make_room(world, error))
+            return false;
         world_touch(*world, &command->finger);
         break;
     case SIM_SHUT:

@@ -142,7 +142,7 @@ const char *session_full_text(const WorldInfo *info, char words[256])
 {
     snprintf(
         words, 256,
-        "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: emitters pause until some drain",
+        "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: no more come until some drain",
         info->time, info->count == 1 ? "is" : "are", info->count, plural(info->count));
     return words;
 }

@@ -72,7 +72,8 @@ bool touch_asks(TouchTool *tool, const TouchDef *def, double spacing, Finger *fi
 Handle touch_ring(const TouchTool *tool, const TouchDef *def, double spacing, const double forward[3])
 {
     Handle ring = {.look = HANDLE_RING};
-    const double *f = forward;
+    const FingerWay way = tool->holds ? tool->way : (FingerWay)(def->way + 1);
+    const double *f = forward, radius = touch_radius(def, way, spacing);
     double beside[3] = {f[2], 0, -f[0]}; /* across `forward`, level */
     const double length = hypot(beside[0], beside[2]);
     if (length < 1e-6)
@@ -81,7 +82,7 @@ Handle touch_ring(const TouchTool *tool, const TouchDef *def, double spacing, co
         const double out = beside[k] / (length < 1e-6 ? 1 : length);
         ring.axis[k] = forward[k];
         ring.from[k] = tool->at[k];
-        ring.at[k] = tool->at[k] + def->radius * spacing * out;
+        ring.at[k] = tool->at[k] + radius * out;
     }
     return ring;
 }

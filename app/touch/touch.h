@@ -20,7 +20,7 @@ typedef struct TouchTool {
     bool scripted;    /* and whether a recorded session was played then */
 } TouchTool;
 
-/* What the other button does than that which does `way`. */
+/* What the other button does than that which does `way`: pull, or push where that pulls. */
 FingerWay touch_other(FingerWay way);
 
 /* From now on a drag does that, at a place. */
@@ -43,7 +43,7 @@ bool touch_move(TouchTool *tool, const SightRay *ray, const double forward[3], i
 /* What is to be sent; false: what was sent still holds. */
 bool touch_asks(TouchTool *tool, const TouchDef *def, double spacing, Finger *finger);
 
-/* The ball's outline as it is seen along `forward`. */
+/* The outline of the ball, or of what is poured, as it is seen along `forward`. */
 Handle touch_ring(const TouchTool *tool, const TouchDef *def, double spacing, const double forward[3]);
 
 /* `value` after so many notches of the wheel, within the key's bounds. */

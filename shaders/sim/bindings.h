@@ -76,6 +76,6 @@
 #define FLUIDS_MOST 8
 #define SOLIDS_MOST 16
 #define DRAINS_MOST 8
-#define GUIDES_MOST 32
+#define GUIDES_MOST 33
 
 #endif

@@ -214,7 +214,7 @@ static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, 
     const int axes = def->dimensions == 2 ? 2 : 3;
     BoxState pose;
     size_t kept = 0;
-    if (solid->motion_count > 0)
+    if (solid_moves(solid))
         return count;
     solid_pose(solid, 0, &pose);
     for (size_t i = 0; i < count; i++) {

@@ -65,25 +65,26 @@ void emit_place(const Emit *emit, int dimensions, double spacing, long index, do
         }
 }
 
-static void guide_make(const WorldDef *def, int fluid, const Emit *emit, Guide *guide)
+Guide flow_guide(const WorldDef *def, int fluid, const Emit *emit)
 {
     const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    *guide = (Guide){.fluid = fluid,
-                     .radius = (float)(emit->radius + 0.5 * def->spacing),
-                     .depth = (float)(def->support * def->spacing)};
+    Guide guide = {.fluid = fluid,
+                   .radius = (float)(emit->radius + 0.5 * def->spacing),
+                   .depth = (float)(def->support * def->spacing)};
     for (int k = 0; k < 3; k++) {
-        guide->centre[k] = (float)emit->centre[k];
-        guide->direction[k] = (float)(d[k] / norm);
-        guide->velocity[k] = (float)(emit->speed * d[k] / norm);
+        guide.centre[k] = (float)emit->centre[k];
+        guide.direction[k] = (float)(d[k] / norm);
+        guide.velocity[k] = (float)(emit->speed * d[k] / norm);
     }
+    return guide;
 }
 
 void gate_name(int gate, char name[GATE_NAME_SIZE])
 {
-    if (gate < GUIDES_MAX)
+    if (gate < EMITTERS_MAX)
         snprintf(name, GATE_NAME_SIZE, "fluids[%d].emit[%d]", gate / EMITS_MAX, gate % EMITS_MAX);
     else
-        snprintf(name, GATE_NAME_SIZE, "drains[%d]", gate - GUIDES_MAX);
+        snprintf(name, GATE_NAME_SIZE, "drains[%d]", gate - EMITTERS_MAX);
 }
 
 int gate_find(const char *name)
@@ -97,7 +98,7 @@ int gate_find(const char *name)
     return -1;
 }
 
-int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[GUIDES_MAX])
+int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[EMITTERS_MAX])
 {
     int count = 0;
     for (int f = 0; f < def->fluid_count; f++)
@@ -105,7 +106,7 @@ int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[GU
             const Emit *emit = &def->fluids[f].emits[i];
             if (!gate_shut(shut, gate_of_emitter(f, i)) && time >= emit->start &&
                 (emit->duration == 0 || time < emit->start + emit->duration))
-                guide_make(def, f, emit, &guides[count++]);
+                guides[count++] = flow_guide(def, f, emit);
         }
     return count;
 }
@@ -115,7 +116,7 @@ bool flow_emits(const WorldDef *def)
     int emits = 0;
     for (int f = 0; f < def->fluid_count; f++)
         emits += def->fluids[f].emit_count;
-    return emits > 0;
+    return emits > 0 || def->pours;
 }
 
 size_t flow_capacity(const WorldDef *def, size_t initial)

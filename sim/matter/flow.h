@@ -34,18 +34,18 @@ typedef struct Guide {
     float centre[3], direction[3], radius, depth, velocity[3];
 } Guide;
 
-enum { GUIDES_MAX = FLUIDS_MAX * EMITS_MAX };
+enum { EMITTERS_MAX = FLUIDS_MAX * EMITS_MAX, GUIDES_MAX = EMITTERS_MAX + 1 /* that of what is poured */ };
 
 /* Gates: each emitter has one and each drain, which is a bit of what is shut. Number of a gate; of the gate
    with a name like "fluids[0].emit[1]" or "drains[2]", -1 where the def has none of it. */
-enum { GATES_MAX = GUIDES_MAX + DRAINS_MAX, GATE_NAME_SIZE = 32 };
+enum { GATES_MAX = EMITTERS_MAX + DRAINS_MAX, GATE_NAME_SIZE = 32 };
 static inline int gate_of_emitter(int fluid, int emitter)
 {
     return fluid * EMITS_MAX + emitter;
 }
 static inline int gate_of_drain(int drain)
 {
-    return GUIDES_MAX + drain;
+    return EMITTERS_MAX + drain;
 }
 static inline bool gate_shut(uint64_t shut, int gate)
 {
@@ -54,8 +54,11 @@ static inline bool gate_shut(uint64_t shut, int gate)
 void gate_name(int gate, char name[GATE_NAME_SIZE]);
 int gate_find(const char *name);
 
+/* Of one emitter of that fluid. */
+Guide flow_guide(const WorldDef *def, int fluid, const Emit *emit);
+
 /* Those of the emitters that are at work at `time` and not shut; returns how many. */
-int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[GUIDES_MAX]);
+int flow_guides(const WorldDef *def, double time, uint64_t shut, Guide guides[EMITTERS_MAX]);
 
 /* Whether the guide holds a particle of that fluid at x. */
 static inline bool guide_holds(const Guide *guide, const Periodic *periodic, int fluid, const float x[3])
@@ -71,7 +74,7 @@ static inline bool guide_holds(const Guide *guide, const Periodic *periodic, int
            r2 - along * along < guide->radius * guide->radius;
 }
 
-/* Whether the def has emitters. */
+/* Whether the def has emitters, or somebody pours. */
 bool flow_emits(const WorldDef *def);
 
 /* Most particles of fluid that the world may ever hold, if it begins with `initial`. */

@@ -10,8 +10,6 @@
 #define FILL(field)  offsetof(Fill, field)
 #define EMIT(field)  offsetof(Emit, field)
 
-static const KeyOwner emitters = {
-    .name = "with emitters", .key = "fluids[].emit", .need = "an emitter (fluids[].emit)"};
 static const KeyOwner tension = {.name = "with solver.surface_tension",
                                  .key = "solver.surface_tension",
                                  .need = "a model (solver.surface_tension)"};
@@ -100,7 +98,7 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].emit[].speed", R | O, "m/s", 0, 1000, EMIT(speed), "of the fluid, in the box's frame"),
     NUMBER("fluids[].emit[].start", 0, "s", 0, 1e6, EMIT(start), "nothing comes before it"),
     NUMBER("fluids[].emit[].duration", 0, "s", 0, 1e6, EMIT(duration), "0: for ever"),
-    INTEGER("particles.most", 0, 1, 2000000000, AT(most), "upper limit on particles; emitters pause while it is reached", .owner = &emitters),
+    INTEGER("particles.most", 0, 1, 2000000000, AT(most), "upper limit on particles: while it is reached emitters pause, and nothing is poured; a scene may begin with more"),
     LIST("drains", 0, 0, DRAINS_MAX, AT(drains), AT(drain_count), Fill, NULL,
          "where fluid leaves the scene"),
     VARIANT("drains[].block", FILL(kind), FILL_BLOCK, "a block with faces along the axes"),

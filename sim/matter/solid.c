@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 const char *const slip_names[] = {[SLIP_FREE] = "free", [SLIP_NONE] = "none", NULL};
 
@@ -52,6 +53,81 @@ static void rest_orientation(const SolidDef *solid, double q[4])
     }
 }
 
+/* x(s) = (a + (v + a / tau) s) e^(-s / tau): from a and v to rest at 0. */
+static void settle(const double from[3], const double rate[3], double tau, double s, double x[3], double v[3])
+{
+    const double e = exp(-s / tau);
+    for (int k = 0; k < 3; k++) {
+        const double b = rate[k] + from[k] / tau, now = from[k] + b * s;
+        x[k] = now * e;
+        v[k] = (b - now / tau) * e;
+    }
+}
+
+void solid_hand_at(const SolidHand *hand, double time, BoxState *part)
+{
+    double turned[3];
+    *part = (BoxState){.orientation = {0, 0, 0, 1}};
+    if (!hand->moved)
+        return;
+    const double s = fmax(time - hand->since, 0);
+    settle(hand->apart, hand->rate, hand->response, s, part->position, part->velocity);
+    settle(hand->turned, hand->turned_rate, hand->response, s, turned, part->angular_velocity);
+    for (int k = 0; k < 3; k++)
+        part->position[k] += hand->at[k];
+    memcpy(part->orientation, hand->turn, sizeof part->orientation);
+    quat_turn(turned, part->orientation);
+}
+
+/* The rotation vector of a * conj(b), the short way round. */
+static void rotation_between(const double a[4], const double b[4], double out[3])
+{
+    const double inverse[4] = {-b[0], -b[1], -b[2], b[3]};
+    double d[4];
+    quat_multiply(a, inverse, d);
+    const double sine = length(d), sign = d[3] < 0 ? -1 : 1;
+    for (int k = 0; k < 3; k++)
+        out[k] = sine > 0 ? sign * 2 * atan2(sine, sign * d[3]) / sine * d[k] : 0;
+}
+
+static void limit(double v[3], double most)
+{
+    const double l = length(v);
+    for (int k = 0; k < 3 && l > most; k++)
+        v[k] *= most / l;
+}
+
+bool solid_hand_move(SolidHand *hand, const double at[3], const double turn[4], double time, double speed,
+                     double turn_speed, int dimensions)
+{
+    static const double RESPONSE = 0.05, LONGEST = 100; /* s: a mouse tells places in jumps of some 10 ms */
+    BoxState now;
+    const double norm = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
+    if (!(norm > 0) || !isfinite(norm) || !isfinite(at[0] + at[1] + at[2]) || !(speed > 0) ||
+        !(turn_speed > 0))
+        return false;
+    solid_hand_at(hand, time, &now);
+    SolidHand next = {.moved = true, .since = time, .at = {at[0], at[1], dimensions == 2 ? 0 : at[2]}};
+    for (int k = 0; k < 4; k++)
+        next.turn[k] = dimensions == 2 && k < 2 ? 0 : turn[k] / norm;
+    if (dimensions == 2 && !(hypot(next.turn[2], next.turn[3]) > 0.5))
+        next.turn[2] = 0, next.turn[3] = 1;
+    rotation_between(now.orientation, next.turn, next.turned);
+    for (int k = 0; k < 3; k++)
+        next.apart[k] = now.position[k] - next.at[k];
+    memcpy(next.rate, now.velocity, sizeof next.rate);
+    memcpy(next.turned_rate, now.angular_velocity, sizeof next.turned_rate);
+    limit(next.rate, speed);
+    limit(next.turned_rate, turn_speed);
+    /* from rest it is fastest after one time constant: by a / (e tau); with a push at the begin by no more
+       than that besides it */
+    next.response = fmin(
+        fmax(RESPONSE, fmax(length(next.apart) / (M_E * speed), length(next.turned) / (M_E * turn_speed))),
+        LONGEST);
+    *hand = next;
+    return true;
+}
+
 void solid_pose(const SolidDef *solid, double time, BoxState *pose)
 {
     double rest[4];
@@ -60,6 +136,18 @@ void solid_pose(const SolidDef *solid, double time, BoxState *pose)
     for (int k = 0; k < 3; k++)
         pose->position[k] += solid->centre[k];
     quat_multiply(pose->orientation, rest, pose->orientation);
+    if (!solid->hand.moved)
+        return;
+    BoxState hand;
+    double spin[3];
+    solid_hand_at(&solid->hand, time, &hand);
+    quat_rotate(hand.orientation, pose->angular_velocity, spin);
+    for (int k = 0; k < 3; k++) {
+        pose->position[k] += hand.position[k];
+        pose->velocity[k] += hand.velocity[k];
+        pose->angular_velocity[k] = spin[k] + hand.angular_velocity[k];
+    }
+    quat_multiply(hand.orientation, pose->orientation, pose->orientation);
 }
 
 static double block_distance(const double half[3], int dimensions, const double x[3])

@@ -45,6 +45,17 @@ typedef struct MeshUse {
                                       or its file is gone */
 } MeshUse;
 
+/* Where a user's hand holds a solid, on top of its own motion: it comes there as a critically damped spring
+   would, so that all is known from when the hand last asked. */
+typedef struct SolidHand {
+    bool moved;                       /* ever, by a hand */
+    double since;                     /* s: when the hand last asked */
+    double response;                  /* s: time constant */
+    double at[3], turn[4];            /* where it goes, m; unit quaternion, about its centre; then: */
+    double apart[3], rate[3];         /* from there, m; m/s */
+    double turned[3], turned_rate[3]; /* from there, as a rotation vector; rad/s */
+} SolidHand;
+
 /* Fields that a kind does not name are unused. All in the box's frame. */
 typedef struct SolidDef {
     SolidKind kind;
@@ -60,9 +71,26 @@ typedef struct SolidDef {
     float color[3]; /* linear RGB 0..1: for the views, no solver reads it */
     int motion_count;
     Motion motions[MOTIONS_MAX]; /* act together, as the box's own do; turns go about the centre */
+    SolidHand hand;              /* zero: nobody has moved it */
 } SolidDef;
 
 const char *solid_name(SolidKind kind);
+
+/* Whether it may ever move: by a motion of its own, or since a hand has moved it. */
+static inline bool solid_moves(const SolidDef *solid)
+{
+    return solid->motion_count > 0 || solid->hand.moved;
+}
+
+/* The hand's part of the pose at `time` (s): what its centre is off, m, the turn about it, and their rates.
+ */
+void solid_hand_at(const SolidHand *hand, double time, BoxState *part);
+
+/* From `time` (s) on it goes there, from where it is: never faster than `speed` (m/s), nor than so many
+   radians a second about its centre; what is not finite is not taken, and nothing has changed. In two
+   dimensions it stays in the plane. */
+bool solid_hand_move(SolidHand *hand, const double at[3], const double turn[4], double time, double speed,
+                     double turn_speed, int dimensions);
 
 /* The turn by `angle_deg` about `axis`. */
 void solid_turn(const double axis[3], double angle_deg, double q[4]);

@@ -32,7 +32,7 @@ void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep 
 {
     solid_pose_at(solid, begin, &step->begin);
     solid_pose_at(solid, end, &step->end);
-    step->still = solid->motion_count == 0;
+    step->still = !solid_moves(solid);
     for (int k = 0; k < 3; k++) {
         const float dt = (float)(end - begin);
         step->change[k] = (step->end.v[k] - step->begin.v[k]) / dt;

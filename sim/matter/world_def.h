@@ -94,6 +94,7 @@ typedef struct InitialState {
     const uint8_t *fluid;  /* count, or NULL for the first fluid */
     const float *density;  /* count, kg/m3, for a method whose particles carry it; NULL: at rest */
     const float *pressure; /* count, Pa, for a method that begins with multipliers; NULL: 0 */
+    size_t room;           /* for so many particles at least; 0: for its own */
 } InitialState;
 
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
@@ -135,6 +136,8 @@ typedef struct WorldDef {
     int drain_count;
     Fill drains[DRAINS_MAX]; /* fluid that comes into one of these is taken out */
     int most;                /* particles that emitters may fill the world up to */
+    bool pours;              /* a user pours fluid: as with emitters. A world takes it up when somebody does:
+                                world_make_room */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     bool acceleration;           /* of particles is kept: sim/change; no bit of a step changes with it */

@@ -17,9 +17,10 @@ bool finger_take(FingerState *state, const Finger *wanted, int dimensions)
         *state = (FingerState){.point = {0}};
         return true;
     }
-    if (!(wanted->way > 0 && wanted->way < FINGER_WAYS) || (double)way != wanted->way ||
+    if (!(wanted->way > 0 && wanted->way < FINGER_POUR + FINGER_FLUIDS) || (double)way != wanted->way ||
         !isfinite(wanted->at[0] + wanted->at[1] + wanted->at[2]) || !(wanted->radius > 0) ||
-        !isfinite(wanted->radius) || !(wanted->strength >= 0) || !isfinite(wanted->strength))
+        !isfinite(wanted->radius) || !(wanted->strength >= 0) || !isfinite(wanted->strength) ||
+        (finger_fluid(wanted) >= 0 && !(wanted->strength > 0)))
         return false;
     state->wanted = *wanted;
     if (dimensions == 2)
@@ -57,10 +58,11 @@ void finger_step(FingerState *state, const FingerLimits *limits, double dt, Fing
 {
     const Finger *wanted = &state->wanted;
     double moved[3];
-    *step = (FingerStep){.on = finger_on(state)};
-    if (!step->on)
+    *step = (FingerStep){.on = false};
+    if (!finger_on(state))
         return;
     follow(state, dt, moved);
+    step->on = finger_fluid(wanted) < 0;
     const double speed = sqrt(moved[0] * moved[0] + moved[1] * moved[1] + moved[2] * moved[2]) / dt;
     const double slower = speed > limits->speed ? limits->speed / speed : 1;
     for (int k = 0; k < 3; k++) {

@@ -1,5 +1,6 @@
-/* What a user does to the fluid with a finger: in a ball about a point it stirs, pulls or pushes. The point
-   follows what the user asks for in simulated time; where nobody touches there is no pass and no branch.
+/* What a user does to the fluid with a finger: in a ball about a point it stirs, pulls or pushes, or fluid
+   comes from a disk there (sim/world/world_flow.c). The point follows what the user asks for in simulated
+   time; where nobody touches there is no pass and no branch.
 
    With q = |x - point| / radius and w = (1 - q^2)^2 inside, 0 outside, over a step of dt
      stir: v += (1 - exp(-strength w dt)) (V - v), exact for a particle that keeps its place: it never
@@ -10,14 +11,23 @@
 
 #include <stdbool.h>
 
-typedef enum FingerWay { FINGER_NONE, FINGER_STIR, FINGER_PULL, FINGER_PUSH, FINGER_WAYS } FingerWay;
+typedef enum FingerWay {
+    FINGER_NONE,
+    FINGER_STIR,
+    FINGER_PULL,
+    FINGER_PUSH,
+    FINGER_POUR, /* of the first fluid; behind it that of the others */
+    FINGER_WAYS
+} FingerWay;
+
+enum { FINGER_FLUIDS = 8 };
 
 /* What is asked for. Doubles only, as all of the saved state. */
 typedef struct Finger {
-    double way;      /* a FingerWay */
+    double way;      /* a FingerWay; FINGER_POUR and the number of the fluid */
     double at[3];    /* box's frame, m */
-    double radius;   /* m */
-    double strength; /* stir: 1/s; pull, push: the most that a particle feels, m/s2 */
+    double radius;   /* of the ball, or the disk, m */
+    double strength; /* stir: 1/s; pull, push: the most that a particle feels, m/s2; pour: speed, m/s */
 } Finger;
 
 /* Zero: nobody touches. */
@@ -26,7 +36,7 @@ typedef struct FingerState {
     double point[3]; /* where it is, box's frame, m */
 } FingerState;
 
-/* Of one step. Zero: nobody touches. */
+/* Of one step. Zero: nobody touches the fluid that is there. */
 typedef struct FingerStep {
     bool on;
     float at[3], velocity[3];      /* in the middle of the step, m; of the point, m/s */
@@ -51,6 +61,12 @@ bool finger_sound(const FingerState *state);
 static inline bool finger_on(const FingerState *state)
 {
     return state->wanted.way != (double)FINGER_NONE;
+}
+
+/* The number of the fluid that a finger pours; -1: it does not pour. */
+static inline int finger_fluid(const Finger *finger)
+{
+    return (int)finger->way - FINGER_POUR >= 0 ? (int)finger->way - FINGER_POUR : -1;
 }
 
 /* The most that pull and push accelerate a particle, m/s2: bounds a step that is chosen by it. */

@@ -2,6 +2,7 @@
 
 #include "sim/base/key_rows.h"
 
+#include <math.h>
 #include <string.h>
 
 #define AT(field) offsetof(TouchDef, field)
@@ -10,9 +11,14 @@
    holds a handful. */
 static const double STIR_RATE = 40, ACCELERATION = 40; /* 1/s; m/s2 */
 
+/* What is poured is as fast as what has fallen over so many spacings, and half as wide as the ball: some 20
+   particles a layer. */
+static const double FALL = 4, WIDTH = 0.5, G = 9.81;
+
 const TouchWay touch_ways[] = {{"stir", "the fluid goes along with the pointer"},
                                {"pull", "the fluid comes to the pointer"},
                                {"push", "the fluid goes away from the pointer"},
+                               {"pour", "fluid comes from the pointer"},
                                {0}};
 
 /* clang-format off */
@@ -20,7 +26,8 @@ const Key touch_keys[] = {
     MAPPING("touch", "how a user touches the fluid in the window"),
     CHOICE_OF("touch.way", L | I | KEY_INDEX, touch_ways, AT(way), "what the left button does"),
     NUMBER("touch.radius", L | I, "spacings", 1, 100, AT(radius), "of the ball about the pointer in which the fluid feels it"),
-    NUMBER("touch.strength", L | I, "", 0.01, 100, AT(strength), "1: stirred fluid follows within 25 ms, pull and push reach 40 m/s2"),
+    NUMBER("touch.strength", L | I, "", 0.01, 100, AT(strength), "1: stirred fluid follows within 25 ms, pull and push reach 40 m/s2, poured fluid is as fast as what falls over 4 spacings"),
+    INTEGER("touch.fluid", L | I, 0, FINGER_FLUIDS - 1, AT(fluid), "which fluid is poured: 0 is fluids[0]; beyond the last one that"),
     KEYS_END,
 };
 /* clang-format on */
@@ -34,17 +41,24 @@ TouchDef touch_def_default(void)
     };
 }
 
+double touch_radius(const TouchDef *def, FingerWay way, double spacing)
+{
+    return (way == FINGER_POUR ? WIDTH : 1) * def->radius * spacing;
+}
+
 Finger touch_finger(const TouchDef *def, FingerWay way, const double at[3], double spacing)
 {
-    return (Finger){.way = way,
+    const bool pours = way == FINGER_POUR;
+    const double unit = pours ? sqrt(2 * G * FALL * spacing) : way == FINGER_STIR ? STIR_RATE : ACCELERATION;
+    return (Finger){.way = (double)way + (pours ? def->fluid : 0),
                     .at = {at[0], at[1], at[2]},
-                    .radius = def->radius * spacing,
-                    .strength = def->strength * (way == FINGER_STIR ? STIR_RATE : ACCELERATION)};
+                    .radius = touch_radius(def, way, spacing),
+                    .strength = def->strength * unit};
 }
 
 const char *finger_way_name(FingerWay way)
 {
-    return way == FINGER_NONE ? "none" : touch_ways[way - 1].name;
+    return way == FINGER_NONE ? "none" : touch_ways[(way < FINGER_POUR ? way : FINGER_POUR) - 1].name;
 }
 
 FingerWay finger_way_find(const char *name)

@@ -34,11 +34,11 @@ static bool closed(const World *world)
 {
     const WorldDef *def = &world->def;
     bool closed = !finger_on(&world->finger) && def->retries > 0 && world->backend->energy &&
-                  (world->method->energy || world->method->incompressible) && !world->layer &&
+                  (world->method->energy || world->method->incompressible) && !world->constants.emits &&
                   def->drain_count == 0 && !world->constants.lid &&
                   world->constants.tension_model == TENSION_NONE && !falls_around(world);
     for (int i = 0; i < def->solid_count; i++)
-        closed &= def->solids[i].motion_count == 0;
+        closed &= !solid_moves(&def->solids[i]);
     return closed;
 }
 

@@ -62,7 +62,13 @@ void world_set_target(World *world, const BoxTarget *target);
 /* Puts the box there at once and at rest; the fluid comes along as it is and feels no force. */
 void world_carry(World *world, const BoxTarget *target);
 
-/* A finger in the fluid from the next step on, or none; what is no finger is not taken. */
+/* Room for what a finger pours, up to WorldDef.most; nothing where it is there. It takes as long as making
+   the world does, and *world is then another one. False with the reason: the backend takes no new particles,
+   or memory is short. */
+bool world_make_room(World **world, Error *error);
+
+/* A finger in the fluid from the next step on, or none; what is no finger is not taken, nor one that pours
+   where there is no room. */
 void world_touch(World *world, const Finger *finger);
 
 /* Which gates of emitters and drains are shut from the next step on: bits of sim/matter/flow.h; what has no

@@ -1,9 +1,45 @@
 #include "sim/world/world_struct.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const uint64_t IDS = 0x7fffffff;
 enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to look through: ids are read back from a GPU */
+
+/* Along gravity as the box feels it; without gravity, down in the box. */
+static void falls(const World *world, double direction[3])
+{
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, direction);
+    if (world->def.dimensions == 2)
+        direction[2] = 0;
+    if (!(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2] > 1e-6))
+        direction[0] = direction[2] = 0, direction[1] = -1;
+}
+
+bool world_pours(const World *world, Emit *emit, int *fluid)
+{
+    const FingerState *finger = &world->finger;
+    *fluid = finger_on(finger) ? finger_fluid(&finger->wanted) : -1;
+    if (*fluid < 0 || *fluid >= world->def.fluid_count || !world->constants.emits)
+        return false;
+    *emit = (Emit){.radius = finger->wanted.radius, .speed = finger->wanted.strength, .start = world->pours};
+    memcpy(emit->centre, finger->point, sizeof emit->centre);
+    falls(world, emit->direction);
+    return true;
+}
+
+/* Room for a layer of the emitter; false when memory is short. */
+static bool layer_reserve(World *world, const Emit *emit)
+{
+    EmitLayer layer = {0};
+    emit_place(emit, world->def.dimensions, world->def.spacing, 0, 0, &layer);
+    if (layer.count <= world->layer_room)
+        return true;
+    float *more = realloc(world->layer, 3 * layer.count * sizeof *more);
+    world->layer = more ? more : world->layer;
+    world->layer_room = more ? layer.count : world->layer_room;
+    return more;
+}
 
 static void let_in(World *world, int fluid, const Emit *emit, double begin, double end)
 {
@@ -34,11 +70,20 @@ static bool reserve(World *world, double begin, double end)
 {
     const WorldDef *def = &world->def;
     size_t layers = 0;
+    bool room = true;
     long first;
+    Emit poured;
+    int fluid;
     for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].emit_count; i++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++) {
             layers += (size_t)emit_layers(&def->fluids[f].emits[i], def->spacing, begin, end, &first);
-    return births_reserve(&world->births, layers);
+            room &= layer_reserve(world, &def->fluids[f].emits[i]);
+        }
+    if (world_pours(world, &poured, &fluid)) {
+        layers += (size_t)emit_layers(&poured, def->spacing, begin, end, &first);
+        room &= layer_reserve(world, &poured);
+    }
+    return room && births_reserve(&world->births, layers);
 }
 
 static int open_drains(const World *world, Fill open[DRAINS_MAX])
@@ -77,11 +122,15 @@ bool world_flow(World *world, Error *error)
     const double begin = world_time_at(world, (double)world->step);
     const double end = world_time_at(world, (double)world->step + 1);
     if (!reserve(world, begin, end))
-        return error_set(error, "no memory for when particles were born");
+        return error_set(error, "no memory for the particles that come");
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++)
             if (!gate_shut(world->shut, gate_of_emitter(f, i)))
                 let_in(world, f, &def->fluids[f].emits[i], begin, end);
+    Emit poured;
+    int fluid;
+    if (world_pours(world, &poured, &fluid))
+        let_in(world, fluid, &poured, begin, end);
     Fill open[DRAINS_MAX];
     const int count = open_drains(world, open);
     if (count > 0) {

@@ -31,7 +31,8 @@ bool world_feel(World *world, Error *error)
     if (!world->backend->feel)
         return error_set(error, "backend %s sums no forces; use backend cpu or compute",
                          world->backend->name);
-    return world->backend->feel(world->state, &world->felt, error);
+    world->feels = world->backend->feel(world->state, &world->felt, error);
+    return world->feels;
 }
 
 void world_forces(World *world, Forces *forces)

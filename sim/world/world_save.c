@@ -58,6 +58,7 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .energy = world->energy,
         .finger = world->finger,
         .shut = (double)world->shut,
+        .pours = world->pours,
     };
     live_save(&def, numbers->live);
 }
@@ -189,6 +190,7 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->box = numbers->box;
     world->finger = numbers->finger;
     world->shut = (uint64_t)numbers->shut;
+    world->pours = numbers->pours;
     world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
     world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);
@@ -198,25 +200,70 @@ bool world_load(World *world, const WorldState *state, Error *error)
 
 bool world_move(World **world, const char *backend, Error *error)
 {
-    World *from = *world, *to = NULL;
-    WorldState state = {.count = 0};
-    WorldDef def = from->def;
+    WorldDef def = (*world)->def;
     snprintf(def.backend, sizeof def.backend, "%s", backend);
-    for (int f = 0; f < def.fluid_count; f++)
-        def.fluids[f].start = START_REST; /* its state is loaded */
-    const bool moved =
-        (to = world_create(&def, error)) && world_save(from, &state, error) && world_load(to, &state, error);
+    return world_rebuild(world, &def, error);
+}
+
+/* The particles of a state as those that a world begins with; false when memory is short. */
+static bool as_initial(const WorldState *state, InitialState *initial)
+{
+    const ParticleColumns *p = &state->particles;
+    float *position = malloc((3 * state->count + 1) * sizeof *position);
+    *initial = (InitialState){.count = state->count, .position = position, .fluid = p->fluid};
+    for (size_t i = 0; position && i < state->count; i++) {
+        position[3 * i] = p->x[i];
+        position[3 * i + 1] = p->y[i];
+        position[3 * i + 2] = p->z[i];
+    }
+    return position;
+}
+
+/* What is in no state. */
+static bool inherit(World *to, const World *from, Error *error)
+{
+    if (from->feels && !world_feel(to, error))
+        return false;
+    to->felt = from->felt;
+    to->felt_before = from->felt_before;
+    to->trouble = from->trouble;
+    to->tally = from->tally;
+    to->stop = from->stop;
+    memcpy(to->limited, from->limited, sizeof to->limited);
+    return true;
+}
+
+bool world_rebuild(World **world, const WorldDef *def, Error *error)
+{
+    World *from = *world;
+    WorldState state = {.count = 0};
+    InitialState initial = {.position = NULL};
+    WorldDef own = *def;
+    own.initial = &initial;
+    bool ok = world_save(from, &state, error);
+    if (ok && !as_initial(&state, &initial))
+        ok = error_set(error, "no memory for %zu particles", state.count);
+    initial.room = from->capacity;
+    World *to = ok ? world_create(&own, error) : NULL;
+    if (to) {
+        to->initial = from->initial;
+        to->mass = from->mass;
+        ok = world_load(to, &state, error) && inherit(to, from, error);
+    }
+    free((float *)initial.position);
     world_state_free(&state);
-    if (!moved) {
+    if (!to || !ok) {
         world_destroy(to);
         return false;
     }
-    for (int f = 0; f < def.fluid_count; f++)
-        to->def.fluids[f].start = from->def.fluids[f].start;
-    to->trouble = from->trouble;
-    to->tally = from->tally;
-    memcpy(to->limited, from->limited, sizeof to->limited);
     world_destroy(from);
     *world = to;
     return true;
+}
+
+bool world_make_room(World **world, Error *error)
+{
+    WorldDef def = (*world)->def;
+    def.pours = true;
+    return (*world)->constants.emits || world_rebuild(world, &def, error);
 }

@@ -264,14 +264,18 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
         return error_set(error, "no memory for %zu particles; use a larger spacing", count);
     if (swirls)
         add_vortices(def, seeds, count);
-    *initial = (InitialState){count,        seeds->position, seeds->velocity,
-                              seeds->fluid, seeds->density,  seeds->pressure};
+    *initial = (InitialState){.count = count,
+                              .position = seeds->position,
+                              .velocity = seeds->velocity,
+                              .fluid = seeds->fluid,
+                              .density = seeds->density,
+                              .pressure = seeds->pressure};
     return true;
 }
 
 static bool initial_check(const WorldDef *def, const InitialState *initial, Error *error)
 {
-    if (initial->count == 0 || initial->count > INT32_MAX)
+    if ((initial->count == 0 && !flow_emits(def)) || initial->count > INT32_MAX)
         return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
     for (size_t i = 0; i < initial->count; i++) {
         const float *x = initial->position + 3 * i;
@@ -288,21 +292,6 @@ static bool initial_check(const WorldDef *def, const InitialState *initial, Erro
     return true;
 }
 
-/* Room for the largest layer of all emitters. */
-static bool layer_create(World *world, Error *error)
-{
-    const WorldDef *def = &world->def;
-    size_t most = 0;
-    for (int f = 0; f < def->fluid_count; f++)
-        for (int i = 0; i < def->fluids[f].emit_count; i++) {
-            EmitLayer layer = {0};
-            emit_place(&def->fluids[f].emits[i], def->dimensions, def->spacing, 0, 0, &layer);
-            most = layer.count > most ? layer.count : most;
-        }
-    world->layer = most > 0 ? malloc(3 * most * sizeof *world->layer) : NULL;
-    return most == 0 || world->layer || error_set(error, "no memory for the emitters' layers");
-}
-
 bool world_start(World *world, Error *error)
 {
     Seeds seeds = {0};
@@ -315,11 +304,12 @@ bool world_start(World *world, Error *error)
     if (ok) {
         world->count = world->initial = initial.count;
         world->capacity = flow_capacity(&world->def, initial.count);
+        world->capacity = world->capacity > initial.room ? world->capacity : initial.room;
         world->state =
             world->backend->create(&world->constants, &world->def, &initial, world->capacity, error);
         for (size_t i = 0; i < initial.count; i++)
             world->mass += (double)world->constants.mass[initial.fluid ? initial.fluid[i] : 0];
-        ok = world->state && layer_create(world, error);
+        ok = world->state != NULL;
     }
     seeds_free(&seeds);
     world->def.initial = NULL;

@@ -43,6 +43,7 @@ typedef struct WorldNumbers {
     FingerState finger;
     double
         shut; /* which gates of emitters and drains are, as the bits of a whole number: sim/matter/flow.h */
+    double pours; /* s: since when the finger does so */
 } WorldNumbers;
 
 enum {
@@ -82,5 +83,10 @@ bool world_load(World *world, const WorldState *state, Error *error);
    one. A context must be current as world_on_gpu says, for either. False with the reason: nothing has
    changed. */
 bool world_move(World **world, const char *backend, Error *error);
+
+/* Makes the world anew from a def that differs in its backend, its solids, its box or in whether somebody
+   pours; it goes on from the same state, as another *world. Takes about as long as making it did, and for
+   that time twice the memory. False with the reason: nothing has changed. */
+bool world_rebuild(World **world, const WorldDef *def, Error *error);
 
 #endif

@@ -199,6 +199,10 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     const FingerLimits limits = finger_limits(world);
     finger_step(&world->finger, &limits, dt, &step->finger);
     step->guide_count = flow_guides(&world->def, world_time_at(world, at), world->shut, step->guides);
+    Emit poured;
+    int fluid;
+    if (world_pours(world, &poured, &fluid))
+        step->guides[step->guide_count++] = flow_guide(&world->def, fluid, &poured);
     for (int i = 0; i < world->def.solid_count; i++)
         for (int half = 0; half < 2; half++)
             solid_step_make(&world->def.solids[i], world_time_at(world, at + 0.5 * half),
@@ -288,7 +292,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     if (!begin_step(world, error))
         return false;
     bool flowed = true;
-    if (world->layer || world->def.drain_count > 0)
+    if (world->constants.emits || world->def.drain_count > 0)
         STAGE (clock, STAGE_INTEGRATE)
             flowed = world_flow(world, error);
     if (!flowed)
@@ -354,8 +358,14 @@ void world_set_target(World *world, const BoxTarget *target)
 
 void world_touch(World *world, const Finger *finger)
 {
-    if (finger_take(&world->finger, finger, world->def.dimensions))
-        energy_forget(world);
+    const Finger before = world->finger.wanted;
+    const int fluid = finger_fluid(finger);
+    if (fluid >= world->def.fluid_count || (fluid >= 0 && !world->constants.emits) ||
+        !finger_take(&world->finger, finger, world->def.dimensions))
+        return;
+    if (before.way != finger->way || before.strength != finger->strength) /* another row of layers */
+        world->pours = world_time_at(world, (double)world->step);
+    energy_forget(world);
 }
 
 void world_carry(World *world, const BoxTarget *target)
@@ -414,7 +424,7 @@ void world_info(const World *world, WorldInfo *info)
         .capacity = world->capacity,
         .emitted = world->emitted,
         .drained = world->drained,
-        .full = world->layer && world->count == world->capacity,
+        .full = world->constants.emits && world->count == world->capacity,
         .support_radius = world->def.support * world->def.spacing,
         .spacing = world->def.spacing,
         .box = world->box,

@@ -18,7 +18,8 @@ struct World {
     uint64_t emitted, drained;       /* since the start */
     Births births;                   /* of those that were emitted and, but for the newest, are not gone */
     size_t births_most;              /* with more than these it is looked who is gone */
-    float *layer;                    /* room for an emitter's layer; NULL without emitters */
+    float *layer;                    /* room for an emitter's layer, */
+    size_t layer_room;               /* of so many particles */
     uint64_t step;
     uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
@@ -35,9 +36,11 @@ struct World {
     BoxFilter filter;                   /* at the present time */
     BoxState box;                       /* at the present time, the hand's part included */
     FingerState finger;                 /* at the present time */
+    double pours;                       /* s: since when the finger does so */
     uint64_t shut;                      /* gates of emitters and drains, a bit each */
     double mass;                        /* of the initial fluid, kg */
     EnergyMark energy;                  /* of sim/world/energy_watch.h */
+    bool feels;                         /* it was asked; then: */
     Forces felt, felt_before;           /* since it was last asked; of the good state */
     bool gauge_asked;                   /* and not answered yet, */
     double gauge_time;                  /* of the state at this time, s */
@@ -46,8 +49,11 @@ struct World {
 /* Makes the backend's state from the def's initial state or fills, with constants that are there. */
 bool world_start(World *world, Error *error);
 
-/* Adds the fluid that emitters send out in the step ahead, and takes fluid out of the drains. False, and
-   nothing done, when memory is short. */
+/* What the finger pours as an emitter of that fluid; false: it does not pour. */
+bool world_pours(const World *world, Emit *emit, int *fluid);
+
+/* Adds the fluid that emitters and the finger send out in the step ahead, and takes fluid out of the drains.
+   False, and nothing done, when memory is short. */
 bool world_flow(World *world, Error *error);
 
 /* Leaves out the births of layers that are gone. Before a state to go back to is marked: that one may have

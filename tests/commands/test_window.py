@@ -627,6 +627,24 @@ class Mouse(Window):
         self.assertEqual(code, 1)
         self.assertIn('different after', said)
 
+    def test_touch_pours(self):
+        """By real events: fluid comes while the button is held, and the session is the same
+        again, as a picture too."""
+        self.open('still.yaml', '--record', 'a.recording')
+        self.display.press('shift')
+        self.keys('q')
+        self.display.release('shift')
+        self.drag(1, [(240, 120), (250, 120), (260, 120), (260, 130)])
+        self.keys('Escape')
+        out = self.quit()
+        self.assertIn('touch: left drag pours', self.messages)
+        touches = re.findall(r'^\d+ touch (.*)$', self.read('a.recording').decode(), re.M)
+        self.assertTrue(len(touches) > 2 and touches[0].startswith('pour ') and touches[0].endswith(' 0'), touches)
+        self.assertEqual(touches[-1], 'none')
+        self.assertTrue(out['camera_auto'])
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+        self.assertEqual(self.slosh('render', 'a.recording', '-o', 'a.png', '--quiet')[0], 0)
+
     def test_a_ring_shows_the_finger(self):
         """Also while time stands; pressed it has the colour of what the hand holds."""
         self.open('still.yaml')

@@ -40,8 +40,9 @@ static inline void rig_start(Rig *rig, const char *text, SimulatorSetup how)
     *rig = (Rig){.upload = NULL};
     must(scene_parse("a.yaml", text, strlen(text), &settings, &rig->scene, NULL, &error));
     must(recording_create(&rig->recording, "a.yaml", text, strlen(text), &settings, &error));
-    const WorldDef *def = &rig->scene.world;
-    rig->upload = upload_create(flow_capacity(def, seed_count(def, def->spacing)),
+    WorldDef could = rig->scene.world;
+    could.pours = true; /* as beside_simulated_room has it */
+    rig->upload = upload_create(flow_capacity(&could, seed_count(&could, could.spacing)),
                                 PARTICLE_SCALAR(SCALAR_SPEED), &error);
     how.scene = &rig->scene;
     how.recording = &rig->recording;

@@ -16,7 +16,7 @@ static const char *const scenes[] = {
 
 enum { MIB = 1 << 20, FRAMES = 18 };
 
-static const uint64_t EMITTER = 1, DRAIN = 1ULL << GUIDES_MAX;
+static const uint64_t EMITTER = 1, DRAIN = 1ULL << EMITTERS_MAX;
 
 static void shut(Rig *rig, uint64_t gates)
 {

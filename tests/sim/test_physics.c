@@ -32,7 +32,7 @@ static void free_flight_keeps_momenta(void **state)
     }
     def.fluid_count = 2; /* a density ratio of 3 */
     def.fluids[1] = (FluidDef){.name = "heavy", .density = 3000};
-    def.initial = &(InitialState){(size_t)count, x, v, fluid, NULL, NULL};
+    def.initial = &(InitialState){(size_t)count, x, v, fluid, NULL, NULL, 0};
     World *world = fixture_world(&def);
     WorldSums before, after;
     world_sums(world, &before);

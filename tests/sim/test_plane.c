@@ -60,7 +60,7 @@ static void sums_equal_brute_force(void **state)
             x[3 * i + k] = (float)(1.6 * (fixture_random(&seed) - 0.5) + 4 * k);
             v[3 * i + k] = (float)(2 * fixture_random(&seed) - 1);
         }
-    def.initial = &(InitialState){COUNT, x, v, NULL, NULL, NULL};
+    def.initial = &(InitialState){COUNT, x, v, NULL, NULL, NULL, 0};
     World *world = fixture_world(&def);
     fixture_step(world, 1);
     State s = fixture_read(world);
@@ -179,7 +179,7 @@ static void momenta_are_kept(void **state)
             v[3 * i + 1] = dx - 0.4F * dy;
             v[3 * i + 2] = 0;
         }
-        def.initial = &(InitialState){s.count, x, v, NULL, NULL, NULL};
+        def.initial = &(InitialState){s.count, x, v, NULL, NULL, NULL, 0};
         World *world = fixture_world(&def);
         WorldSums before, after;
         world_sums(world, &before);
@@ -250,7 +250,7 @@ static void what_hits_a_corner_stays_in_the_plane(void **state)
         WorldDef def = plane_def(fixture_method_names[m], 1, 1);
         def.dt = 0.01;
         def.sound_speed = 2;
-        def.initial = &(InitialState){3, x, v, NULL, (float[]){1010, 1010, 1010}, NULL};
+        def.initial = &(InitialState){3, x, v, NULL, (float[]){1010, 1010, 1010}, NULL, 0};
         World *world = fixture_world(&def);
         WorldInfo info;
         fixture_step(world, 2);

@@ -25,7 +25,7 @@ static WorldDef tense_def(int dimensions, TensionModel model)
 /* The force of tension alone: that of a run with it, less that of one without. */
 static void accelerations(WorldDef def, double a[COUNT][3], double volume[COUNT])
 {
-    def.initial = &(InitialState){COUNT, cloud, NULL, fluids, NULL, NULL};
+    def.initial = &(InitialState){COUNT, cloud, NULL, fluids, NULL, NULL, 0};
     for (int with = 0; with < 2; with++) {
         if (!with)
             def.tension_model = TENSION_NONE;

@@ -279,7 +279,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
     WorldDef def = two_fluids(kernel, oil);
     wcsph_def(&def)->viscosity_form = (int)form;
     make_cloud(&cloud, 0.9, middle, oil);
-    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, cloud.density, NULL};
+    def.initial = &(InitialState){COUNT, cloud.x, cloud.v, cloud.fluid, cloud.density, NULL, 0};
     World *world = fixture_world(&def);
     fixture_step(world, 1);
     State s = fixture_read(world);
@@ -368,7 +368,7 @@ static void keeps_momentum_and_energy(double oil, bool corrected, int looks)
         v[3 * i + 1] += 0.5f * x[3 * i];
         fluid[i] = (uint8_t)(index[0] < 5);
     }
-    def.initial = &(InitialState){N, x, v, fluid, NULL, NULL};
+    def.initial = &(InitialState){N, x, v, fluid, NULL, NULL, 0};
     World *world = fixture_world(&def);
     WorldSums before, after;
     const double e0 = energy(world, &def, 1000);

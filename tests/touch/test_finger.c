@@ -225,7 +225,7 @@ static void without_a_finger_nothing_differs(void **state)
                                  touch_at(FINGER_STIR, 0, 0, 0, 0, 1),
                                  touch_at(FINGER_PUSH, 0, 0, 0, 1, INFINITY),
                                  {.way = 1.5, .radius = 1},
-                                 {.way = FINGER_WAYS, .radius = 1}};
+                                 {.way = FINGER_POUR + FINGER_FLUIDS, .radius = 1}};
     World *plain = fixture_world(&def), *touched = fixture_world(&def);
     const Finger finger = touch_at(FINGER_STIR, 0, 0.8, 0, 1, 10);
     world_touch(touched, &finger);
@@ -242,7 +242,7 @@ static void without_a_finger_nothing_differs(void **state)
 static void backends_agree(void **state)
 {
     (void)state;
-    static const int pairs[][2] = {{0, 4}, {2, 5}, {0, 6}};
+    static const int pairs[][2] = {{0, 4}, {2, 5}, {0, 6}, {1, 7}, {3, 8}};
     for (size_t p = 0; p < sizeof pairs / sizeof *pairs; p++)
         for (int dimensions = 2; dimensions <= 3; dimensions++) {
             const WorldDef defs[] = {touch_def(pairs[p][0], dimensions), touch_def(pairs[p][1], dimensions)};
@@ -298,6 +298,60 @@ static void it_reaches_across_periodic_sides(void **state)
     }
 }
 
+/* What comes is of the fluid that was asked for, goes down at the speed that was, and is part of the saved
+   state. */
+static void what_is_poured_comes_with_every_method(void **state)
+{
+    (void)state;
+    for (int form = 0; form < TOUCH_FORMS; form++)
+        for (int dimensions = 2; dimensions <= 3; dimensions++) {
+            WorldDef def = touch_def(form, dimensions);
+            const Finger finger = touch_at(FINGER_POUR + 1, 0.6, 1.3, 0, 0.12, 1.5);
+            def.fluid_count = 2;
+            def.fluids[1] = def.fluids[0];
+            def.fluids[1].fill_count = 0;
+            def.most = 10000;
+            World *world = fixture_world(&def);
+            Error error = {{0}};
+            WorldInfo before, after;
+            WorldState saved = {.count = 0};
+            world_info(world, &before);
+            world_touch(world, &finger); /* where there is no room it is not taken */
+            assert_false(touch_state(world).wanted.way == finger.way);
+            if (strcmp(touch_forms[form].backend, "fragment") == 0) {
+                assert_false(world_make_room(&world, &error));
+                assert_non_null(strstr(error.message, "backend fragment has no pouring"));
+                world_destroy(world);
+                continue;
+            }
+            const uint64_t hash = world_hash(world);
+            assert_true(world_make_room(&world, &error));
+            assert_true(world_hash(world) == hash);
+            world_touch(world, &finger);
+            fixture_step(world, 12);
+            world_info(world, &after);
+            if (!(after.emitted > 0) || after.count != before.count + after.emitted ||
+                after.trouble.count > 0)
+                fail_msg("%s %s: %g came", touch_forms[form].backend, touch_forms[form].method,
+                         (double)after.emitted);
+            State now = fixture_read(world);
+            for (size_t i = 0; i < now.count; i++)
+                if (i >= before.count) /* they stand by their ids */
+                    assert_true(now.fluid[i] == 1 && now.velocity[4 * i + 1] < -1 &&
+                                fabsf(now.position[4 * i] - 0.6F) < 0.2F);
+            fixture_free(&now);
+            World *other = fixture_world(&def);
+            assert_true(world_make_room(&other, &error));
+            assert_true(world_save(world, &saved, &error) && world_load(other, &saved, &error));
+            fixture_step(world, 4);
+            fixture_step(other, 4);
+            assert_true(world_hash(world) == world_hash(other));
+            world_state_free(&saved);
+            world_destroy(world);
+            world_destroy(other);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -310,6 +364,7 @@ int main(void)
         cmocka_unit_test(without_a_finger_nothing_differs),
         cmocka_unit_test(backends_agree),
         cmocka_unit_test(it_reaches_across_periodic_sides),
+        cmocka_unit_test(what_is_poured_comes_with_every_method),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

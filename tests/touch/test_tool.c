@@ -126,17 +126,21 @@ static void a_line_of_a_recording(void **state)
         const char *line, *message;
     } slips[] = {
         {"3 touch poke 0 0 0 1 1",
-         "'poke 0 0 0 1 1' does not say what a finger does; none, stir, pull or push"},
+         "'poke 0 0 0 1 1' does not say what a finger does; none, stir, pull, push or pour"},
         {"3 touch stir 0 0 0 1", "number 5 of 5 is missing or not finite"},
         {"3 touch stir 0 0 0 1 1 1", "' 1' follows what the finger does; leave it out"},
         {"3 touch none 0", "' 0' follows what the finger does; leave it out"},
         {"3 touch stir 0 0 0 -1 1", "the radius of a finger must be above 0"},
+        {"3 touch pour 0 0 0 1 1", "which fluid is poured must stand behind its speed"},
+        {"3 touch pour 0 0 0 1 1 8", "which fluid is poured must stand behind its speed"},
     };
     Recording out;
-    assert_string_equal(parse("3 touch push 0.5 -1e-3 +2 0x1p-1 .25\n4 touch none", &out), "");
-    assert_true(out.count == 2 && out.commands[0].finger.way == (double)FINGER_PUSH &&
-                out.commands[0].finger.at[1] == -1e-3 && out.commands[0].finger.radius == 0.5 &&
-                out.commands[0].finger.strength == 0.25 && out.commands[1].finger.way == (double)FINGER_NONE);
+    assert_string_equal(
+        parse("3 touch push 0.5 -1e-3 +2 0x1p-1 .25\n4 touch none\n5 touch pour 0 0 0 1 2 3", &out), "");
+    assert_true(out.count == 3 && out.commands[2].finger.way == (double)FINGER_POUR + 3 &&
+                out.commands[0].finger.way == (double)FINGER_PUSH && out.commands[0].finger.at[1] == -1e-3 &&
+                out.commands[0].finger.radius == 0.5 && out.commands[0].finger.strength == 0.25 &&
+                out.commands[1].finger.way == (double)FINGER_NONE);
     recording_destroy(&out);
     for (size_t i = 0; i < sizeof slips / sizeof *slips; i++) {
         const char *message = parse(slips[i].line, &out);

@@ -9,8 +9,9 @@
 static const struct {
     const char *backend, *method;
 } touch_forms[] = {
-    {"cpu", "mueller"},     {"cpu", "wcsph"},     {"cpu", "dfsph"},        {"cpu", "pbf"},
-    {"compute", "mueller"}, {"compute", "dfsph"}, {"fragment", "mueller"},
+    {"cpu", "mueller"},      {"cpu", "wcsph"},       {"cpu", "dfsph"},
+    {"cpu", "pbf"},          {"compute", "mueller"}, {"compute", "dfsph"},
+    {"fragment", "mueller"}, {"compute", "wcsph"},   {"compute", "pbf"},
 };
 enum { TOUCH_FORMS = sizeof touch_forms / sizeof *touch_forms };
 

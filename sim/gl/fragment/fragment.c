@@ -108,7 +108,7 @@ static bool fragment_can(const WorldDef *def, Error *error)
                   error) &&
            !lacks(def, "periodic sides", def->periodic[0] || def->periodic[1] || def->periodic[2], error) &&
            !lacks(def, "solids", def->solid_count > 0, error) &&
-           !lacks(def, "emitters", flow_emits(def), error) &&
+           !lacks(def, def->pours ? "pouring" : "emitters", flow_emits(def), error) &&
            !lacks(def, "drains", def->drain_count > 0, error) &&
            !lacks(def, "no-slip walls", viscous && def->wall_slip == SLIP_NONE, error) &&
            !lacks(def, "surface tension", tense && def->tension_model != TENSION_NONE, error) &&
