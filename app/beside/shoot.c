@@ -89,7 +89,6 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
                 Error *error)
 {
     Subject subjects[PANELS_MAX] = {{NULL}};
-    ViewDef views[PANELS_MAX];
     *shoot = (Shoot){.panels = NULL};
     for (int i = 0; i < count; i++) {
         const ShootPanel *panel = &panels[i];
@@ -98,9 +97,10 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
         if (shoot->source_of[i] == known)
             shoot->sources[known].scene = panel->scene;
         source_serve(&shoot->sources[shoot->source_of[i]], panel->view);
-        views[i] = view_in_file(panel->view);
-        subjects[i] = (Subject){&views[i], panel->session ? &panel->session->scene.world
+        shoot->views[i] = view_in_file(panel->view);
+        subjects[i] = (Subject){&shoot->views[i], panel->session ? &panel->session->scene.world
                                                           : &panel->recorded->scene.world};
+        shoot->solids[i] = subjects[i].world->solid_count;
     }
     for (int i = 0; i < shoot->source_count; i++)
         if (!source_open(&shoot->sources[i], interpolates, error))
@@ -252,14 +252,30 @@ bool shoot_take(Shoot *shoot, double time, Error *error)
     return true;
 }
 
+/* Commands of a recorded session move, put and take out solids. */
+static bool follow_solids(Shoot *shoot, int panel, Error *error)
+{
+    const Session *session = shoot->sources[shoot->source_of[panel]].session;
+    const WorldDef *def = session ? &session->scene.world : NULL;
+    bool changed = def && shoot->solids[panel] != def->solid_count;
+    for (int i = 0; def && i < def->solid_count; i++)
+        changed |= def->solids[i].hand.moved;
+    if (changed)
+        shoot->solids[panel] = def->solid_count;
+    return !changed || panels_set_def(shoot->panels, panel, &shoot->views[panel], def, error);
+}
+
 bool shoot_draw(Shoot *shoot, Error *error)
 {
     const ParticleBuffers *states[PANELS_MAX];
     if (!shoot->fresh)
         return true;
     shoot->fresh = false;
-    for (int i = 0; i < panels_count(shoot->panels); i++)
+    for (int i = 0; i < panels_count(shoot->panels); i++) {
         states[i] = &shoot->sources[shoot->source_of[i]].state;
+        if (!follow_solids(shoot, i, error))
+            return false;
+    }
     panels_draw(shoot->panels, states, NULL);
     lacks_take(&shoot->lacks, shoot->panels, states);
     return panels_read(shoot->panels, shoot->image.rgb, error);

@@ -44,7 +44,9 @@ typedef struct Shoot {
     Panels *panels;
     int source_count;
     ShootSource sources[PANELS_MAX];
-    int source_of[PANELS_MAX]; /* of each panel */
+    int source_of[PANELS_MAX]; /* of each panel; */
+    ViewDef views[PANELS_MAX];
+    int solids[PANELS_MAX]; /* that it shows */
     bool fresh;                /* a state is another one than in the last picture */
     Lacks lacks;
     Image image; /* the last picture */

@@ -173,13 +173,36 @@ const PlayCommandRow play_command_rows[] = {
      .flags = PLAY_BUTTON | PLAY_SIMULATED},
     {.command = PLAY_TOUCH_WAY,
      .name = "touch-way",
-     .help = "touch: the left button stirs, pulls, pushes or pours",
+     .help = "touch: the left button stirs, pulls, pushes, pours or holds solids",
      .keys = {KEY(Q)},
      .flags = PLAY_SIMULATED},
     {.command = PLAY_TOUCH_FLUID,
      .name = "touch-fluid",
      .help = "touch: pour the next fluid of the scene",
      .keys = {{GLFW_KEY_Q, SHIFT}},
+     .flags = PLAY_SIMULATED},
+    {.command = PLAY_PUT_BALL,
+     .group = "Solids",
+     .example =
+         "press 1 over the fluid, then Q until the notice says hold, and drag the ball through the fluid",
+     .name = "put-ball",
+     .help = "put a solid ball where the mouse is, above the fluid there; the size is that of the touch",
+     .keys = {KEY(1)},
+     .flags = PLAY_SIMULATED},
+    {.command = PLAY_PUT_BOX,
+     .name = "put-box",
+     .help = "put a solid box there",
+     .keys = {KEY(2)},
+     .flags = PLAY_SIMULATED},
+    {.command = PLAY_PUT_LIKE,
+     .name = "put-like",
+     .help = "put a solid of the same shape as the one under the mouse, a mesh too",
+     .keys = {KEY(3)},
+     .flags = PLAY_SIMULATED},
+    {.command = PLAY_TAKE_SOLID,
+     .name = "take-solid",
+     .help = "take out the solid under the mouse",
+     .keys = {KEY(DELETE), KEY(0)},
      .flags = PLAY_SIMULATED},
     {.command = PLAY_PLANE_BACK,
      .group = "Slices",
@@ -265,11 +288,11 @@ const PlayCommandRow play_command_rows[] = {
     {.command = PLAY_TOUCH_DRAG,
      .name = "stir",
      .gesture = "left drag while touching",
-     .help = "stir, pull or push the fluid under the mouse, or pour some"},
+     .help = "stir, pull or push the fluid under the mouse, pour some, or move a solid"},
     {.command = PLAY_TOUCH_OTHER,
      .name = "pull",
      .gesture = "right drag while touching",
-     .help = "pull the fluid; push it where the left button pulls"},
+     .help = "pull the fluid; push it where the left button pulls, turn a solid where it holds them"},
     {.command = PLAY_TOUCH_SIZE,
      .name = "touch-size",
      .gesture = "wheel while touching",
@@ -327,14 +350,9 @@ static const struct {
     int key;
     const char *name;
 } named_keys[] = {
-    {GLFW_KEY_SPACE, "Space"},
-    {GLFW_KEY_PAUSE, "Pause"},
-    {GLFW_KEY_TAB, "Tab"},
-    {GLFW_KEY_HOME, "Home"},
-    {GLFW_KEY_END, "End"},
-    {GLFW_KEY_ESCAPE, "Escape"},
-    {GLFW_KEY_BACKSPACE, "Backspace"},
-    {GLFW_KEY_KP_SUBTRACT, "keypad -"},
+    {GLFW_KEY_SPACE, "Space"},         {GLFW_KEY_PAUSE, "Pause"},   {GLFW_KEY_TAB, "Tab"},
+    {GLFW_KEY_HOME, "Home"},           {GLFW_KEY_END, "End"},       {GLFW_KEY_ESCAPE, "Escape"},
+    {GLFW_KEY_BACKSPACE, "Backspace"}, {GLFW_KEY_DELETE, "Delete"}, {GLFW_KEY_KP_SUBTRACT, "keypad -"},
     {GLFW_KEY_KP_ADD, "keypad +"},
 };
 
@@ -416,7 +434,7 @@ static void key_name(int key, char name[16])
         snprintf(name, 16, "F%d", key - GLFW_KEY_F1 + 1);
     else if (sign_of_key(key) >= 0)
         snprintf(name, 16, "%s", signs[sign_of_key(key)].name);
-    else if (key >= GLFW_KEY_A && key <= GLFW_KEY_Z)
+    else if ((key >= GLFW_KEY_A && key <= GLFW_KEY_Z) || (key >= GLFW_KEY_0 && key <= GLFW_KEY_9))
         snprintf(name, 16, "%c", key);
     for (size_t i = 0; i < sizeof named_keys / sizeof named_keys[0]; i++)
         if (named_keys[i].key == key)

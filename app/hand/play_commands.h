@@ -41,6 +41,10 @@ typedef enum PlayCommand {
     PLAY_TOUCH,
     PLAY_TOUCH_WAY,
     PLAY_TOUCH_FLUID,
+    PLAY_PUT_BALL,
+    PLAY_PUT_BOX,
+    PLAY_PUT_LIKE,
+    PLAY_TAKE_SOLID,
     PLAY_PLANE_BACK, /* from here in the order of ViewStep (render/frame/view.h) */
     PLAY_PLANE_FORWARD,
     PLAY_PLANE_LEFT,

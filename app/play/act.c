@@ -172,6 +172,10 @@ static bool may_close(Play *play)
 static void tell_touch(Play *play)
 {
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
+    if (play->model.open.scene.touch.way == TOUCH_HOLD) {
+        notice_tell(&play->notice, "touch: left drag moves a solid, right drag turns it; hold");
+        return;
+    }
     notice_tell(&play->notice, "touch: left drag: %s, right drag: %s, wheel: size, Shift + wheel: strength",
                 finger_way_name(left), finger_way_name(touch_other(left)));
 }
@@ -407,6 +411,18 @@ static void do_command(Play *play, PlayCommand command, bool held)
     case PLAY_TOUCH_FLUID:
         next_touch_fluid(play);
         break;
+    case PLAY_PUT_BALL:
+        hands_put(play, SOLID_LIKE_BALL);
+        break;
+    case PLAY_PUT_BOX:
+        hands_put(play, SOLID_LIKE_BOX);
+        break;
+    case PLAY_PUT_LIKE:
+        hands_put(play, SOLID_LIKE);
+        break;
+    case PLAY_TAKE_SOLID:
+        hands_take(play);
+        break;
     case PLAY_QUIT:
         quit_or_close(play);
         break;
@@ -541,6 +557,9 @@ void act_all(Play *play)
     const int lost = ask_lost(&play->asks);
     if (lost > 0)
         left_out(play, lost);
+    if (play->solids != play->model.solids && play->picture.panels)
+        view_changed(play);
+    play->solids = play->model.solids;
     while (ask_next(&play->asks, &ask))
         act(play, &ask);
 }

@@ -62,15 +62,40 @@ static void draw_outline(const Look *look, const BoxState *pose, Text *text)
     text_end(text);
 }
 
+static const uint32_t RESTS = 0xe8eef4e0, TOUCHES = 0xff6ad5ff;
+
+/* A ring about the solid that is in the hand, or would be. */
+static void draw_hold(const Play *play, const Look *look, const SightRay *ray, const double forward[3],
+                      Text *text)
+{
+    const WorldDef *def = &play->model.open.scene.world;
+    const Hold *hold = &play->touch.hold;
+    TouchDef as_wide = {.way = FINGER_STIR - 1};
+    TouchTool at = {.on = true};
+    BoxState pose;
+    double there[3];
+    const int solid = hold->holds ? hold->solid : hold_under(def, look->particles->time, ray, there);
+    if (solid < 0 || solid >= def->solid_count)
+        return;
+    solid_pose(&def->solids[solid], look->particles->time, &pose);
+    memcpy(at.at, pose.position, sizeof at.at);
+    as_wide.radius = solid_reach(&def->solids[solid]) / def->spacing;
+    const Handle ring = touch_ring(&at, &as_wide, def->spacing, forward);
+    grip_draw_ring(look, &ring, text, hold->holds ? TOUCHES : RESTS);
+}
+
 /* Where the finger is; without a drag, where it would be: at what the picture shows under the mouse. */
 static void draw_finger(Play *play, const Look *look, Text *text)
 {
-    static const uint32_t RESTS = 0xe8eef4e0, TOUCHES = 0xff6ad5ff;
     const Scene *scene = &play->model.open.scene;
     TouchTool tool = play->touch;
     SightRay ray;
     double forward[3];
     hands_ray(play, look, &ray, forward);
+    if (scene->touch.way == TOUCH_HOLD) {
+        draw_hold(play, look, &ray, forward, text);
+        return;
+    }
     if (!tool.holds) {
         const double middle[3] = {0, 0.5 * look->particles->box_size[1], 0};
         const bool shown = play->readout.found.placed;

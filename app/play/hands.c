@@ -96,15 +96,32 @@ static void press(Play *play, const SightRay *ray)
     tool->spent = way == FINGER_POUR && !may_pour(play);
 }
 
+/* A solid in the hand goes where the mouse is. */
+static void hold(Play *play, const SightRay *ray, const double forward[3])
+{
+    Hold *held = &play->touch.hold;
+    SolidCommand command;
+    const WorldDef *def = &play->model.open.scene.world;
+    const double time = play->model.particles.time;
+    if (!held->pressed && !hold_press(held, def, time, ray, forward, play->input.drag == PLAY_TOUCH_OTHER))
+        notice_tell(&play->notice, "there is no solid under the mouse; 1 puts a ball there, 2 a box");
+    if (!hold_move(held, ray, &command))
+        return;
+    play->picture.over = true;
+    held->holds = model_solid(&play->model, &command);
+}
+
 /* The finger goes where the mouse is. Returns the number of its command, or 0. */
 static uint64_t touch(Play *play)
 {
     TouchTool *tool = &play->touch;
     const Scene *scene = &play->model.open.scene;
     Finger finger;
+    const unsigned travels = tool->travels;
     touch_travel(tool, play->model.travels, play->model.told_script == SCRIPT_PLAYS);
     if (!input_touches(&play->input) || !picture_visible(&play->picture)) {
         touch_release(tool, play->model.status.past.behind);
+        hold_release(&tool->hold);
     } else if (renderer_is_flat(panels_renderer(play->picture.panels, play->picture.chosen))) {
         if (!tool->spent)
             notice_tell(&play->notice, "a flat picture has no depth to touch; use another view");
@@ -114,9 +131,14 @@ static uint64_t touch(Play *play)
         SightRay ray;
         double forward[3];
         hands_ray(play, &look, &ray, forward);
-        if (!tool->holds)
-            press(play, &ray);
-        touch_move(tool, &ray, forward, scene->world.dimensions);
+        tool->hold.holds &= travels == tool->travels;
+        if (scene->touch.way == TOUCH_HOLD) {
+            hold(play, &ray, forward);
+        } else {
+            if (!tool->holds)
+                press(play, &ray);
+            touch_move(tool, &ray, forward, scene->world.dimensions);
+        }
     }
     TouchDef def = scene->touch;
     if (def.fluid >= scene->world.fluid_count)
@@ -125,6 +147,62 @@ static uint64_t touch(Play *play)
         return 0;
     play->picture.over = true;
     return model_touch(&play->model, &finger);
+}
+
+/* How the mouse looks at the chosen view's fluid; false, with a word, where that has no depth. */
+static bool looks(Play *play, SightRay *ray)
+{
+    double forward[3];
+    if (!play->model.has_particles || !picture_visible(&play->picture))
+        return false;
+    if (renderer_is_flat(panels_renderer(play->picture.panels, play->picture.chosen))) {
+        notice_tell(&play->notice, "a flat picture has no depth to put a solid in; use another view");
+        return false;
+    }
+    const Look look = play_look(play, play->picture.chosen);
+    hands_ray(play, &look, ray, forward);
+    return true;
+}
+
+void hands_put(Play *play, int like)
+{
+    const Scene *scene = &play->model.open.scene;
+    SolidCommand command = {.act = SOLID_ACT_PUT,
+                            .like = like,
+                            .size = touch_radius(&scene->touch, FINGER_STIR, scene->world.spacing),
+                            .at = {0, 0.5 * scene->world.box_size[1], 0}};
+    SightRay ray;
+    double there[3];
+    if (!looks(play, &ray))
+        return;
+    const int solid = hold_under(&scene->world, play->model.particles.time, &ray, there);
+    if (like == SOLID_LIKE && solid < 0) {
+        notice_tell(&play->notice, "there is no solid under the mouse to be put once more");
+        return;
+    }
+    command.like += like == SOLID_LIKE ? solid : 0;
+    model_take(&play->model); /* as for a press */
+    if (solid >= 0)
+        memcpy(command.at, there, sizeof there);
+    else if (play->model.has_particles)
+        particle_place_under(&play->model.particles, &ray, 0.5 * play->model.particles.spacing, command.at);
+    if (model_solid(&play->model, &command))
+        notice_tell(&play->notice, "a solid is put there, above the fluid; touch: hold moves it (Q)");
+}
+
+void hands_take(Play *play)
+{
+    const WorldDef *def = &play->model.open.scene.world;
+    SightRay ray;
+    double there[3];
+    if (!looks(play, &ray))
+        return;
+    const SolidCommand command = {.act = SOLID_ACT_TAKE,
+                                  .solid = hold_under(def, play->model.particles.time, &ray, there)};
+    if (command.solid < 0)
+        notice_tell(&play->notice, "there is no solid under the mouse");
+    else if (model_solid(&play->model, &command))
+        notice_tell(&play->notice, "the %s is taken out", solid_name(def->solids[command.solid].kind));
 }
 
 void hands_look(Play *play)

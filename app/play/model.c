@@ -37,6 +37,18 @@ static void follow_travels(Model *model)
     model->shut = model->status.shut;
 }
 
+/* The scene's solids are where the solver has them. */
+static void follow_solids(Model *model)
+{
+    WorldDef def, *own = &model->open.scene.world;
+    if (model->status.solids == model->solids)
+        return;
+    model->solids = model->status.solids;
+    simulator_settings(model->open.simulator, &def);
+    own->solid_count = def.solid_count;
+    memcpy(own->solids, def.solids, sizeof own->solids);
+}
+
 /* Once: a box that stands still under the hand would look broken. */
 static void tell_fixed(Model *model)
 {
@@ -70,6 +82,7 @@ void model_listen(Model *model)
     while (company_message(model->open.company, words))
         notice_error(model->notice, words);
     follow_travels(model);
+    follow_solids(model);
     tell_script(model);
     if (status->saves == model->saves)
         return;
@@ -181,7 +194,7 @@ static void adopt(Model *model, const PlayScene *opened)
     model->file_scene = opened->scene;
     model->has_particles = false;
     post_open(model);
-    model->saves = model->messages = model->travels = 0;
+    model->saves = model->messages = model->travels = model->solids = 0;
     model->shut = 0;
     model->told_fixed = model->asked_acceleration = false;
     model->told_script = SCRIPT_NONE;
@@ -518,6 +531,21 @@ uint64_t model_touch(Model *model, const Finger *finger)
         return 0;
     company_send(model->open.company, &command);
     return simulator_send(model->open.simulator, &command);
+}
+
+bool model_solid(Model *model, const SolidCommand *command)
+{
+    Error error = {{0}};
+    Simulator *followers[SIMULATOR_FOLLOWERS];
+    WorldDef def = model->open.scene.world;
+    const SimCommand sent = {.kind = SIM_SOLID, .solid = *command};
+    def.solid_count += def.solid_count == 0;
+    const bool may =
+        world_can(&def, &error) && (company_followers(model->open.company, followers) == 0 ||
+                                    error_set(&error, "solids stay while solvers run side by side"));
+    if (!may)
+        notice_error(model->notice, error.message);
+    return may && simulator_send(model->open.simulator, &sent) > 0;
 }
 
 /* Whether the scene's own states need accelerations; those beside it are asked for theirs. */

@@ -34,7 +34,8 @@ typedef struct Model {
     unsigned saves, messages; /* that were told */
     ScriptState told_script;  /* that was told */
     uint64_t shut;            /* gates that shall be: world_shut */
-    unsigned travels;         /* SimulatorPast.travels that were followed */
+    unsigned travels;         /* SimulatorPast.travels that were followed; */
+    unsigned solids;          /* SimulatorStatus.solids */
     atomic_bool pulled;       /* somebody would move the box of a recorded run; */
     bool told_fixed;          /* it was told that none can */
     bool asked_acceleration;  /* a view reads it, and the solver was asked for it: once, it may take long */
@@ -92,6 +93,9 @@ void model_shut(Model *model, uint64_t gates);
 
 /* A finger in the fluid from the next step on, or none. The number of its command; 0: it was not taken. */
 uint64_t model_touch(Model *model, const Finger *finger);
+
+/* Something is done to a solid from the next step on. False, with a word to the user: it cannot be here. */
+bool model_solid(Model *model, const SolidCommand *command);
 
 /* The views have changed: solvers begin to keep what one of them reads. One that cannot is asked again when
    it was not read meanwhile. */

@@ -29,6 +29,7 @@ typedef struct Play {
     PlayCamera camera;
     Grip grip;
     TouchTool touch;
+    unsigned solids; /* Model.solids that the views show */
     BoxTarget wanted; /* where the hand wants the box, */
     bool outlined;    /* and an outline shows it */
     Readout readout;
@@ -88,6 +89,11 @@ void hands_look(Play *play);
 
 /* hands.c: how the mouse looks at the fluid in a panel: what is under it, and where the camera looks. */
 void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward[3]);
+
+/* hands.c: a solid is put where the mouse is, of that shape (SolidCommand.like; SOLID_LIKE: as the solid under
+   the mouse), or the one there is taken out. */
+void hands_put(Play *play, int like);
+void hands_take(Play *play);
 
 /* act.c: all that waits, in the order in which it was asked for. */
 void act_all(Play *play);

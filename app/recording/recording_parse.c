@@ -86,6 +86,44 @@ static bool read_shut(const Reader *reader, const char *at, uint64_t *shut)
     return true;
 }
 
+/* A blank and a whole number from 0 on. */
+static bool take_index(const char **at, int *index)
+{
+    double number;
+    if (!take_number(at, &number) || !(number >= 0 && number < 1000) || number != floor(number))
+        return false;
+    *index = (int)number;
+    return true;
+}
+
+/* "move" with the number of a solid, how far it is off and its turn; "put" with what it is like, its place
+   and its size; "take" with the number. */
+static bool read_solid(const Reader *reader, const char *at, SolidCommand *solid)
+{
+    char name[8] = "";
+    const char *const line = at;
+    const size_t length = strcspn(at + 1, " ");
+    if (length < sizeof name)
+        memcpy(name, at + 1, length);
+    const int act = solid_act_find(name);
+    at += 1 + length;
+    bool ok = act >= 0 && take_index(&at, act == SOLID_ACT_PUT ? &solid->like : &solid->solid);
+    solid->act = (SolidAct)(ok ? act : 0);
+    for (int k = 0; k < 3 && ok && act != SOLID_ACT_TAKE; k++)
+        ok = take_number(&at, &solid->at[k]);
+    for (int k = 0; k < 4 && ok && act == SOLID_ACT_MOVE; k++)
+        ok = take_number(&at, &solid->turn[k]);
+    if (ok && act == SOLID_ACT_PUT)
+        ok = take_number(&at, &solid->size);
+    return (ok && !*at) ||
+           reader_fail(
+               reader,
+               "'%.60s' does nothing to a solid; move, its number, x y z (m) and a quaternion must stand "
+               "here, or put, 0 (a ball), 1 (a box) or 2 and the number of one that it is like, x y z and "
+               "half its size (m), or take and its number",
+               line + 1);
+}
+
 /* The setting after " set", with the lines that carry it on. */
 static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_SIZE])
 {
@@ -104,11 +142,9 @@ static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_S
 
 static bool read_kind(Reader *reader, const char *line, const char *at, SimCommand *command)
 {
-    static const char *const words[] = {[SIM_TARGET] = " target",
-                                        [SIM_CARRY] = " carry",
-                                        [SIM_TOUCH] = " touch",
-                                        [SIM_SHUT] = " shut",
-                                        [SIM_SET] = " set"};
+    static const char *const words[] = {
+        [SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_TOUCH] = " touch",
+        [SIM_SHUT] = " shut",     [SIM_SOLID] = " solid", [SIM_SET] = " set"};
     for (int kind = SIM_TARGET; kind <= SIM_SET; kind++) {
         const size_t length = strlen(words[kind]);
         const bool bare = kind == SIM_SHUT && !at[length];
@@ -118,6 +154,8 @@ static bool read_kind(Reader *reader, const char *line, const char *at, SimComma
         at += length;
         if (kind == SIM_SHUT)
             return read_shut(reader, at, &command->shut);
+        if (kind == SIM_SOLID)
+            return read_solid(reader, at, &command->solid);
         if (kind == SIM_TOUCH)
             return read_finger(reader, at, &command->finger);
         return kind == SIM_SET ? read_setting(reader, (size_t)(at + 1 - line), command->setting)
@@ -125,7 +163,7 @@ static bool read_kind(Reader *reader, const char *line, const char *at, SimComma
     }
     return reader_fail(
         reader,
-        "'%.40s' is no command; after the step stands target, carry, touch, shut or set, and what it takes",
+        "'%.40s' is no command; after the step stands target, carry, touch, shut, solid or set, and what it takes",
         at);
 }
 

@@ -72,6 +72,23 @@ static void put_shut(FILE *file, const SimCommand *command)
     putc('\n', file);
 }
 
+static void put_solid(FILE *file, const SimCommand *command)
+{
+    const SolidCommand *c = &command->solid;
+    fprintf(file, "%" PRIu64 " solid %s", command->step, solid_act_name(c->act));
+    if (c->act != SOLID_ACT_PUT)
+        fprintf(file, " %d", c->solid);
+    else
+        fprintf(file, " %d", c->like);
+    for (int k = 0; k < 3 && c->act != SOLID_ACT_TAKE; k++)
+        fprintf(file, " %a", c->at[k]);
+    for (int k = 0; k < 4 && c->act == SOLID_ACT_MOVE; k++)
+        fprintf(file, " %a", c->turn[k]);
+    if (c->act == SOLID_ACT_PUT)
+        fprintf(file, " %a", c->size);
+    putc('\n', file);
+}
+
 static void put_command(FILE *file, const SimCommand *command)
 {
     if (command->kind == SIM_SET) {
@@ -81,6 +98,10 @@ static void put_command(FILE *file, const SimCommand *command)
     }
     if (command->kind == SIM_TOUCH) {
         put_finger(file, command);
+        return;
+    }
+    if (command->kind == SIM_SOLID) {
+        put_solid(file, command);
         return;
     }
     if (command->kind == SIM_SHUT) {

@@ -80,6 +80,8 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
     case SIM_SHUT:
         world_shut(*world, command->shut);
         break;
+    case SIM_SOLID:
+        return solid_command_apply(&command->solid, world, &scene->world, error);
     case SIM_SET:
         return apply_setting(command->setting, world, scene, error);
     }

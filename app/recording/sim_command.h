@@ -1,9 +1,10 @@
-/* What acts on a running simulation from outside: the hand, a finger, gates, and changed settings. Input,
-   panel and scripts send nothing else, so that a list of these commands is all that it takes to do a session
-   again. */
+/* What acts on a running simulation from outside: the hand, a finger, gates, solids, and changed settings.
+   Input, panel and scripts send nothing else, so that a list of these commands is all that it takes to do a
+   session again. */
 #ifndef SLOSH_SIM_COMMAND_H
 #define SLOSH_SIM_COMMAND_H
 
+#include "app/recording/solid_command.h"
 #include "app/scene/scene.h"
 #include "sim/base/error.h"
 #include "sim/box/box_filter.h"
@@ -17,6 +18,7 @@ typedef enum SimCommandKind {
     SIM_CARRY,  /* world_carry */
     SIM_TOUCH,  /* world_touch */
     SIM_SHUT,   /* world_shut */
+    SIM_SOLID,  /* solid_command_apply */
     SIM_SET     /* scene_set_live, then world_change, or world_move for another backend */
 } SimCommandKind;
 
@@ -29,6 +31,7 @@ typedef struct SimCommand {
         BoxTarget target;               /* SIM_TARGET, SIM_CARRY */
         Finger finger;                  /* SIM_TOUCH */
         uint64_t shut;                  /* SIM_SHUT */
+        SolidCommand solid;             /* SIM_SOLID */
         char setting[SIM_SETTING_SIZE]; /* SIM_SET: "path=value" of a key that may change */
     };
 } SimCommand;

@@ -424,14 +424,16 @@ uint64_t past_before(const Past *past, uint64_t place)
     return past->count > 0 ? kept_before(past, place)->place : past_last(past);
 }
 
-bool past_load(const Past *past, uint64_t place, World *world, Scene *scene, size_t *next, Error *error)
+bool past_load(const Past *past, uint64_t place, World **world, Scene *scene, size_t *next, Error *error)
 {
+    Scene then;
     if (past->count == 0)
         return error_set(error, "no state of the past is kept");
     const Kept *kept = kept_before(past, place);
-    if (!world_load(world, &kept->state, error))
+    settings_apply(past, kept->settings, &then);
+    if (!world_set_solids(world, &then.world, error) || !world_load(*world, &kept->state, error))
         return false;
-    settings_apply(past, kept->settings, scene);
+    memcpy(scene, &then, sizeof then); /* its padding too, for comparisons */
     *next = kept->next;
     return true;
 }

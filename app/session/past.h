@@ -66,7 +66,7 @@ uint64_t past_before(const Past *past, uint64_t place);
 
 /* Loads that state into the world; `scene` and *next become what they were there. False with the reason: all
    is as it was. */
-bool past_load(const Past *past, uint64_t place, World *world, Scene *scene, size_t *next, Error *error);
+bool past_load(const Past *past, uint64_t place, World **world, Scene *scene, size_t *next, Error *error);
 
 /* Forgets what comes after the place, which becomes the last one. */
 void past_cut(Past *past, uint64_t place);

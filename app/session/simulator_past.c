@@ -206,7 +206,7 @@ static bool load(Simulator *simulator, uint64_t place)
 {
     Error error = {{0}};
     const bool accelerations = simulator->scene.world.acceleration; /* once kept they stay */
-    if (!past_load(simulator->past, place, simulator->world, &simulator->scene, &simulator->next, &error)) {
+    if (!past_load(simulator->past, place, &simulator->world, &simulator->scene, &simulator->next, &error)) {
         simulator_tell(simulator, false, error.message);
         return false;
     }

@@ -47,12 +47,28 @@ void command_queue_drop_hand(CommandQueue *queue)
     drop(queue, is_of_hand);
 }
 
+/* The place in the queue of what did something to solids last, where `newer` says anew where the same one
+   goes; -1: nowhere. Numbers of solids depend on what was put and taken before. */
+static int same_solid(const CommandQueue *queue, const SimCommand *newer)
+{
+    int last = queue->count - 1;
+    while (last >= 0 && queue->commands[last].kind != SIM_SOLID)
+        last--;
+    const SolidCommand *a = &newer->solid, *b = last >= 0 ? &queue->commands[last].solid : NULL;
+    return b && a->act == SOLID_ACT_MOVE && b->act == SOLID_ACT_MOVE && a->solid == b->solid ? last : -1;
+}
+
 bool command_queue_add(CommandQueue *queue, const SimCommand *command)
 {
     if (command->kind == SIM_CARRY)
         drop(queue, is_pose);
     if (command->kind == SIM_TOUCH && command->finger.way == (double)FINGER_NONE)
         drop(queue, is_touch);
+    const int moved = command->kind == SIM_SOLID ? same_solid(queue, command) : -1;
+    if (moved >= 0) {
+        queue->commands[moved] = *command;
+        return true;
+    }
     for (int i = 0; i < queue->count; i++)
         if (replaces(command, &queue->commands[i])) {
             queue->commands[i] = *command;

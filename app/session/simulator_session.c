@@ -18,6 +18,24 @@ void simulator_tell(Simulator *simulator, bool failed, const char *message)
     pthread_mutex_unlock(&simulator->lock);
 }
 
+/* Padding that differs counts as a change. */
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+/* Of a view that draws them. */
+static void describe_solids(Simulator *simulator)
+{
+    const WorldDef *now = &simulator->scene.world;
+    WorldDef *told = &simulator->settings;
+    if (now->solid_count == told->solid_count && same_bytes(now->solids, told->solids, sizeof now->solids))
+        return;
+    told->solid_count = now->solid_count;
+    memcpy(told->solids, now->solids, sizeof told->solids);
+    simulator->status.solids++;
+}
+
 /* With the lock held, after each state: what a view may want to know of it. */
 static void describe(Simulator *simulator, const WorldInfo *info)
 {
@@ -36,6 +54,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     status->particles = info->count;
     status->lost = info->lost;
     simulator_past_status(simulator, info);
+    describe_solids(simulator);
     simulator->obeyed[simulator->obeyed_next] = (Obeyed){info->step, simulator->taken};
     simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
 }

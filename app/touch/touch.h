@@ -3,6 +3,7 @@
 #ifndef SLOSH_APP_TOUCH_H
 #define SLOSH_APP_TOUCH_H
 
+#include "app/touch/hold.h"
 #include "render/frame/handle.h"
 #include "sim/touch/touch_def.h"
 
@@ -16,9 +17,13 @@ typedef struct TouchTool {
     FingerWay way;    /* what it does */
     double at[3];     /* where the pointer is; without a drag, where it would begin */
     Finger told;      /* as it was last sent */
+    Hold hold;        /* a solid that is in the hand instead of it */
     unsigned travels; /* jumps in time that were seen, */
     bool scripted;    /* and whether a recorded session was played then */
 } TouchTool;
+
+/* What the left button does beyond the ways of a finger: it takes solids. In the place of a FingerWay less one. */
+enum { TOUCH_HOLD = FINGER_POUR };
 
 /* What the other button does than that which does `way`: pull, or push where that pulls. */
 FingerWay touch_other(FingerWay way);

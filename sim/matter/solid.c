@@ -261,6 +261,8 @@ bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, 
 {
     const MeshUse *mesh = solid->kind == SOLID_MESH && solid->mesh.shape ? &solid->mesh : NULL;
     bool turned = (solid->kind != SOLID_BOX && !mesh) || solid->angle_deg != 0;
+    if (solid->hand.moved)
+        return false;
     for (int i = 0; i < solid->motion_count; i++)
         turned |= !motion_translates(&solid->motions[i]);
     SolidDef flat = *solid;

@@ -15,11 +15,10 @@ static const double STIR_RATE = 40, ACCELERATION = 40; /* 1/s; m/s2 */
    particles a layer. */
 static const double FALL = 4, WIDTH = 0.5, G = 9.81;
 
-const TouchWay touch_ways[] = {{"stir", "the fluid goes along with the pointer"},
-                               {"pull", "the fluid comes to the pointer"},
-                               {"push", "the fluid goes away from the pointer"},
-                               {"pour", "fluid comes from the pointer"},
-                               {0}};
+const TouchWay touch_ways[] = {
+    {"stir", "the fluid goes along with the pointer"}, {"pull", "the fluid comes to the pointer"},
+    {"push", "the fluid goes away from the pointer"},  {"pour", "fluid comes from the pointer"},
+    {"hold", "solids go along with the pointer"},      {0}};
 
 /* clang-format off */
 const Key touch_keys[] = {

@@ -1,5 +1,6 @@
 #include "sim/world/world_state.h"
 
+#include "sim/world/energy_watch.h"
 #include "sim/world/sentinel.h"
 #include "sim/world/world_struct.h"
 
@@ -258,6 +259,35 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
     }
     world_destroy(from);
     *world = to;
+    return true;
+}
+
+/* But for where a hand has it. */
+static bool same_solid(const SolidDef *a, const SolidDef *b)
+{
+    bool same = a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
+                a->thickness == b->thickness && a->angle_deg == b->angle_deg && a->slip == b->slip &&
+                a->mesh.shape == b->mesh.shape && a->mesh.scale == b->mesh.scale &&
+                a->motion_count == b->motion_count && a->hand.moved == b->hand.moved;
+    for (int k = 0; k < 3; k++)
+        same &= a->centre[k] == b->centre[k] && a->size[k] == b->size[k] && a->axis[k] == b->axis[k];
+    return same;
+}
+
+bool world_set_solids(World **world, const WorldDef *from, Error *error)
+{
+    World *w = *world;
+    WorldDef def = w->def;
+    bool same = def.solid_count == from->solid_count;
+    for (int i = 0; i < from->solid_count; i++)
+        same &= same_solid(&def.solids[i], &from->solids[i]);
+    def.solid_count = from->solid_count;
+    memcpy(def.solids, from->solids, sizeof def.solids);
+    if (!same)
+        return world_rebuild(world, &def, error);
+    memcpy(w->def.solids, from->solids, sizeof w->def.solids);
+    memcpy(w->constants.solids, from->solids, sizeof w->constants.solids);
+    energy_forget(w);
     return true;
 }
 

@@ -89,4 +89,8 @@ bool world_move(World **world, const char *backend, Error *error);
    that time twice the memory. False with the reason: nothing has changed. */
 bool world_rebuild(World **world, const WorldDef *def, Error *error);
 
+/* From the next step on its solids are those of the def, where the hand has them: at once, where only that
+   differs; else as world_rebuild does. */
+bool world_set_solids(World **world, const WorldDef *def, Error *error);
+
 #endif

@@ -645,6 +645,35 @@ class Mouse(Window):
         self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
         self.assertEqual(self.slosh('render', 'a.recording', '-o', 'a.png', '--quiet')[0], 0)
 
+    def test_solids_in_the_hand(self):
+        """By real events: a ball is put above the fluid, dragged into it, turned; a box is put and taken out; the session
+        is the same again, as a picture too."""
+        self.open('still.yaml', '--record', 'a.recording', '--set', 'touch.radius=1.5')
+        self.keys('0')  # there is none
+        self.at(240, 180)
+        self.keys('1')
+        self.drawn()
+        self.drawn()
+        self.display.press('shift')
+        self.keys('q')
+        self.display.release('shift')
+        self.keys('q')  # hold
+        for y in range(60, 200, 40):
+            self.drag(1, [(240, y), (240, y + 20), (240, y + 40), (240, y + 60)])
+        self.drag(3, [(240, 190), (250, 190), (260, 190)])
+        self.at(180, 180)
+        self.keys('2', 'F12')
+        self.keys('Escape')
+        self.quit()
+        self.assertRegex(self.messages, 'there is no solid under the mouse(.|\n)*hold')
+        text = self.read('a.recording').decode()
+        acts = re.findall(r'^\d+ solid (\w+) (\d)(.*)$', text, re.M)
+        self.assertEqual([acts[0][:2], acts[-1][:2]], [('put', '0'), ('put', '1')], acts)
+        moves = [[float.fromhex(number) for number in rest.split()] for act, _, rest in acts if act == 'move']
+        self.assertTrue(moves and min(move[1] for move in moves) < -0.05, acts)
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+        self.assertEqual(self.slosh('render', 'a.recording', '-o', 'a.png', '--quiet')[0], 0)
+
     def test_a_ring_shows_the_finger(self):
         """Also while time stands; pressed it has the colour of what the hand holds."""
         self.open('still.yaml')

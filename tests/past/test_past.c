@@ -132,7 +132,7 @@ static void a_state_may_be_too_large(void **state)
     assert_true(past_figures(bench.past).dropped);
     assert_int_equal(past_first(bench.past), past_last(bench.past));
     assert_int_equal(past_find(bench.past, 0), past_last(bench.past));
-    assert_false(past_load(bench.past, past_last(bench.past), bench.world, &bench.scene, &next, &error));
+    assert_false(past_load(bench.past, past_last(bench.past), &bench.world, &bench.scene, &next, &error));
     bench_close(&bench);
 }
 
@@ -180,10 +180,10 @@ static void settings_come_with_the_state(void **state)
     past_keep(bench.past, bench.world, &bench.scene, 5, true);
     assert_in_range(past_figures(bench.past).bytes - two, 1,
                     two - one + 400); /* what differs, no whole scene */
-    assert_true(past_load(bench.past, 1, bench.world, &bench.scene, &next, &error));
+    assert_true(past_load(bench.past, 1, &bench.world, &bench.scene, &next, &error));
     assert_int_equal(next, 4);
     assert_memory_equal(&bench.scene, &before, sizeof before);
-    assert_true(past_load(bench.past, 2, bench.world, &bench.scene, &next, &error));
+    assert_true(past_load(bench.past, 2, &bench.world, &bench.scene, &next, &error));
     assert_int_equal(next, 5);
     assert_memory_equal(&bench.scene, &changed, sizeof changed);
     past_begin(bench.past, &info);

@@ -62,7 +62,7 @@ APP = {
     "term": "scene",
     "recording": "base yaml scene",
     "hand": "base scene",
-    "touch": "base scene hand",
+    "touch": "base scene recording hand",
     "device": "base yaml scene recording hand",
     "held": "base scene hand device",
     "output": "base yaml scene",

@@ -1,0 +1,185 @@
+#include "app/recording/solid_command.h"
+
+#include "sim/matter/solid_step.h"
+#include "sim/world/world_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const float COLOR[3] = {0.55F, 0.56F, 0.6F}; /* in no colour of a fluid */
+
+static const char *const acts[] = {"move", "put", "take"};
+
+const char *solid_act_name(SolidAct act)
+{
+    return acts[act];
+}
+
+int solid_act_find(const char *name)
+{
+    for (int act = SOLID_ACT_MOVE; act <= SOLID_ACT_TAKE; act++)
+        if (strcmp(acts[act], name) == 0)
+            return act;
+    return -1;
+}
+
+/* How fast a solid may go and what lies next to it still gets out of its way: parts of what a particle may go
+   in a step, and of the speed of sound. */
+static double speed_of(const WorldDef *def, const WorldInfo *info)
+{
+    static const double OF_STEP = 0.1, OF_SOUND = 0.1;
+    return fmin(OF_STEP * info->support_radius / info->dt, OF_SOUND * def->sound_speed);
+}
+
+static double clamp(double value, double low, double high)
+{
+    return fmax(low, fmin(value, high));
+}
+
+static void clamp_to_box(const WorldDef *def, double centre[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double low = k == 1 ? 0 : -0.5 * def->box_size[k];
+        centre[k] = clamp(centre[k], low, low + def->box_size[k]);
+    }
+    if (def->dimensions == 2)
+        centre[2] = 0;
+}
+
+/* Its centre stays in the box. In two dimensions all of it does, with a gap: fluid between it and a wall has
+   no way round it, and would be squeezed to nothing. */
+static void keep_in_box(const WorldDef *def, const SolidDef *solid, double centre[3])
+{
+    static const double GAP = 2; /* spacings */
+    for (int k = 0; k < 3; k++) {
+        const double low = k == 1 ? 0 : -0.5 * def->box_size[k], high = low + def->box_size[k];
+        const double wide = def->dimensions == 2 ? solid_reach(solid) + GAP * def->spacing : 0;
+        const double off = fmin(wide, 0.5 * def->box_size[k]);
+        centre[k] = clamp(centre[k], fmin(low + off, solid->centre[k]), fmax(high - off, solid->centre[k]));
+    }
+    if (def->dimensions == 2)
+        centre[2] = 0;
+}
+
+static bool has(const WorldDef *def, int solid, Error *error)
+{
+    return (solid >= 0 && solid < def->solid_count) ||
+           error_set(error, "there is no solid %d; the scene has %d", solid, def->solid_count);
+}
+
+static bool move(const SolidCommand *command, const WorldInfo *info, WorldDef *def, Error *error)
+{
+    if (!has(def, command->solid, error))
+        return false;
+    SolidDef *solid = &def->solids[command->solid];
+    const double speed = speed_of(def, info);
+    double centre[3], at[3];
+    for (int k = 0; k < 3; k++)
+        centre[k] = solid->centre[k] + command->at[k];
+    keep_in_box(def, solid, centre);
+    for (int k = 0; k < 3; k++)
+        at[k] = centre[k] - solid->centre[k];
+    return solid_hand_move(&solid->hand, at, command->turn, info->time, speed, speed / solid_reach(solid),
+                           def->dimensions) ||
+           error_set(error, "solid %d: a place that is not finite", command->solid);
+}
+
+static bool make(const SolidCommand *command, const WorldInfo *info, const WorldDef *def, SolidDef *solid,
+                 Error *error)
+{
+    static const double none[3] = {0}, upright[4] = {0, 0, 0, 1};
+    const int like = command->like - SOLID_LIKE;
+    if (like >= 0 && !has(def, like, error))
+        return false;
+    *solid = like >= 0 ? def->solids[like]
+                       : (SolidDef){.kind = command->like == SOLID_LIKE_BALL ? SOLID_SPHERE : SOLID_BOX,
+                                    .radius = command->size,
+                                    .axis = {0, 1, 0}};
+    for (int k = 0; k < 3 && like < 0; k++) {
+        solid->size[k] = k == 2 && def->dimensions == 2 ? def->spacing : 2 * command->size;
+        solid->color[k] = COLOR[k];
+    }
+    solid->motion_count = 0;
+    solid->hand = (SolidHand){.moved = false};
+    memcpy(solid->centre, command->at, sizeof solid->centre);
+    clamp_to_box(def, solid->centre);
+    return (like >= 0 || command->size >= def->spacing ||
+            error_set(error, "a solid must be two spacings wide")) &&
+           solid_hand_move(&solid->hand, none, upright, info->time, 1, 1, def->dimensions);
+}
+
+/* Whether the solid keeps clear of all particles. */
+static bool is_clear(const SolidDef *solid, const WorldDef *def, const float *position, size_t count,
+                     double time)
+{
+    const float half = 0.5F * (float)def->spacing;
+    SolidPose pose;
+    solid_pose_at(solid, time, &pose);
+    for (size_t i = 0; i < count; i++)
+        if (solid_clearance(solid, &pose, def->dimensions, position + 4 * i, half) < half)
+            return false;
+    return true;
+}
+
+/* Straight up from where it is asked for, to the first place that no fluid is in. */
+static bool lift(SolidDef *solid, const WorldDef *def, const WorldInfo *info, const float *position)
+{
+    const double *g = info->gravity, norm = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    for (;;) {
+        double before[3], way = 0;
+        if (is_clear(solid, def, position, info->count, info->time))
+            return true;
+        memcpy(before, solid->centre, sizeof before);
+        for (int k = 0; k < 3; k++)
+            solid->centre[k] += 0.5 * def->spacing * (norm > 0 ? -g[k] / norm : k == 1);
+        clamp_to_box(def, solid->centre);
+        for (int k = 0; k < 3; k++)
+            way += fabs(solid->centre[k] - before[k]);
+        if (way < 0.1 * def->spacing)
+            return false;
+    }
+}
+
+static bool put(const SolidCommand *command, World *world, const WorldInfo *info, WorldDef *def, Error *error)
+{
+    SolidDef solid;
+    if (def->solid_count == SOLIDS_MAX)
+        return error_set(error, "a world has up to %d solids; take one out", SOLIDS_MAX);
+    if (!make(command, info, def, &solid, error))
+        return false;
+    float *position = malloc(4 * (info->count + 1) * sizeof *position);
+    const bool read = position && world_read(world, &(ParticleArrays){.position = position});
+    const bool fits = read && lift(&solid, def, info, position);
+    free(position);
+    if (!fits)
+        return error_set(error, read ? "there is no room for a solid above that place"
+                                     : "no memory to look for a place");
+    def->solids[def->solid_count++] = solid;
+    return true;
+}
+
+static bool take(const SolidCommand *command, WorldDef *def, Error *error)
+{
+    if (!has(def, command->solid, error))
+        return false;
+    def->solid_count--;
+    memmove(def->solids + command->solid, def->solids + command->solid + 1,
+            (size_t)(def->solid_count - command->solid) * sizeof *def->solids);
+    memset(def->solids + def->solid_count, 0, sizeof *def->solids);
+    return true;
+}
+
+bool solid_command_apply(const SolidCommand *command, World **world, WorldDef *def, Error *error)
+{
+    WorldDef after = *def;
+    WorldInfo info;
+    world_info(*world, &info);
+    const bool changed = command->act == SOLID_ACT_MOVE  ? move(command, &info, &after, error)
+                         : command->act == SOLID_ACT_PUT ? put(command, *world, &info, &after, error)
+                                                         : take(command, &after, error);
+    if (!changed || !world_set_solids(world, &after, error))
+        return false;
+    *def = after;
+    return true;
+}
