@@ -402,6 +402,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
     case PLAY_NEUTRAL:
         hand_post_neutral(play->post);
         break;
+    case PLAY_GRAVITY_HOME:
+        hands_set_gravity(play, model->file_scene.world.gravity);
+        break;
     case PLAY_TOUCH:
         turn_touch(play, !play->touch.on);
         break;
@@ -530,6 +533,9 @@ static void act(Play *play, const Ask *ask)
         break;
     case ASK_STEER:
         steer_camera(play, ask->amount);
+        break;
+    case ASK_GRAVITY:
+        hands_tilt_gravity(play, ask->amount);
         break;
     case ASK_SHUT:
         model_shut(&play->model, ask->gates);

@@ -4,7 +4,8 @@
 
 static bool adds_up(AskKind kind)
 {
-    return kind == ASK_TURN || kind == ASK_PAN || kind == ASK_ZOOM || kind == ASK_STEER || kind == ASK_TOUCH;
+    return kind == ASK_TURN || kind == ASK_PAN || kind == ASK_ZOOM || kind == ASK_STEER ||
+           kind == ASK_TOUCH || kind == ASK_GRAVITY;
 }
 
 void ask_add(AskQueue *queue, const Ask *ask)

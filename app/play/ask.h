@@ -23,6 +23,7 @@ typedef enum AskKind {
     ASK_PAN,     /* amount: heights of the picture to the right and up */
     ASK_ZOOM,    /* amount: steps nearer; grabs it first */
     ASK_STEER,   /* amount: radians to the right and up, steps nearer; grabs it first */
+    ASK_GRAVITY, /* amount: radians by which it leans to the right, and away */
     ASK_TOUCH,   /* amount: notches larger, notches stronger */
     ASK_SHUT,    /* gates: of emitters and drains, those that shall be shut */
     ASK_CLOSE    /* the window */

@@ -4,6 +4,7 @@
 #include "render/particles/particle_under.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
@@ -203,6 +204,38 @@ void hands_take(Play *play)
         notice_tell(&play->notice, "there is no solid under the mouse");
     else if (model_solid(&play->model, &command))
         notice_tell(&play->notice, "the %s is taken out", solid_name(def->solids[command.solid].kind));
+}
+
+void hands_set_gravity(Play *play, const double gravity[3])
+{
+    const double *g = gravity, size = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    char setting[96];
+    if (play->model.open.scene.world.dimensions == 2)
+        snprintf(setting, sizeof setting, "gravity=[%.6g, %.6g]", g[0], g[1]);
+    else
+        snprintf(setting, sizeof setting, "gravity=[%.6g, %.6g, %.6g]", g[0], g[1], g[2]);
+    if (model_set(&play->model, setting))
+        notice_tell(&play->notice, "gravity: %.3g m/s2, %.0f degrees off down", size,
+                    size > 0 ? acos(fmax(-1, fmin(-g[1] / size, 1))) * 180 / M_PI : 0);
+    play->picture.dirty = true;
+}
+
+void hands_tilt_gravity(Play *play, const double amount[2])
+{
+    const WorldDef *def = &play->model.open.scene.world;
+    const CameraSight sight = play_sight(play);
+    const Orbit orbit = camera_now(&play->camera, &play->model, &sight);
+    double right[3], up[3], away[3], turn[3], tilted[3], q[4] = {0, 0, 0, 1};
+    orbit_axes(&orbit, right, up, away);
+    const bool plane = def->dimensions == 2;
+    for (int k = 0; k < 3; k++)
+        turn[k] = plane ? (k == 2 ? -away[2] * amount[0] : 0) : -away[k] * amount[0] + right[k] * amount[1];
+    quat_turn(turn, q);
+    quat_rotate(q, def->gravity, tilted);
+    if (def->gravity[0] == 0 && def->gravity[1] == 0 && def->gravity[2] == 0)
+        notice_tell(&play->notice, "there is no gravity to be tilted; the panel gives some");
+    else
+        hands_set_gravity(play, tilted);
 }
 
 void hands_look(Play *play)

@@ -39,6 +39,8 @@ static PlayCommand drag_of(const Input *input, int button, int modifiers)
         return PLAY_PAN;
     if (button != GLFW_MOUSE_BUTTON_LEFT)
         return PLAY_NONE;
+    if (modifiers & GLFW_MOD_SHIFT && modifiers & GLFW_MOD_CONTROL)
+        return PLAY_GRAVITY_DRAG;
     return modifiers & GLFW_MOD_SHIFT     ? PLAY_MOVE_DRAG
            : modifiers & GLFW_MOD_CONTROL ? PLAY_TURN_DRAG
                                           : PLAY_ORBIT;
@@ -49,9 +51,10 @@ bool input_touches(const Input *input)
     return input->drag == PLAY_TOUCH_DRAG || input->drag == PLAY_TOUCH_OTHER;
 }
 
-static bool drags_camera(const Input *input)
+/* What acts between two pictures only. */
+static bool drags_slowly(const Input *input)
 {
-    return input->drag == PLAY_PAN || input->drag == PLAY_ORBIT;
+    return input->drag == PLAY_PAN || input->drag == PLAY_ORBIT || input->drag == PLAY_GRAVITY_DRAG;
 }
 
 static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
@@ -99,6 +102,9 @@ static void on_move(Input *input, const WindowEvent *event, int height, AskQueue
         break;
     case PLAY_PAN:
         ask_add(asks, &(Ask){.kind = ASK_PAN, .amount = {right * per_height, up * per_height}});
+        break;
+    case PLAY_GRAVITY_DRAG:
+        ask_add(asks, &(Ask){.kind = ASK_GRAVITY, .amount = {turn[0], turn[1]}});
         break;
     case PLAY_MOVE_DRAG:
         input->move_drag[0] += right;
@@ -231,7 +237,7 @@ void input_take(Input *input, const WindowEvent *event, int height, AskQueue *as
 bool input_only_holds(const Input *input, const WindowEvent *event)
 {
     if (event->kind == WINDOW_MOVE)
-        return !drags_camera(input);
+        return !drags_slowly(input);
     return event->kind == WINDOW_KEY && command_of(event) == PLAY_NONE;
 }
 

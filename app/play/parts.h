@@ -95,6 +95,10 @@ void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward
 void hands_put(Play *play, int like);
 void hands_take(Play *play);
 
+/* hands.c: gravity, in the world's frame, m/s2; so many radians more to the right and away in the picture. */
+void hands_set_gravity(Play *play, const double gravity[3]);
+void hands_tilt_gravity(Play *play, const double amount[2]);
+
 /* act.c: all that waits, in the order in which it was asked for. */
 void act_all(Play *play);
 

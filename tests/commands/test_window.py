@@ -674,6 +674,24 @@ class Mouse(Window):
         self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
         self.assertEqual(self.slosh('render', 'a.recording', '-o', 'a.png', '--quiet')[0], 0)
 
+    def test_gravity_is_tilted(self):
+        """By real events: to the right, then as it was; the session is the same again."""
+        self.open('still.yaml', '--record', 'a.recording')
+        self.display.press('ctrl')
+        self.drag(1, [(200, 180), (220, 180), (240, 180), (260, 180)], 'shift')
+        self.drawn()
+        self.keys('g')
+        self.display.release('ctrl')
+        out = self.quit()
+        self.assertEqual(out['box_position'], [0, 0, 0])
+        text = self.read('a.recording').decode()
+        set_to = [[float(number) for number in line.split(',')]
+                  for line in re.findall(r'^\d+ set gravity=\[(.*)\]$', text, re.M)]
+        self.assertGreater(len(set_to), 1, text)
+        self.assertTrue(set_to[0][0] > 0.5 and all(abs(sum(x * x for x in g) ** 0.5 - 9.81) < 0.01 for g in set_to), set_to)
+        self.assertEqual(set_to[-1], [0, -9.81, 0])
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
+
     def test_a_ring_shows_the_finger(self):
         """Also while time stands; pressed it has the colour of what the hand holds."""
         self.open('still.yaml')
