@@ -175,11 +175,13 @@ const PlayCommandRow play_command_rows[] = {
      .name = "touch",
      .help = "the mouse touches the fluid, or turns the camera again",
      .keys = {KEY(T)},
+     .gamepad = "X",
      .flags = PLAY_BUTTON | PLAY_SIMULATED},
     {.command = PLAY_TOUCH_WAY,
      .name = "touch-way",
      .help = "touch: the left button stirs, pulls, pushes, pours or holds solids",
      .keys = {KEY(Q)},
+     .gamepad = "B",
      .flags = PLAY_SIMULATED},
     {.command = PLAY_TOUCH_FLUID,
      .name = "touch-fluid",
@@ -326,6 +328,11 @@ const PlayCommandRow play_command_rows[] = {
      .name = "lean-box",
      .gesture = "gamepad right stick",
      .help = "tilt the box; let go, and it comes back"},
+    {.command = PLAY_TOUCH_STICK,
+     .name = "touch-pad",
+     .gesture = "gamepad right stick and triggers while touching",
+     .help =
+         "move the touch over the picture; the right trigger does what the left button does, the left one the other, as hard as it is pulled"},
     {.command = PLAY_NONE},
 };
 
@@ -369,6 +376,8 @@ static const struct {
     int button;
     const char *name;
 } gamepad_buttons[] = {{GLFW_GAMEPAD_BUTTON_A, "A"},
+                       {GLFW_GAMEPAD_BUTTON_B, "B"},
+                       {GLFW_GAMEPAD_BUTTON_X, "X"},
                        {GLFW_GAMEPAD_BUTTON_Y, "Y"},
                        {GLFW_GAMEPAD_BUTTON_START, "Start"},
                        {GLFW_GAMEPAD_BUTTON_DPAD_LEFT, "D-pad left"},

@@ -75,6 +75,7 @@ typedef enum PlayCommand {
     PLAY_TILT_KEYS,
     PLAY_MOVE_STICK,
     PLAY_TILT_STICK,
+    PLAY_TOUCH_STICK,
     PLAY_COMMAND_COUNT
 } PlayCommand;
 

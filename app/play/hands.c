@@ -44,7 +44,8 @@ static void take_news(Play *play, const HandNews *news)
             notice_tell(&play->notice, "%s", news->words[i].text);
     for (int i = 0; i < news->sent_count && !play->model.paused; i++)
         meter_event(&play->meter, news->sent[i].when_ms, news->sent[i].number);
-    steer(&play->asks, news->camera);
+    if (!play->touch.on)
+        steer(&play->asks, news->camera);
     for (int i = 0; i < news->command_count; i++)
         ask_command(&play->asks, news->commands[i]);
 }
@@ -144,6 +145,7 @@ static uint64_t touch(Play *play)
     TouchDef def = scene->touch;
     if (def.fluid >= scene->world.fluid_count)
         def.fluid = scene->world.fluid_count - 1;
+    def.strength *= tool->holds ? play->input.pressed : 1;
     if (!touch_asks(tool, &def, scene->world.spacing, &finger))
         return 0;
     play->picture.over = true;
@@ -238,6 +240,40 @@ void hands_tilt_gravity(Play *play, const double amount[2])
         hands_set_gravity(play, tilted);
 }
 
+/* While the mouse touches, sticks that move nothing else then carry its place, and triggers press: a
+   gamepad's, and what of a motion device would have the camera, rates of 1 over their seconds in `camera`. */
+static void follow_pad(Play *play, const WindowGamepad *pad, const double camera[3])
+{
+    static const double HEIGHTS = 0.7, LONGEST = 0.1, HOLDS_MS = 150; /* of the picture in a second; s; ms */
+    PadFinger *finger = &play->pad;
+    const double now = wall_ms(), dt = fmin(1e-3 * (now - finger->looked_ms), LONGEST);
+    double move[2] = {camera[0], camera[1]}, press = 0;
+    finger->looked_ms = now;
+    if (!play->touch.on) {
+        finger->until_ms = 0;
+        return;
+    }
+    if (camera[2] != 0)
+        *finger = (PadFinger){now, camera[2] > 0 ? 1 : -1, now + HOLDS_MS};
+    if (now < finger->until_ms)
+        press = finger->press;
+    if (pad) {
+        double stick[2];
+        hand_stick(pad->right, stick);
+        move[0] += stick[0] * dt;
+        move[1] -= stick[1] * dt;
+        press += pad->triggers[1] - pad->triggers[0];
+    }
+    if (move[0] != 0 || move[1] != 0) {
+        double *mouse = play->grip.mouse;
+        const int width = play->picture.width, height = play->picture.height;
+        mouse[0] = fmax(0, fmin(mouse[0] + HEIGHTS * height * move[0], width - 1));
+        mouse[1] = fmax(0, fmin(mouse[1] - HEIGHTS * height * move[1], height - 1));
+        play->picture.over = true;
+    }
+    input_press(&play->input, press);
+}
+
 void hands_look(Play *play)
 {
     const CameraSight sight = play_sight(play);
@@ -251,6 +287,7 @@ void hands_look(Play *play)
     orbit_axes(&orbit, hand.right, hand.up, hand.away);
     const double event_ms = input_hand(&play->input, has_pad ? &pad : NULL, metres, &hand, &play->asks);
     const uint64_t number = hand_post_look(play->post, &hand, particles->box_size, &news);
+    follow_pad(play, has_pad ? &pad : NULL, news.camera);
     const uint64_t touched = touch(play);
     if ((number || touched) && event_ms > 0 && !play->model.paused)
         meter_event(&play->meter, event_ms, touched ? touched : number);

@@ -46,6 +46,20 @@ static PlayCommand drag_of(const Input *input, int button, int modifiers)
                                           : PLAY_ORBIT;
 }
 
+enum { TRIGGER = -1 }; /* in the place of a button of the mouse */
+
+void input_press(Input *input, double press)
+{
+    static const double STEPS = 16; /* so that a finger that trembles asks for nothing new */
+    const double by = round(STEPS * fmin(fabs(press), 1)) / STEPS;
+    const bool has = input_touches(input) && input->drag_button == TRIGGER;
+    if (!has && (!input->touching || input->drag != PLAY_NONE || !(by > 0)))
+        return;
+    input->drag = by > 0 ? (press > 0 ? PLAY_TOUCH_DRAG : PLAY_TOUCH_OTHER) : PLAY_NONE;
+    input->drag_button = TRIGGER;
+    input->pressed = by;
+}
+
 bool input_touches(const Input *input)
 {
     return input->drag == PLAY_TOUCH_DRAG || input->drag == PLAY_TOUCH_OTHER;
@@ -59,7 +73,7 @@ static bool drags_slowly(const Input *input)
 
 static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
 {
-    if (!event->down && event->button == input->drag_button) {
+    if (!event->down && event->button == input->drag_button) { /* never a trigger's */
         if (input->drag == PLAY_PAN && !input->grabbed && event->button == GLFW_MOUSE_BUTTON_RIGHT)
             ask_command(asks, PLAY_TRAIL);
         input->drag = PLAY_NONE;
@@ -68,6 +82,7 @@ static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
         return;
     input->drag = drag_of(input, event->button, event->modifiers);
     input->drag_button = event->button;
+    input->pressed = 1;
     memcpy(input->mouse, (double[]){event->x, event->y}, sizeof input->mouse);
     input->grabbed = input->drag == PLAY_ORBIT;
     if (input->grabbed)
@@ -266,8 +281,10 @@ static void add_gamepad(Input *input, const WindowGamepad *pad, HandInput *hand,
     hand_stick(pad->right, right);
     hand->move_offset[0] += left[0];
     hand->move_offset[2] -= left[1];
-    hand->tilt_offset[0] += right[0];
-    hand->tilt_offset[1] -= right[1];
+    if (!input->touching) { /* else it has the finger: app/play/hands.c */
+        hand->tilt_offset[0] += right[0];
+        hand->tilt_offset[1] -= right[1];
+    }
     const unsigned pressed = pad->buttons & ~input->pad_buttons;
     for (int button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; button++) {
         const PlayCommand command = pressed >> button & 1 ? play_command_of_gamepad(button) : PLAY_NONE;

@@ -18,6 +18,7 @@ typedef struct Input {
     bool grabbed;          /* the drag has the camera; one to shift it that has it not yet is a click */
     bool down[INPUT_KEYS]; /* keys, by their number */
     unsigned pad_buttons;  /* at the last look */
+    double pressed;        /* how hard a trigger touches the fluid, 0 .. 1; 1 under the mouse */
     double move_drag[2];   /* since the hand's last update: pixels to the right and up */
     double turn_drag[2];   /* the same, radians */
     double hand_event_ms;  /* wall time of the first event since then that concerns the box; 0: none */
@@ -33,7 +34,11 @@ void input_take(Input *input, const WindowEvent *event, int height, AskQueue *as
    one may be taken in the middle of a picture. */
 bool input_only_holds(const Input *input, const WindowEvent *event);
 
-/* Whether a drag has the fluid. */
+/* A trigger touches the fluid by so much: 0 .. 1 as the left button does, down to -1 as the right one.
+   Nothing while the mouse has something. */
+void input_press(Input *input, double press);
+
+/* Whether a drag, or a trigger, has the fluid. */
 bool input_touches(const Input *input);
 
 /* Whether a drag or a key has the box; or a drag anything, so that the hand is to be looked at often. */

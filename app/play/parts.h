@@ -20,6 +20,12 @@
 #include "app/window/shake.h"
 #include "app/window/window.h"
 
+/* A finger on a gamepad, or on a motion device whose axes have the camera else. */
+typedef struct PadFinger {
+    double looked_ms;       /* wall time of the last look */
+    double press, until_ms; /* of a device: how it presses, and until when without more news */
+} PadFinger;
+
 typedef struct Play {
     Window *window;
     HandPost *post;
@@ -30,6 +36,7 @@ typedef struct Play {
     Grip grip;
     TouchTool touch;
     unsigned solids; /* Model.solids that the views show */
+    PadFinger pad;
     BoxTarget wanted; /* where the hand wants the box, */
     bool outlined;    /* and an outline shows it */
     Readout readout;
@@ -90,8 +97,8 @@ void hands_look(Play *play);
 /* hands.c: how the mouse looks at the fluid in a panel: what is under it, and where the camera looks. */
 void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward[3]);
 
-/* hands.c: a solid is put where the mouse is, of that shape (SolidCommand.like; SOLID_LIKE: as the solid under
-   the mouse), or the one there is taken out. */
+/* hands.c: a solid is put where the mouse is, of that shape (SolidCommand.like; SOLID_LIKE: as the solid
+   under the mouse), or the one there is taken out. */
 void hands_put(Play *play, int like);
 void hands_take(Play *play);
 

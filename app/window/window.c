@@ -372,7 +372,9 @@ bool window_gamepad(const Window *window, WindowGamepad *gamepad)
             continue;
         *gamepad = (WindowGamepad){
             .left = {state.axes[GLFW_GAMEPAD_AXIS_LEFT_X], state.axes[GLFW_GAMEPAD_AXIS_LEFT_Y]},
-            .right = {state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X], state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]}};
+            .right = {state.axes[GLFW_GAMEPAD_AXIS_RIGHT_X], state.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]},
+            .triggers = {0.5 + 0.5 * (double)state.axes[GLFW_GAMEPAD_AXIS_LEFT_TRIGGER],
+                         0.5 + 0.5 * (double)state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER]}};
         for (int i = 0; i <= GLFW_GAMEPAD_BUTTON_LAST; i++)
             gamepad->buttons |= state.buttons[i] == GLFW_PRESS ? 1U << i : 0;
         return true;

@@ -70,6 +70,7 @@ bool window_guid_ids(const char *guid, uint16_t *vendor, uint16_t *product);
    GLFW_GAMEPAD_BUTTON_*. False without one. */
 typedef struct WindowGamepad {
     double left[2], right[2];
+    double triggers[2]; /* left, right: 0 .. 1 */
     unsigned buttons;
 } WindowGamepad;
 bool window_gamepad(const Window *window, WindowGamepad *gamepad);

@@ -192,6 +192,35 @@ static void what_is_held_moves_the_box(void **state)
     no_more(); /* the button is still down */
 }
 
+/* While touching, the right stick is the finger's, and a trigger is as good as a button, unless the mouse has
+   something. */
+static void a_trigger_touches(void **state)
+{
+    (void)state;
+    HandInput hand = {.dt = 0};
+    const WindowGamepad pad = {.right = {1, 0}};
+    input_press(&input, 1);
+    assert_false(input_touches(&input)); /* not while the mouse turns the camera */
+    input.touching = true;
+    input_press(&input, 0.51);
+    assert_true(input.drag == PLAY_TOUCH_DRAG && input.pressed == 0.5);
+    input_press(&input, -1);
+    assert_true(input.drag == PLAY_TOUCH_OTHER && input.pressed == 1);
+    input_hand(&input, &pad, 0.5, &hand, &asks);
+    assert_true(hand.tilt_offset[0] == 0);
+    input_press(&input, 0);
+    assert_int_equal(input.drag, PLAY_NONE);
+    take(button(GLFW_MOUSE_BUTTON_LEFT, 0, true));
+    input_press(&input, -1);
+    assert_true(input.drag == PLAY_TOUCH_DRAG && input.pressed == 1);
+    input_press(&input, 0);
+    assert_int_equal(input.drag, PLAY_TOUCH_DRAG);
+    take(button(GLFW_MOUSE_BUTTON_LEFT, 0, false));
+    input.touching = false;
+    input_hand(&input, &pad, 0.5, &hand, &asks);
+    assert_true(hand.tilt_offset[0] > 0.9);
+}
+
 static void a_lost_focus_lets_go_once(void **state)
 {
     (void)state;
@@ -227,6 +256,7 @@ int main(void)
         cmocka_unit_test_setup(what_only_holds_asks_for_nothing, begin),
         cmocka_unit_test_setup(a_right_click_is_no_drag, begin),
         cmocka_unit_test_setup(what_is_held_moves_the_box, begin),
+        cmocka_unit_test_setup(a_trigger_touches, begin),
         cmocka_unit_test_setup(a_lost_focus_lets_go_once, begin),
         cmocka_unit_test_setup(a_held_key_says_so, begin),
     };

@@ -1,5 +1,6 @@
 """Motion devices in the window: recorded reports turn and move the box on the screen."""
 import math
+import re
 import struct
 import time
 
@@ -11,11 +12,12 @@ RATE = 250  # reports a second
 GYRO, ACCELEROMETER = 16, 8192  # per degree/s, per g
 
 
-def dualsense(rates, felt, sticks=(128, 128, 128, 128), buttons=(8, 0, 0)):
+def dualsense(rates, felt, sticks=(128, 128, 128, 128), buttons=(8, 0, 0), triggers=(0, 0)):
     """A report over USB: degrees a second and g about and along x, y, z."""
     report = bytearray(64)
     report[0] = 1
     report[1:5] = bytes(sticks)
+    report[5:7] = bytes(triggers)
     report[8:11] = bytes(buttons)
     struct.pack_into('<3h', report, 16, *(round(rate * GYRO) for rate in rates))
     struct.pack_into('<3h', report, 22, *(round(g * ACCELEROMETER) for g in felt))
@@ -105,6 +107,30 @@ class Motion(Window):
         out = self.play(recording, seconds=3)
         self.assertLess(between(out['box_orientation'], recording.pose), 1)
         self.assertRegex(self.messages, r'DualSense is in your hand[^\0]*DualSense is gone; the box stays where it is')
+
+    def test_a_stick_and_a_trigger_touch_the_fluid(self):
+        """The camera stays; the stroke is recorded, and done again."""
+        recording = Recording()
+        recording.still(1.5)
+        recording.still(0.7, triggers=(0, 255), sticks=(128, 128, 200, 128))
+        recording.still(0.3)
+        recording.still(0.3, triggers=(255, 0))
+        recording.still(1)
+        self.write('motion.txt', text(recording))
+        self.write('no.yaml', 'dualsense: {pose: {to: nothing}}\n')
+        self.open('still.yaml', '--device', 'file:motion.txt', '--mapping', 'no.yaml', '--record', 'a.recording')
+        self.at(200, 180)
+        self.keys('t')
+        time.sleep(3)
+        self.keys('Escape')
+        out = self.quit()
+        self.assertTrue(out['camera_auto'])
+        touches = re.findall(r'^\d+ touch (\w+)(.*)$', self.read('a.recording').decode(), re.M)
+        ways = [way for way, _ in touches]
+        self.assertEqual([way for k, way in enumerate(ways) if k == 0 or way != ways[k - 1]], ['stir', 'none', 'pull', 'none'])
+        places = [float.fromhex(rest.split()[0]) for way, rest in touches if way == 'stir']
+        self.assertGreater(places[-1] - places[0], 0.1)
+        self.assertEqual(self.slosh('replay', 'a.recording', '--quiet', '--threads', '1'), (0, ''))
 
     def test_two_devices(self):
         pad, cap = Recording(), Recording(2, 'spacemouse', '046d:c626')
