@@ -204,6 +204,8 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
             panel_flow(ui, data, events);
         panel_scene(ui, data, &panel->start, events);
         if (!data->recorded)
+            panel_box(ui, data, events);
+        if (!data->recorded)
             draw_measures(ui, data, &panel->start, events);
         panel_history(ui, data);
         draw_end(ui, data);

@@ -34,6 +34,8 @@ typedef struct PanelData {
     const ProbeSample *probes; /* the same of the scene's probes */
     int probe_count;
     uint64_t shut; /* gates of emitters and drains: sim/matter/flow.h */
+    double box_wanted[3],
+        box_most; /* the size to which the box goes; the longest side that the file has, m */
     size_t particles;
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
@@ -63,6 +65,8 @@ typedef struct PanelEvents {
     int command;                                           /* a PlayCommand, or PLAY_NONE */
     bool gated;                                            /* these gates shall be shut: */
     uint64_t shut;
+    bool sized; /* the box shall be so large, m: */
+    double size[3];
     bool watches;        /* the gauges are shown, */
     bool watches_probes; /* and what probes read */
     int tuned;           /* number of a motion device, or 0: it shall have these two */

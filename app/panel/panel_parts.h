@@ -40,6 +40,7 @@ bool panel_gauges(Ui *ui, const PanelData *data);
 void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 
 /* flow.c: a switch for each emitter and each drain. */
+void panel_box(Ui *ui, const PanelData *data, PanelEvents *events);
 void panel_flow(Ui *ui, const PanelData *data, PanelEvents *events);
 
 /* scene.c: what the shown view reads; what colours mean; every other live key, by the first part of its path.

@@ -537,6 +537,9 @@ static void act(Play *play, const Ask *ask)
     case ASK_GRAVITY:
         hands_tilt_gravity(play, ask->amount);
         break;
+    case ASK_SIZE:
+        model_resize(&play->model, ask->amount);
+        break;
     case ASK_SHUT:
         model_shut(&play->model, ask->gates);
         break;

@@ -25,6 +25,7 @@ typedef enum AskKind {
     ASK_STEER,   /* amount: radians to the right and up, steps nearer; grabs it first */
     ASK_GRAVITY, /* amount: radians by which it leans to the right, and away */
     ASK_TOUCH,   /* amount: notches larger, notches stronger */
+    ASK_SIZE,    /* amount: m, of the box */
     ASK_SHUT,    /* gates: of emitters and drains, those that shall be shut */
     ASK_CLOSE    /* the window */
 } AskKind;

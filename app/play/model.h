@@ -36,9 +36,13 @@ typedef struct Model {
     uint64_t shut;            /* gates that shall be: world_shut */
     unsigned travels;         /* SimulatorPast.travels that were followed; */
     unsigned solids;          /* SimulatorStatus.solids */
-    atomic_bool pulled;       /* somebody would move the box of a recorded run; */
-    bool told_fixed;          /* it was told that none can */
-    bool asked_acceleration;  /* a view reads it, and the solver was asked for it: once, it may take long */
+    bool resizing;            /* the box is to become so large, m: */
+    double box_wanted[3];
+    double resized_time;       /* SimulatorStatus.time when that was last asked for; */
+    unsigned resized_messages; /* its messages then */
+    atomic_bool pulled;        /* somebody would move the box of a recorded run; */
+    bool told_fixed;           /* it was told that none can */
+    bool asked_acceleration;   /* a view reads it, and the solver was asked for it: once, it may take long */
 } Model;
 
 /* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
@@ -96,6 +100,9 @@ uint64_t model_touch(Model *model, const Finger *finger);
 
 /* Something is done to a solid from the next step on. False, with a word to the user: it cannot be here. */
 bool model_solid(Model *model, const SolidCommand *command);
+
+/* The box goes to that size (m), as fast as its walls may. False, with a word: it cannot here. */
+bool model_resize(Model *model, const double size[3]);
 
 /* The views have changed: solvers begin to keep what one of them reads. One that cannot is asked again when
    it was not read meanwhile. */

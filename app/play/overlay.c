@@ -162,6 +162,8 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .probes = status->probes,
                         .probe_count = status->probe_count,
                         .shut = model->shut,
+                        .box_most =
+                            fmax(model->file_scene.world.box_size[0], model->file_scene.world.box_size[1]),
                         .particles = particles->count,
                         .time = particles->time,
                         .dt = status->dt,
@@ -178,6 +180,8 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .devices = overlay->devices,
                         .device_count = overlay->device_count,
                         .panel_ms = meter_panel_mean(facts->meter)};
+    memcpy(data->box_wanted, model->resizing ? model->box_wanted : particles->box_size,
+           sizeof data->box_wanted);
     for (int k = 0; k < SOLVES_MAX; k++)
         data->iterations += status->solves[k].iterations;
     collect_stages(model, facts, data);
@@ -219,6 +223,9 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
             &(Ask){.kind = ASK_TUNE, .device = events->tuned, .amount = {events->gain, events->dead_zone}});
     if (events->gated)
         ask_add(asks, &(Ask){.kind = ASK_SHUT, .gates = events->shut});
+    if (events->sized)
+        ask_add(asks,
+                &(Ask){.kind = ASK_SIZE, .amount = {events->size[0], events->size[1], events->size[2]}});
     if (events->command != PLAY_NONE)
         ask_command(asks, (PlayCommand)events->command);
 }

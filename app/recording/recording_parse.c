@@ -124,6 +124,17 @@ static bool read_solid(const Reader *reader, const char *at, SolidCommand *solid
                line + 1);
 }
 
+static bool read_size(const Reader *reader, const char *at, double size[3])
+{
+    for (int k = 0; k < 3; k++)
+        if (!take_number(&at, &size[k]))
+            return reader_fail(
+                reader,
+                "number %d of 3 is missing or not finite; width, height and depth (m) must stand here",
+                k + 1);
+    return !*at || reader_fail(reader, "'%.40s' follows the size of the box; leave it out", at);
+}
+
 /* The setting after " set", with the lines that carry it on. */
 static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_SIZE])
 {
@@ -143,8 +154,8 @@ static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_S
 static bool read_kind(Reader *reader, const char *line, const char *at, SimCommand *command)
 {
     static const char *const words[] = {
-        [SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_TOUCH] = " touch",
-        [SIM_SHUT] = " shut",     [SIM_SOLID] = " solid", [SIM_SET] = " set"};
+        [SIM_TARGET] = " target", [SIM_CARRY] = " carry", [SIM_TOUCH] = " touch", [SIM_SHUT] = " shut",
+        [SIM_SOLID] = " solid",   [SIM_SIZE] = " size",   [SIM_SET] = " set"};
     for (int kind = SIM_TARGET; kind <= SIM_SET; kind++) {
         const size_t length = strlen(words[kind]);
         const bool bare = kind == SIM_SHUT && !at[length];
@@ -154,6 +165,8 @@ static bool read_kind(Reader *reader, const char *line, const char *at, SimComma
         at += length;
         if (kind == SIM_SHUT)
             return read_shut(reader, at, &command->shut);
+        if (kind == SIM_SIZE)
+            return read_size(reader, at, command->size);
         if (kind == SIM_SOLID)
             return read_solid(reader, at, &command->solid);
         if (kind == SIM_TOUCH)
@@ -163,7 +176,7 @@ static bool read_kind(Reader *reader, const char *line, const char *at, SimComma
     }
     return reader_fail(
         reader,
-        "'%.40s' is no command; after the step stands target, carry, touch, shut, solid or set, and what it takes",
+        "'%.40s' is no command; after the step stands target, carry, touch, shut, solid, size or set, and what it takes",
         at);
 }
 

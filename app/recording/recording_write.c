@@ -100,6 +100,11 @@ static void put_command(FILE *file, const SimCommand *command)
         put_finger(file, command);
         return;
     }
+    if (command->kind == SIM_SIZE) {
+        fprintf(file, "%" PRIu64 " size %a %a %a\n", command->step, command->size[0], command->size[1],
+                command->size[2]);
+        return;
+    }
     if (command->kind == SIM_SOLID) {
         put_solid(file, command);
         return;

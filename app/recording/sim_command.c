@@ -82,6 +82,8 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
         break;
     case SIM_SOLID:
         return solid_command_apply(&command->solid, world, &scene->world, error);
+    case SIM_SIZE:
+        return box_command_apply(command->size, world, &scene->world, error);
     case SIM_SET:
         return apply_setting(command->setting, world, scene, error);
     }

@@ -1,9 +1,11 @@
-/* What acts on a running simulation from outside: the hand, a finger, gates, solids, and changed settings.
+/* What acts on a running simulation from outside: the hand, a finger, gates, solids, the
+   box's size, and changed settings.
    Input, panel and scripts send nothing else, so that a list of these commands is all that it takes to do a
    session again. */
 #ifndef SLOSH_SIM_COMMAND_H
 #define SLOSH_SIM_COMMAND_H
 
+#include "app/recording/box_command.h"
 #include "app/recording/solid_command.h"
 #include "app/scene/scene.h"
 #include "sim/base/error.h"
@@ -19,6 +21,7 @@ typedef enum SimCommandKind {
     SIM_TOUCH,  /* world_touch */
     SIM_SHUT,   /* world_shut */
     SIM_SOLID,  /* solid_command_apply */
+    SIM_SIZE,   /* box_command_apply */
     SIM_SET     /* scene_set_live, then world_change, or world_move for another backend */
 } SimCommandKind;
 
@@ -32,6 +35,7 @@ typedef struct SimCommand {
         Finger finger;                  /* SIM_TOUCH */
         uint64_t shut;                  /* SIM_SHUT */
         SolidCommand solid;             /* SIM_SOLID */
+        double size[3];                 /* SIM_SIZE */
         char setting[SIM_SETTING_SIZE]; /* SIM_SET: "path=value" of a key that may change */
     };
 } SimCommand;

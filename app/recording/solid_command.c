@@ -178,7 +178,7 @@ bool solid_command_apply(const SolidCommand *command, World **world, WorldDef *d
     const bool changed = command->act == SOLID_ACT_MOVE  ? move(command, &info, &after, error)
                          : command->act == SOLID_ACT_PUT ? put(command, *world, &info, &after, error)
                                                          : take(command, &after, error);
-    if (!changed || !world_set_solids(world, &after, error))
+    if (!changed || !world_set_shapes(world, &after, error))
         return false;
     *def = after;
     return true;

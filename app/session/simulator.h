@@ -171,7 +171,7 @@ typedef struct SimulatorStatus {
     bool paused, realtime;
     char message[1024]; /* of the failure, or of a command that could not be obeyed; "" */
     unsigned messages;  /* counts messages */
-    unsigned solids;    /* counts changes of the solids, which simulator_settings has */
+    unsigned solids;    /* counts changes of solids and box, which simulator_settings has */
     double speed;
     double time;                        /* s, of the last state */
     double simulated_s;                 /* all resets together */

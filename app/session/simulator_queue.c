@@ -13,7 +13,7 @@ static bool same_key(const char *a, const char *b)
 static bool replaces(const SimCommand *newer, const SimCommand *older)
 {
     return newer->kind == older->kind &&
-           (newer->kind == SIM_TARGET || newer->kind == SIM_SHUT ||
+           (newer->kind == SIM_TARGET || newer->kind == SIM_SHUT || newer->kind == SIM_SIZE ||
             (newer->kind == SIM_TOUCH && newer->finger.way == older->finger.way) ||
             (newer->kind == SIM_SET && same_key(newer->setting, older->setting)));
 }

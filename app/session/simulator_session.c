@@ -24,13 +24,15 @@ static bool same_bytes(const void *a, const void *b, size_t size)
     return memcmp(a, b, size) == 0;
 }
 
-/* Of a view that draws them. */
+/* Of a view that draws solids and box. */
 static void describe_solids(Simulator *simulator)
 {
     const WorldDef *now = &simulator->scene.world;
     WorldDef *told = &simulator->settings;
-    if (now->solid_count == told->solid_count && same_bytes(now->solids, told->solids, sizeof now->solids))
+    if (same_bytes(now->box_size, told->box_size, sizeof now->box_size) &&
+        now->solid_count == told->solid_count && same_bytes(now->solids, told->solids, sizeof now->solids))
         return;
+    memcpy(told->box_size, now->box_size, sizeof told->box_size);
     told->solid_count = now->solid_count;
     memcpy(told->solids, now->solids, sizeof told->solids);
     simulator->status.solids++;

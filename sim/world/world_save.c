@@ -220,6 +220,19 @@ static bool as_initial(const WorldState *state, InitialState *initial)
     return position;
 }
 
+/* Into a box that has become smaller. */
+static void bring_in(WorldState *state, const WorldDef *def)
+{
+    const ParticleColumns *p = &state->particles;
+    float *const along[] = {p->x, p->y, p->z};
+    const float slack = 1e-3F * (float)def->spacing;
+    for (int k = 0; k < def->dimensions; k++) {
+        const float low = k == 1 ? 0 : -0.5F * (float)def->box_size[k], high = low + (float)def->box_size[k];
+        for (size_t i = 0; i < state->count && !def->periodic[k]; i++)
+            along[k][i] = fmaxf(low + slack, fminf(along[k][i], high - slack));
+    }
+}
+
 /* What is in no state. */
 static bool inherit(World *to, const World *from, Error *error)
 {
@@ -242,6 +255,8 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
     WorldDef own = *def;
     own.initial = &initial;
     bool ok = world_save(from, &state, error);
+    if (ok && memcmp(own.box_size, from->def.box_size, sizeof own.box_size) != 0)
+        bring_in(&state, &own);
     if (ok && !as_initial(&state, &initial))
         ok = error_set(error, "no memory for %zu particles", state.count);
     initial.room = from->capacity;
@@ -274,7 +289,7 @@ static bool same_solid(const SolidDef *a, const SolidDef *b)
     return same;
 }
 
-bool world_set_solids(World **world, const WorldDef *from, Error *error)
+bool world_set_shapes(World **world, const WorldDef *from, Error *error)
 {
     World *w = *world;
     WorldDef def = w->def;
@@ -283,8 +298,15 @@ bool world_set_solids(World **world, const WorldDef *from, Error *error)
         same &= same_solid(&def.solids[i], &from->solids[i]);
     def.solid_count = from->solid_count;
     memcpy(def.solids, from->solids, sizeof def.solids);
-    if (!same)
-        return world_rebuild(world, &def, error);
+    for (int k = 0; k < def.dimensions; k++) {
+        same &= def.box_size[k] == from->box_size[k];
+        def.box_size[k] = from->box_size[k];
+    }
+    if (!same) {
+        const bool made = world_rebuild(world, &def, error);
+        energy_forget(*world);
+        return made;
+    }
     memcpy(w->def.solids, from->solids, sizeof w->def.solids);
     memcpy(w->constants.solids, from->solids, sizeof w->constants.solids);
     energy_forget(w);

@@ -194,7 +194,7 @@ static void slips_are_named(void **state)
         {HEAD "-1 target" POSE END, "7: '-1 target"},
         {HEAD "99999999999999999999 target" POSE END, "7: '99999999999999999999"},
         {HEAD "1 jump" POSE END,
-         "7: ' jump 0 0 0 0 0 0 1' is no command; after the step stands target, carry, touch, shut, solid or "},
+         "7: ' jump 0 0 0 0 0 0 1' is no command; after the step stands target, carry, touch, shut, solid, size or "},
         {HEAD "1 target\n" END, "7: ' target' is no command"},
         {HEAD "1 target 0 0 0 0 0 0\n" END, "7: number 7 of 7 is missing or not finite; "},
         {HEAD "1 target 0  0 0 0 0 0 1\n" END, "7: number 2 of 7 "},

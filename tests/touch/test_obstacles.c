@@ -148,6 +148,57 @@ static void pushed_into_walls_it_loses_none(void **state)
     }
 }
 
+static void size_to(Rig *rig, double width, double height)
+{
+    const SimCommand command = {.kind = SIM_SIZE, .size = {width, height, 1}};
+    assert_true(simulator_send(rig->simulator, &command) > 0);
+}
+
+/* The box shrinks step by step, however much is asked for, and grows at once; none is lost, and all is
+ * undone. */
+static void the_box_changes_its_size(void **state)
+{
+    (void)state;
+    static const int in[] = {0, 2, 5};
+    for (int s = 0; s < 3; s++) {
+        enum { SIZES = 30 };
+        uint64_t hash[SIZES + 1];
+        Rig rig;
+        rig_open(&rig, scenes[in[s]].text, 64 * MIB);
+        rig_ready(&rig);
+        const size_t count = rig.status.particles;
+        const double spacing = def_of(&rig)->spacing;
+        hash[0] = rig_hash(&rig);
+        for (int i = 1; i <= SIZES; i++) {
+            if (i <= 20)
+                size_to(&rig, 0.7, 1);
+            if (i == 25)
+                size_to(&rig, 1, 1.3);
+            rig_step(&rig);
+            const double width = def_of(&rig)->box_size[0],
+                         must = i >= 25 ? 1 : 1 - BOX_BITE * spacing * (i < 20 ? i : 20);
+            if (fabs(width - must) > 1e-9)
+                fail_msg("%s: the box is %g m wide, not %g", scenes[in[s]].name, width, must);
+            none_is_lost(&rig, count, scenes[in[s]].name);
+            hash[i] = rig_hash(&rig);
+        }
+        if (*rig.status.message)
+            fail_msg("%s: %s", scenes[in[s]].name, rig.status.message);
+        rig_save(&rig, "a.rec");
+        rig_go(&rig, 0.01 * 12);
+        assert_true(rig_hash(&rig) == hash[12]);
+        rig_go(&rig, 0);
+        assert_true(rig_hash(&rig) == hash[0] && def_of(&rig)->box_size[0] == 1);
+        rig_go(&rig, INFINITY);
+        assert_true(rig_hash(&rig) == hash[SIZES] && def_of(&rig)->box_size[1] == 1.3);
+        size_to(&rig, 0.01, 1);
+        rig_step(&rig);
+        assert_non_null(strstr(rig.status.message, "a side of the box must be 6 spacings"));
+        rig_close(&rig);
+        assert_true(replay("a.rec") > 0);
+    }
+}
+
 /* It comes where it shall be, and no faster than it may. */
 static void it_follows_the_hand(void **state)
 {
@@ -226,6 +277,7 @@ int main(void)
         cmocka_unit_test(it_follows_the_hand),
         cmocka_unit_test(it_is_replayed_and_undone),
         cmocka_unit_test(pushed_into_walls_it_loses_none),
+        cmocka_unit_test(the_box_changes_its_size),
         cmocka_unit_test(commands_of_one_step),
         cmocka_unit_test(a_backend_without_solids_says_so),
     };
