@@ -11,10 +11,22 @@ static double longest(const double size[3])
     return fmax(size[0], fmax(size[1], size[2]));
 }
 
+/* Of a cell, m. */
+static double asked_side(const VolumeDef *def, const ParticleBuffers *particles)
+{
+    const double side = longest(particles->box_size) / def->cells;
+    if (def->cell > 0)
+        return def->cell * particles->spacing;
+    if (def->cells_least > 0)
+        return fmin(fmax(side, VOLUME_FINEST * particles->spacing),
+                    longest(particles->box_size) / def->cells_least);
+    return side;
+}
+
 bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, VolumeGrid *grid, Error *error)
 {
     const double *box = particles->box_size, margin = particles->support_radius;
-    const double asked = def->cell > 0 ? def->cell * particles->spacing : longest(box) / def->cells;
+    const double asked = asked_side(def, particles);
     const double cell = margin > 0 ? fmin(asked, margin) : asked; /* between wider ones fluid would be lost */
     double all = 1;
     *grid = (VolumeGrid){.cell = cell};

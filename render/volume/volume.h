@@ -27,8 +27,12 @@ typedef struct Volume {
         opacity[2]; /* both of another volume on the same grid, for opacity by a scalar of its own; else 0 */
 } Volume;
 
+/* Spacings: smaller cells show nothing more of a field that is smooth over two spacings. */
+#define VOLUME_FINEST 0.125
+
 /* The grid that covers the box and h around it: `cells` along the box's longest side or cells of `cell`
-   spacings, but never wider than h: a particle reaches no farther, and would fall between the samples. Reads
+   spacings, but never wider than h: a particle reaches no farther, and would fall between the samples. Where
+   `cells_least` is set a cell is no smaller than VOLUME_FINEST, as long as there are that many. Reads
    of the particles box, spacing and h only. False when a side has more than 4096 cells or all together more
    than 2^31. */
 bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, VolumeGrid *grid, Error *error);

@@ -49,8 +49,10 @@ typedef struct IN_A_ROOM RaycastDef {
 } RaycastDef;
 
 typedef struct IN_A_ROOM VolumeDef {
-    int cells;   /* along the box's longest side, where `cell` is 0 */
-    double cell; /* side of a cell, in spacings; 0: by `cells` */
+    int cells;       /* along the box's longest side, where `cell` is 0 */
+    double cell;     /* side of a cell, in spacings; 0: by `cells` */
+    int cells_least; /* no key: of the quality `best`, whose `cells` make cells of an eighth of a spacing at
+                        the least, but are not fewer than these; 0: as `cells` say */
     VolumeBounds bounds;
     VolumeMethod method;
     VolumeShow show;

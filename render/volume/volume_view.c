@@ -213,14 +213,17 @@ static bool own_colors(const ViewDef *def)
     return volume_def(def)->raycast.look == RAYCAST_WATER;
 }
 
-/* Of surfaces: in a draft the shadow map stands for the march to the light, and a cell is two. */
+/* Of surfaces: in a draft the shadow map stands for the march to the light, and a cell is two. The best has
+   twice the cells each way, where they show anything. */
 static void quality(ViewDef *def, ViewQuality wanted)
 {
     VolumeDef *own = volume_def(def);
     const VolumeDef *usual = &volume_usual;
     const bool draft = wanted == VIEW_DRAFT, surface = own->raycast.look != RAYCAST_TRANSLUCENT;
-    if (own->cell == usual->cell && own->cells == usual->cells)
+    if (own->cell == usual->cell && own->cells == usual->cells) {
         own->cells = draft ? usual->cells / 2 : 2 * usual->cells;
+        own->cells_least = draft ? 0 : usual->cells;
+    }
     if (draft && surface && own->raycast.shadows == usual->raycast.shadows)
         own->raycast.shadows = false;
     if (draft && def->resolution == 1)

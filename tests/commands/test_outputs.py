@@ -107,7 +107,8 @@ class Whole(CommandTest):
     @unittest.skipIf('LSAN_OPTIONS' in os.environ, 'fields of 0.9 GB, and several times that under a sanitizer')
     def test_256_cells_each_way(self):
         """Half of them near walls: more groups of a shader than one row may have."""
-        code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0', '--view', 'volume', *SMALL)
+        code, said = self.slosh('render', 'scene.yaml', '-o', 'a.png', '--time', '0', '--view', 'volume', '--set',
+                                'view.volume.cells=256', *SMALL)
         self.assertEqual(code, 0, said)
 
     def test_what_pictures_lack_is_said_once(self):

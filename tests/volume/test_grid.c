@@ -49,6 +49,27 @@ static void cells_are_no_wider_than_a_particle_reaches(void **state)
     assert_true(grid_of(&wide, &box).cell == box.support_radius);
 }
 
+/* Of few large particles `best` has the cells of `good`, of many small ones twice as many each way, between
+   them cells of an eighth of a spacing. */
+static void the_best_has_no_cells_that_show_nothing(void **state)
+{
+    (void)state;
+    static const struct {
+        double spacing, wanted;
+    } cases[] = {{0.2, 2.0 / 128}, {0.0875, 0.0875 / 8}, {0.02, 2.0 / 256}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const ParticleBuffers box = box_state(0, cases[i].spacing);
+        ViewDef def = view_def_default();
+        text_set(def.kind, "volume");
+        def.quality = VIEW_BEST;
+        const ViewDef best = view_at_quality(&def, false);
+        assert_true(fabs(grid_of(volume_def(&best), &box).cell - cases[i].wanted) < 1e-12);
+        volume_def(&def)->cells = 256; /* as a scene says it */
+        const ViewDef said = view_at_quality(&def, false);
+        assert_true(fabs(grid_of(volume_def(&said), &box).cell - 2.0 / 256) < 1e-12);
+    }
+}
+
 static void a_crop_stays_inside(void **state)
 {
     (void)state;
@@ -272,6 +293,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(a_grid_holds_the_box_and_a_margin, no_gl_errors),
         cmocka_unit_test_teardown(cells_are_no_wider_than_a_particle_reaches, no_gl_errors),
+        cmocka_unit_test(the_best_has_no_cells_that_show_nothing),
         cmocka_unit_test_teardown(a_crop_stays_inside, no_gl_errors),
         cmocka_unit_test_teardown(too_fine_a_grid_is_refused, no_gl_errors),
         cmocka_unit_test_teardown(too_wide_a_particle_is_refused, no_gl_errors),
