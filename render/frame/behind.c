@@ -46,16 +46,31 @@ static void copy(GLuint from, GLuint to, const Frame *frame)
                        frame->height, 1);
 }
 
+static void draw_edges(const Behind *behind, const Edges *edges, const Frame *frame)
+{
+    if (!edges || !frame->def->box || frame->flat)
+        return;
+    glViewport(0, 0, frame->width, frame->height);
+    edges_draw_behind(edges, frame, behind->framebuffer);
+}
+
+void behind_take_edges(Behind *behind, const Edges *edges, const Frame *frame)
+{
+    static const float nothing[4] = {0};
+    follow(behind, frame);
+    glClearNamedFramebufferfv(behind->framebuffer, GL_COLOR, 0, nothing);
+    draw_edges(behind, edges, frame);
+    glBindTextureUnit(BEHIND_COLOR_UNIT, behind->color);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+}
+
 void behind_take(Behind *behind, const Edges *edges, const Frame *frame)
 {
     follow(behind, frame);
     copy(frame->target->color, behind->color, frame);
     if (behind->depth)
         copy(frame->target->depth, behind->depth, frame);
-    if (edges && frame->def->box && !frame->flat) {
-        glViewport(0, 0, frame->width, frame->height);
-        edges_draw_behind(edges, frame, behind->framebuffer);
-    }
+    draw_edges(behind, edges, frame);
     glBindTextureUnit(BEHIND_COLOR_UNIT, behind->color);
     glBindTextureUnit(BEHIND_DEPTH_UNIT, behind->depth);
     glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);

@@ -16,6 +16,10 @@ typedef struct Behind {
    is in it, where the picture has a box; NULL: none. All zero at first. */
 void behind_take(Behind *behind, const Edges *edges, const Frame *frame);
 
+/* For shaders that find sky and floor by themselves: the copy holds nothing but these edges, multiplied by
+   what they cover, which alpha says. Binds units 14 and 3. */
+void behind_take_edges(Behind *behind, const Edges *edges, const Frame *frame);
+
 void behind_destroy(Behind *behind);
 
 #endif

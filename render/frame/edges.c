@@ -47,7 +47,8 @@ static void draw(const Edges *edges, const Frame *frame, unsigned framebuffer, b
     glDepthFunc(GL_GEQUAL);
     glDepthMask(frame->depths);
     glEnable(GL_BLEND);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, behind ? GL_ONE : GL_ZERO,
+                        behind ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
     glUseProgram(edges->program);
     glProgramUniform1f(edges->program, HALF_WIDTH_AT, width / 2);
     glProgramUniform1ui(edges->program, EDGES_BEHIND_AT, behind);

@@ -9,6 +9,9 @@
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"
 
+/* Frame.clear of water and jelly: much of the light goes through; what waves bend aside falls beside. */
+#define CLEAR_FLUID_LIGHT 0.35F
+
 /* Of a particle, m. */
 typedef struct ParticleRadii {
     float drawn, reach, shadow; /* Frame.particle_radius, particle_reach, shadow_radius */
@@ -75,8 +78,8 @@ typedef struct Frame {
                          several */
     bool *behind;     /* becomes true where an overlay shows a number of the picture before; NULL: the GPU is
                          waited for instead */
-    float clear;      /* the share of the light that the fluid lets through to the floor */
-    bool plain;       /* colours as they are, without light and shadow */
+    float clear; /* the share of the light that the fluid lets through to the floor and to solids in it */
+    bool plain;  /* colours as they are, without light and shadow */
 } Frame;
 
 /* Balls of the def's radius; of that many spacings where the def says 0. */

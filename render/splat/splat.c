@@ -342,10 +342,9 @@ static bool splat_own_colors(const ViewDef *def)
     return splat_def(def)->shading != SPLAT_PHONG;
 }
 
-/* Much of the light goes through; what waves bend aside falls beside. */
 static void splat_show_in(const ViewDef *def, Frame *frame)
 {
-    frame->clear = splat_clear(splat_def(def)) ? 0.35F : 0;
+    frame->clear = splat_clear(splat_def(def)) ? CLEAR_FLUID_LIGHT : 0;
 }
 
 static void splat_quality(ViewDef *def, ViewQuality quality)

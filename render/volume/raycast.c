@@ -29,7 +29,8 @@ struct Raycast {
     ColorTable colors;
     Transfer transfer; /* where the curve or a scalar wants it */
     Bricks bricks;
-    Behind behind; /* of water */
+    Behind behind; /* of water: */
+    Edges edges;
     GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
     GLuint found;           /* depth below the eye of what each ray met, m, R32F; 0: nothing */
     unsigned target_number; /* which these were made for; 0: none */
@@ -45,6 +46,7 @@ void raycast_destroy(Raycast *raycast)
     volume_drops_destroy(&raycast->drops);
     bricks_destroy(&raycast->bricks);
     behind_destroy(&raycast->behind);
+    edges_destroy(&raycast->edges);
     glDeleteProgram(raycast->program);
     glDeleteProgram(raycast->settle);
     glDeleteBuffers(1, &raycast->block);
@@ -122,8 +124,8 @@ Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Erro
     if (raycast->program)
         raycast->settle =
             program_create_pair("raycast depth", "common/screen.vert", "volume/raycast_depth.frag", error);
-    if (raycast->settle && bricks_create(&raycast->bricks, error) &&
-        create_drops(raycast, subject, voxelizer, error))
+    if (raycast->settle && (raycast->look != RAYCAST_WATER || edges_create(&raycast->edges, error)) &&
+        bricks_create(&raycast->bricks, error) && create_drops(raycast, subject, voxelizer, error))
         return raycast;
     raycast_destroy(raycast);
     return NULL;
@@ -320,14 +322,15 @@ static void bind_maps(Raycast *raycast, const Frame *frame)
     glBindTextureUnit(TARGET_DEPTH_UNIT, raycast->solids ? target->depth : 0);
 }
 
-/* Without solids all that one looks through the fluid at is sky and floor, which need no copy. */
+/* Without solids all that one looks through the fluid at is sky, floor and edges of the box: the first two
+   need no copy. */
 static void look_through(Raycast *raycast, const Frame *frame)
 {
     const RaycastDef *cast = &volume_def(frame->def)->raycast;
     if (raycast->solids)
-        behind_take(&raycast->behind, NULL, frame);
+        behind_take(&raycast->behind, &raycast->edges, frame);
     else
-        glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+        behind_take_edges(&raycast->behind, &raycast->edges, frame);
     const GLuint programs[] = {raycast->program, raycast->drops.program};
     for (int i = 0; i < 2 && programs[i]; i++) {
         glProgramUniform1f(programs[i], REFRACTION_INDEX_AT, (GLfloat)cast->ior);

@@ -175,10 +175,17 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     }
 }
 
+/* Clear water in the colours of a scalar would be no water. */
+static bool own_colors(const ViewDef *def)
+{
+    return volume_def(def)->raycast.look == RAYCAST_WATER;
+}
+
 /* The field is 1 in a fluid at rest, more where it is compressed; of steps raycast.frag shows 64. */
 static void show(const ViewDef *def, Frame *frame)
 {
     const bool steps = volume_def(def)->show == VOLUME_STEPS;
+    frame->clear = volume_def(def)->show == VOLUME_SHADED && own_colors(def) ? CLEAR_FLUID_LIGHT : 0;
     if (volume_opacity(def) == VOLUME_EVEN)
         frame->curves = 0;
     if (!steps && volume_def(def)->show != VOLUME_SLICE)
@@ -205,12 +212,6 @@ static bool same(const Subject *a, const Subject *b)
            raycast_is_curved(a->def) == raycast_is_curved(b->def) &&
            (view_color_by(a->def) == SCALAR_FLUID) == (view_color_by(b->def) == SCALAR_FLUID) &&
            (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
-}
-
-/* Clear water in the colours of a scalar would be no water. */
-static bool own_colors(const ViewDef *def)
-{
-    return volume_def(def)->raycast.look == RAYCAST_WATER;
 }
 
 /* Of surfaces: in a draft the shadow map stands for the march to the light, and a cell is two. The best has

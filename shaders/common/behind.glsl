@@ -12,6 +12,17 @@ vec3 environment(vec3 origin, vec3 ray) // both in the eye's frame
     return environment_light((eye_to_world * vec4(origin, 1.0)).xyz, mat3(eye_to_world) * ray);
 }
 
+// What is seen in a direction whose line leaves the box at a place (eye's frame), with those edges of the box that are before it; where
+// the copy holds nothing else (behind_take_edges).
+vec3 with_edges(vec3 seen, vec3 place)
+{
+    vec2 at = 0.5 + 0.5 * ndc_of_eye(place);
+    if (is_nan(at.xyxy) || place.z >= -near_plane || any(lessThan(at, vec2(0.0))) || any(greaterThan(at, vec2(1.0))))
+        return seen;
+    vec4 edges = textureLod(behind_color, at, 0.0);
+    return seen * (1.0 - edges.a) + edges.rgb;
+}
+
 // What the eye sees of the scene without the fluid in the direction of a place, in the eye's frame. Beside the picture it is sky
 // and floor; a solid before the surface (at the reversed depth `surface`) is not behind it: what is straight behind `straight`
 // then.

@@ -19,6 +19,15 @@ Within within_box_of(vec3 ray, bvec3 walls) // a ray of depth 1; with those axes
     return Within(enter, min(min(last.x, last.y), last.z), turn * (axis * -sign(way)), dot(axis, abs(way)));
 }
 
+// How far a ray from a place in the box goes there, in its own lengths. Periodic sides end it too.
+float way_in_box(vec3 place, vec3 ray)
+{
+    vec3 origin = (place - box_to_eye[3].xyz) * mat3(box_to_eye), way = ray * mat3(box_to_eye); // the inverse of a rotation
+    vec3 wall = mix(vec3(-0.5, 0.0, -0.5), vec3(0.5, 1.0, 0.5), greaterThanEqual(way, vec3(0.0))) * box_size;
+    vec3 to = (wall - origin) / way;
+    return max(min(min(to.x, to.y), to.z), 0.0);
+}
+
 Within within_box(vec3 ray)
 {
     return within_box_of(ray, notEqual(walled & uvec3(1u, 2u, 4u), uvec3(0u)));

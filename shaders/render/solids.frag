@@ -27,7 +27,7 @@ void main()
 {
     vec3 normal = normalize(normal_in_eye);
     vec3 off = in_eye + shadow_texel() * light_depth * normal; // a texel off the surface, which shades itself less
-    float lit = soft_fluid_light(off), key = lit * solid_light(off) * max(dot(normal, light_in_eye), 0.0);
+    float lit = mix(soft_fluid_light(off), 1.0, fluid_clear), key = lit * solid_light(off) * max(dot(normal, light_in_eye), 0.0);
     vec3 light = ambient_light(normal) * (0.6 + 0.4 * lit) + light_color * key;
     color = vec4(albedo * mix(vec3(1.0), exposure * light, shading), 1.0);
 }

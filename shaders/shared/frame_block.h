@@ -42,9 +42,11 @@ UNIFORM_BLOCK(FrameBlock, FRAME_BLOCK)
     vec2 floor_map_size;    /* m */
     vec4 edge_color;
     vec4 fluid_color[FRAME_FLUIDS_MAX];
-    vec2 view_centre; /* where on the screen the axis of the view is, -1..1 in x and y */
-    uint by_fluid;    /* 1: particles have the colours of their fluids, not of the scalar */
-    uint walled;      /* axes across which the box has walls: 1 x, 2 y, 4 z */
+    vec2 view_centre;  /* where on the screen the axis of the view is, -1..1 in x and y */
+    uint by_fluid;     /* 1: particles have the colours of their fluids, not of the scalar */
+    uint walled;       /* axes across which the box has walls: 1 x, 2 y, 4 z */
+    float fluid_clear; /* the share of the light that the fluid lets through; 0: it is not clear */
+    uint glass;        /* 1: the box is of glass */
 }
 BLOCK_END(FrameBlock);
 

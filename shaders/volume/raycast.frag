@@ -7,6 +7,7 @@
 #include "common/behind.glsl"
 #include "common/surface.glsl"
 #include "common/clear.glsl"
+#include "common/within_box.glsl"
 #include "volume/raycast_ray.glsl"
 #ifdef SOLIDS
 #include "common/solid_light.glsl"

@@ -36,10 +36,11 @@ vec3 seen_through(inout Surface s)
     vec3 on = refract(ray.to, inwards, refraction_index);
     on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
     on = s.thickness < end - 1e-3 * cell_size ? on : ray.to;
+    float way = way_in_box(leave, on);
 #ifdef SOLIDS
-    vec3 seen = behind_at(leave + 0.3 * max(box_size.x, box_size.y) * on, near_plane / -s.place.z, gl_FragCoord.xy);
+    vec3 seen = behind_at(leave + min(0.3 * max(box_size.x, box_size.y), way) * on, near_plane / -s.place.z, gl_FragCoord.xy);
 #else
-    vec3 seen = environment(leave, on);
+    vec3 seen = with_edges(environment(leave, on), leave + way * on);
 #endif
     return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation)); // Beer and Lambert
 }

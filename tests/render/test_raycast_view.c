@@ -129,13 +129,15 @@ static void without_a_volume(void **state)
     free(picture.particles);
 }
 
-/* Water that bends nothing and takes no light is not there; real water is. */
+/* Water that bends nothing and takes no light is not there, and all edges of the box are seen through it;
+   real water is. */
 static void water_of_index_one_is_not_seen(void **state)
 {
     (void)state;
     Picture picture = picture_of_block();
     volume_def(&picture.def)->raycast.look = RAYCAST_WATER;
     picture.def.color_by = SCALAR_FLUID;
+    picture.def.box = true;
     volume_def(&picture.def)->raycast.ior = 1;
     volume_def(&picture.def)->raycast.attenuation = 1e5;
     Image clear = drawn(&picture, true);

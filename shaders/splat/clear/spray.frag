@@ -11,6 +11,7 @@
 #include "common/behind.glsl"
 #include "common/surface.glsl"
 #include "common/clear.glsl"
+#include "common/within_box.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat.glsl"
 #include "splat/splat_at.glsl"
@@ -19,15 +20,6 @@ layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(location = SPRAY_BEHIND_AT) uniform uint behind_surface; // 1: only drops behind the fluid's surface
 layout(location = 2) flat in vec3 color;
 layout(location = 0) out vec4 shown;
-
-// How far a ray within the box goes there, m.
-float way_in_box(vec3 place, vec3 ray)
-{
-    vec3 origin = (place - box_to_eye[3].xyz) * mat3(box_to_eye), way = ray * mat3(box_to_eye); // the inverse of a rotation
-    vec3 wall = mix(vec3(-0.5, 0.0, -0.5), vec3(0.5, 1.0, 0.5), greaterThanEqual(way, vec3(0.0))) * box_size;
-    vec3 to = (wall - origin) / way;
-    return max(min(min(to.x, to.y), to.z), 0.0);
-}
 
 // Through a ball of that radius. The chord is as far from the centre at both ends, and so the ray leaves it under the angle by which it
 // came: light is never caught in a ball.
