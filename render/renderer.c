@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include "render/clear/glass.h"
 #include "render/derived/derived.h"
 #include "render/derived/ranges.h"
 #include "render/frame/backdrop.h"
@@ -47,6 +48,7 @@ struct Renderer {
     Shadow shadow;
     Backdrop backdrop;
     Edges edges;
+    Glass glass;    /* nothing before the first def that wants it */
     Text *text;     /* NULL before the first legend */
     Solids *solids; /* NULL without */
     View *view;     /* NULL for "none" */
@@ -194,6 +196,12 @@ static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
     return false;
 }
 
+/* Panes are not drawn in drafts, which is no reason not to have them ready. */
+static bool follow_glass(Renderer *renderer, const ViewDef *def, Error *error)
+{
+    return !view_has_glass(def) || glass_create(&renderer->glass, error);
+}
+
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
 {
     const ViewDef *def = &renderer->def;
@@ -204,7 +212,7 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         return false;
     renderer->uniforms = frame_uniforms_create();
     return follow_derived(renderer, def, error) && follow_letters(renderer, def->legend, height, error) &&
-           follow_solids(renderer, &renderer->world, error) &&
+           follow_glass(renderer, def, error) && follow_solids(renderer, &renderer->world, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL) &&
            overlays_follow(&renderer->overlays, &subject, error);
 }
@@ -249,6 +257,7 @@ void renderer_destroy(Renderer *renderer)
     view_destroy(renderer->view);
     text_destroy(renderer->text);
     edges_destroy(&renderer->edges);
+    glass_destroy(&renderer->glass);
     solids_destroy(renderer->solids);
     backdrop_destroy(&renderer->backdrop);
     shadow_destroy(&renderer->shadow);
@@ -293,7 +302,7 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
     const Subject subject = {def, world ? world : &unknown};
     const bool letters = def->legend || *renderer->title.words;
     const bool followed =
-        follow_derived(renderer, def, error) &&
+        follow_derived(renderer, def, error) && follow_glass(renderer, def, error) &&
         follow_letters(renderer, letters, renderer->target.height, error) &&
         follow_solids(renderer, subject.world, error) &&
         follow_resolution(renderer, def, renderer->target.width, renderer->target.height, error) &&
@@ -492,6 +501,24 @@ static const char *note_of(Renderer *renderer, const ParticleBuffers *particles)
     return renderer->note;
 }
 
+/* Frame.glass. What shows no fluid as it is, a stage of the way to it, has lines with `auto`. */
+static int glass_of(const Renderer *renderer, const Frame *frame)
+{
+    const ViewDef *def = &renderer->def;
+    const bool glass = view_has_glass(def) && !frame->flat && !(frame->slab > 0) &&
+                       (def->walls == VIEW_WALLS_GLASS || frame->clear > 0);
+    return !glass ? 0 : def->drawn_quality == VIEW_DRAFT ? 1 : 2;
+}
+
+static void draw_panes(const Renderer *renderer, const Frame *frame, bool behind)
+{
+    if (frame->glass == 2)
+        GL_STAGE(frame->timer, STAGE_OVERLAY)
+        {
+            glass_draw(&renderer->glass, frame, behind);
+        }
+}
+
 static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
@@ -510,6 +537,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     frame.floor_light = renderer->shadow.floor_map;
     if (renderer->view)
         view_show(renderer->view, &renderer->def, &frame);
+    frame.glass = glass_of(renderer, &frame);
     frame.no_colors = frame.no_colors && !overlays_any(&renderer->overlays);
     memcpy(renderer->range, frame.range, sizeof renderer->range);
     memcpy(renderer->opacity_range, frame.opacity_range, sizeof renderer->opacity_range);
@@ -530,6 +558,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         {
             solids_draw(renderer->solids, &frame);
         }
+    draw_panes(renderer, &frame, true);
     draw_over_depth(renderer, particles, &frame);
     if (renderer->view) {
         view_draw(renderer->view, particles, &frame);
@@ -538,6 +567,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     }
     const char *own = note_of(renderer, particles);
     frame.note = frame.note ? frame.note : own;
+    draw_panes(renderer, &frame, false);
     draw_overlays(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
     draw_over(renderer, particles, &frame);

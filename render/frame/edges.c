@@ -41,7 +41,8 @@ void edges_destroy(Edges *edges)
 
 static void draw(const Edges *edges, const Frame *frame, unsigned framebuffer, bool behind)
 {
-    float width = fmaxf(1.5F, 1.5F * (float)frame->height / 720); /* pixels */
+    const float part = (float)frame->height / 720; /* what is a pixel there */
+    const float width = frame->glass ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);

@@ -311,6 +311,7 @@ static void fill_particles(FrameBlock *block, const Frame *frame, const double b
     block->range_scale = (float)(1 / (frame->range[1] - frame->range[0]));
     block->by_fluid = frame->by_fluid;
     block->fluid_clear = frame->clear;
+    block->glass = (uint32_t)frame->glass;
     for (unsigned k = 0; k < 3; k++) /* in two dimensions front and back are none */
         if (!frame->world->periodic[k] && !(k == 2 && frame->slab > 0))
             block->walled |= 1U << k;

@@ -78,6 +78,7 @@ typedef struct Frame {
                          several */
     bool *behind;     /* becomes true where an overlay shows a number of the picture before; NULL: the GPU is
                          waited for instead */
+    int glass;        /* the box is of it: 1 its edges, 2 the rest too; 0: it is drawn as lines */
     float clear; /* the share of the light that the fluid lets through to the floor and to solids in it */
     bool plain;  /* colours as they are, without light and shadow */
 } Frame;

@@ -10,6 +10,7 @@ ViewDef view_def_shared(void)
                      .size = {.range_auto = true, .curve = control_points_straight()},
                      .legend = true,
                      .box = true,
+                     .caustics = true,
                      .floor = true,
                      .camera_auto = true,
                      .camera = {.fov_deg = 32},

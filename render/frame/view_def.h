@@ -33,6 +33,15 @@ typedef enum ViewQuality {
 
 extern const char *const view_quality_names[]; /* ended by NULL */
 
+/* How the walls of the box are drawn, where ViewDef.box. */
+typedef enum ViewWalls {
+    VIEW_WALLS_AUTO, /* glass where the view shows clear fluid, else lines */
+    VIEW_WALLS_LINES,
+    VIEW_WALLS_GLASS
+} ViewWalls;
+
+extern const char *const view_walls_names[]; /* ended by NULL */
+
 /* Room for the own settings of a view or an overlay, a struct that only its owner knows: see view_own in
    render/frame/view.h, overlay_own in render/frame/overlay.h. */
 typedef struct ViewOwn {
@@ -62,11 +71,14 @@ typedef struct ViewDef {
     ViewOwn of_view[VIEW_KINDS_MAX]; /* own settings of each view of the list, in its order */
     bool legend;                     /* draw the legend */
     bool box;                        /* draw the box's edges */
+    int walls;                       /* a ViewWalls */
+    bool caustics;                   /* light patterns below clear fluid */
     bool floor;                      /* draw the floor below the box */
     bool camera_auto;                /* the camera shows the whole box; else `camera` */
     CameraDef camera;
     double background[3]; /* linear RGB 0..1, at the horizon */
     int quality;       /* a ViewQuality: chooses for keys that are at their defaults, see view_at_quality */
+    int drawn_quality; /* no key: what view_at_quality chose for this picture; VIEW_AUTO before it did */
     double resolution; /* pixels drawn for a pixel shown, each way; more than 0, at most 1 */
 
     /* The same as of_view of each overlay of its list. */
@@ -101,6 +113,10 @@ ViewQuality view_quality(const ViewDef *def, bool moving);
 /* The def as it is drawn: of a quality other than good the view changes its own keys and the resolution where
    they are at their defaults. `moving`: in a window. */
 ViewDef view_at_quality(const ViewDef *def, bool moving);
+
+/* Whether the box is drawn as glass: not in two dimensions, and with `auto` where the view's own colours are
+   a clear fluid's. Panes and what else costs time: not in a draft. */
+bool view_has_glass(const ViewDef *def);
 
 /* The same for pictures in files, which nobody waits for: auto is best. */
 ViewDef view_in_file(const ViewDef *def);

@@ -8,6 +8,9 @@
 
 #define AT(field) offsetof(ViewDef, field)
 
+const char *const view_walls_names[] = {
+    [VIEW_WALLS_AUTO] = "auto", [VIEW_WALLS_LINES] = "lines", [VIEW_WALLS_GLASS] = "glass", NULL};
+
 /* The views, then "none". */
 static const char *kind_name(int index)
 {
@@ -69,6 +72,7 @@ const Key view_keys[] = {
 const Key view_frame_keys[] = {
     BOOLEAN("view.legend", L, AT(legend), "draw the legend"),
     BOOLEAN("view.box", L, AT(box), "draw the box's edges"),
+    CHOICE_OF("view.walls", L | KEY_INDEX, view_walls_names, AT(walls), "how the box is drawn: lines: its edges; glass: edges that catch the light, panes that mirror faintly and a line where water meets them (a draft has the edges alone); auto: glass where the view shows clear fluid, else lines"),
     BOOLEAN("view.floor", L, AT(floor), "draw the floor below the box"),
     COLOR("view.background", L, AT(background), NULL, "sRGB: [red, green, blue], each 0 to 1"),
     {.path = "view.camera", .type = KEY_MAPPING, .unit = "", .offset = KEY_NOWHERE, .aux = AT(camera_auto),

@@ -1,16 +1,9 @@
 // Refraction, reflection and absorption at the surface of a clear fluid, for the shadings water and jelly. Wants
 // common/behind.glsl and common/surface.glsl.
 #include "shaders/shared/bindings.h"
+#include "common/fresnel.glsl"
 layout(location = REFRACTION_INDEX_AT) uniform float refraction_index;
 layout(location = ATTENUATION_AT) uniform float attenuation; // distance through which white light gets the fluid's colour, m
-
-// Unpolarised light from air. After: Fresnel; Born and Wolf, Principles of optics, 1.5.2.
-float fresnel(float cosine, float ior)
-{
-    float inner = sqrt(1.0 - (1.0 - cosine * cosine) / (ior * ior)); // Snell
-    float s = (cosine - ior * inner) / (cosine + ior * inner), p = (ior * cosine - inner) / (ior * cosine + inner);
-    return 0.5 * (s * s + p * p);
-}
 
 // What comes through the fluid: bent by Snell's law where the ray enters it, seen where it leaves after as much fluid as on the
 // straight ray, and weakened by Beer and Lambert's law; van der Laan et al., Screen space fluid rendering with curvature flow, 2009.

@@ -2,6 +2,8 @@
 #include "common/frame.glsl"
 
 layout(location = 0) noperspective out float across;       // pixels from the line's middle
+layout(location = 1) out vec3 place;                       // in the eye's frame
+layout(location = 2) flat out vec3 normal;                 // of the bevel between the two sides that meet, towards the eye
 layout(location = HALF_WIDTH_AT) uniform float half_width; // pixels
 
 layout(location = EDGES_BEHIND_AT) uniform uint behind; // 1: only edges between sides that both face away from the eye
@@ -26,6 +28,15 @@ bool faces_eye(int edge)
     return out_of[(axis + 1) % 3] > 0.0 || out_of[(axis + 2) % 3] > 0.0;
 }
 
+// Of the bevel, in the eye's frame: between the normals of the two sides. Seen from within through the glass its other face shows.
+vec3 bevel(int edge, vec3 at)
+{
+    vec3 outward = sign(corner_of_edge(edge, 0) - vec3(0.0, 0.5, 0.0) * box_size);
+    outward[edge >> 2] = 0.0;
+    vec3 turned = mat3(box_to_eye) * normalize(outward);
+    return dot(turned, at) > 0.0 ? -turned : turned;
+}
+
 // The end of the edge, pulled along it to before the eye.
 vec3 in_front(vec3 a, vec3 b)
 {
@@ -41,8 +52,12 @@ void main()
     vec3 from = in_front(a, b), to = in_front(b, a);
     if (max(from.z, to.z) > -near_plane || (behind != 0u && faces_eye(edge))) {
         gl_Position = vec4(2.0, 2.0, 0.0, 1.0);
+        place = normal = vec3(0.0);
+        across = 0.0;
         return;
     }
+    place = from;
+    normal = bevel(edge, from);
     vec2 here = ndc_of_eye(from), there = ndc_of_eye(to);
     vec2 along = (there - here) * picture_size;
     vec2 normal = vec2(-along.y, along.x) / max(length(along), 1e-6) * (end == 0 ? 1.0 : -1.0);

@@ -46,7 +46,7 @@ UNIFORM_BLOCK(FrameBlock, FRAME_BLOCK)
     uint by_fluid;     /* 1: particles have the colours of their fluids, not of the scalar */
     uint walled;       /* axes across which the box has walls: 1 x, 2 y, 4 z */
     float fluid_clear; /* the share of the light that the fluid lets through; 0: it is not clear */
-    uint glass;        /* 1: the box is of glass */
+    uint glass;        /* the box is of it: 1 its edges, 2 the rest too; 0: lines */
 }
 BLOCK_END(FrameBlock);
 

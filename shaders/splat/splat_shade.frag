@@ -12,6 +12,7 @@
 #include "common/clear.glsl"
 #ifdef PANES
 #include "common/within_box.glsl"
+#include "common/water_line.glsl"
 #endif
 
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
@@ -75,6 +76,17 @@ float thickness_in_box(vec3 ray, float depth)
 }
 #endif
 
+#ifdef PANES
+// How many of the pixels around one of a pane, as far away as a line is wide, are none, of four.
+float line_share(ivec2 pixel)
+{
+    int reach = int(water_line_width() + 0.5);
+    vec4 around = vec4(texelFetch(nearest_map, pixel + ivec2(reach, 0), 0).x, texelFetch(nearest_map, pixel - ivec2(reach, 0), 0).x,
+                       texelFetch(nearest_map, pixel + ivec2(0, reach), 0).x, texelFetch(nearest_map, pixel - ivec2(0, reach), 0).x);
+    return min(2.0 * dot(vec4(greaterThanEqual(around, vec4(0.0))), vec4(0.25)), 1.0);
+}
+#endif
+
 Surface surface_at(vec3 ray, float depth, vec3 normal, vec3 albedo)
 {
     Surface s = Surface(depth * ray, normalize(ray), normal, albedo, 0.0, 0.0, 0.0);
@@ -105,7 +117,8 @@ void main()
 #endif
     normal *= inversesqrt(length2);
 #ifdef PANES
-    normal = depth < 0.0 ? within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).normal : normal;
+    bool pane = depth < 0.0;
+    normal = pane ? within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).normal : normal;
     depth = abs(depth);
 #endif
 #if SHOW == 1
@@ -122,6 +135,11 @@ void main()
 #ifdef MIXING
     cover = cover_at(pixel, depth, albedo, normal);
 #endif
-    color = vec4(shaded(surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo)), cover);
+    Surface s = surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo);
+    color = vec4(shaded(s), cover);
+#ifdef PANES
+    if (glass == 2u && pane)
+        color.rgb = with_water_line(color.rgb, line_share(pixel));
+#endif
 #endif
 }

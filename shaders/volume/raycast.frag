@@ -15,6 +15,7 @@
 #include "volume/raycast_light.glsl"
 #include "volume/raycast_surface.glsl"
 #ifdef WATER
+#include "common/water_line.glsl"
 #include "volume/raycast_water.glsl"
 #endif
 #ifdef TRANSLUCENT
@@ -65,6 +66,8 @@ void show(Ray ray)
     Surface surface = Surface(place, ray.to / ray.slant, normal, albedo, lit, key_at(place, lit), 0.0);
 #ifdef WATER
     color = vec4(water(surface), 1.0);
+    if (glass == 2u && t <= ray.wall)
+        color.rgb = with_water_line(color.rgb, line_share(ray, t, normal));
 #else
     color = vec4(mix(albedo, phong(surface), shading), 1.0);
 #endif

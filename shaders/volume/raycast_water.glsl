@@ -45,6 +45,15 @@ vec3 seen_through(inout Surface s)
     return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation)); // Beer and Lambert
 }
 
+// Of a place on a wall: the surface is as far away as the field along the wall says.
+float line_share(Ray ray, float t, vec3 normal)
+{
+    vec3 at = ray_at(ray, t), slope = slope_at(at) / cell_size;
+    slope -= dot(slope, normal) * normal;
+    float pixel = 2.0 * view_tangent.y * t * pixel_size.y, away = (field_at(at) - surface_level) / max(length(slope), 1e-6);
+    return clamp(water_line_width() + 0.5 - away / pixel, 0.0, 1.0);
+}
+
 vec3 water(Surface s)
 {
     s.normal = facing(s.normal, s.view);

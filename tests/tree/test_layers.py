@@ -45,11 +45,12 @@ RENDER = {
     "plane": "particles",
     "probe": "frame particles plane",
     "ui": "frame",
+    "clear": "frame",
 }
 VIEWS = own_folders("render", "ViewKind view")
 OVERLAYS = own_folders("render", "OverlayKind overlay")
 RENDER |= {name: "frame particles plane" for name in [*VIEWS, *OVERLAYS]}
-RENDER[""] = " ".join(["frame particles derived plane probe ui", *VIEWS, *OVERLAYS])
+RENDER[""] = " ".join(["frame particles derived plane probe ui clear", *VIEWS, *OVERLAYS])
 APP = {
     "base": "",
     "metric": "base",

@@ -1,0 +1,18 @@
+// A thin pane of glass: what its outer side mirrors of sky and floor. The inner one mirrors next to nothing where water touches it, and
+// is left out.
+#include "common/frame.glsl"
+#include "common/environment.glsl"
+#include "common/fresnel.glsl"
+
+layout(location = 0) in vec3 place;
+layout(location = 1) flat in vec3 normal;
+layout(location = 0) out vec4 color;
+
+const float ior = 1.5; // of window glass
+
+void main()
+{
+    vec3 view = normalize(place);
+    vec3 mirrored = environment_light((eye_to_world * vec4(place, 1.0)).xyz, mat3(eye_to_world) * reflect(view, normal));
+    color = vec4(mirrored, fresnel(clamp(-dot(view, normal), 0.0, 1.0), ior));
+}
