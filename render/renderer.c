@@ -1,5 +1,6 @@
 #include "render/renderer.h"
 
+#include "render/clear/caustics.h"
 #include "render/clear/glass.h"
 #include "render/derived/derived.h"
 #include "render/derived/ranges.h"
@@ -48,10 +49,11 @@ struct Renderer {
     Shadow shadow;
     Backdrop backdrop;
     Edges edges;
-    Glass glass;    /* nothing before the first def that wants it */
-    Text *text;     /* NULL before the first legend */
-    Solids *solids; /* NULL without */
-    View *view;     /* NULL for "none" */
+    Glass glass;       /* nothing before the first def that wants it */
+    Caustics caustics; /* the same */
+    Text *text;        /* NULL before the first legend */
+    Solids *solids;    /* NULL without */
+    View *view;        /* NULL for "none" */
     Overlays overlays;
     PictureProbe probe; /* of the last picture */
 };
@@ -196,10 +198,13 @@ static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
     return false;
 }
 
-/* Panes are not drawn in drafts, which is no reason not to have them ready. */
-static bool follow_glass(Renderer *renderer, const ViewDef *def, Error *error)
+/* What clear fluid has besides. A draft may do without, which is no reason not to have panes ready. */
+static bool follow_clear(Renderer *renderer, const ViewDef *def, Error *error)
 {
-    return !view_has_glass(def) || glass_create(&renderer->glass, error);
+    const bool caustics =
+        def->caustics && view_shows_clear_fluid(def) && def->drawn_quality != VIEW_DRAFT && def->floor;
+    return (!view_has_glass(def) || glass_create(&renderer->glass, error)) &&
+           (!caustics || caustics_create(&renderer->caustics, error));
 }
 
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
@@ -212,7 +217,7 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         return false;
     renderer->uniforms = frame_uniforms_create();
     return follow_derived(renderer, def, error) && follow_letters(renderer, def->legend, height, error) &&
-           follow_glass(renderer, def, error) && follow_solids(renderer, &renderer->world, error) &&
+           follow_clear(renderer, def, error) && follow_solids(renderer, &renderer->world, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL) &&
            overlays_follow(&renderer->overlays, &subject, error);
 }
@@ -258,6 +263,7 @@ void renderer_destroy(Renderer *renderer)
     text_destroy(renderer->text);
     edges_destroy(&renderer->edges);
     glass_destroy(&renderer->glass);
+    caustics_destroy(&renderer->caustics);
     solids_destroy(renderer->solids);
     backdrop_destroy(&renderer->backdrop);
     shadow_destroy(&renderer->shadow);
@@ -302,7 +308,7 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
     const Subject subject = {def, world ? world : &unknown};
     const bool letters = def->legend || *renderer->title.words;
     const bool followed =
-        follow_derived(renderer, def, error) && follow_glass(renderer, def, error) &&
+        follow_derived(renderer, def, error) && follow_clear(renderer, def, error) &&
         follow_letters(renderer, letters, renderer->target.height, error) &&
         follow_solids(renderer, subject.world, error) &&
         follow_resolution(renderer, def, renderer->target.width, renderer->target.height, error) &&
@@ -510,6 +516,13 @@ static int glass_of(const Renderer *renderer, const Frame *frame)
     return !glass ? 0 : def->drawn_quality == VIEW_DRAFT ? 1 : 2;
 }
 
+static void draw_caustics(const Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
+{
+    if (particles->count > 0 && caustics_wanted(frame))
+        frame->floor_light =
+            caustics_draw(&renderer->caustics, frame, renderer->shadow.floor_map, particles->spacing);
+}
+
 static void draw_panes(const Renderer *renderer, const Frame *frame, bool behind)
 {
     if (frame->glass == 2)
@@ -547,11 +560,14 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     if (renderer->view)
         view_prepare(renderer->view, particles, &frame);
     GL_STAGE(timer, STAGE_SHADOW)
-    draw_shadow(renderer, particles, &frame);
+    {
+        draw_shadow(renderer, particles, &frame);
+        draw_caustics(renderer, particles, &frame);
+    }
     GL_STAGE(timer, STAGE_BACKDROP)
     {
         target_begin(target);
-        backdrop_draw(&renderer->backdrop, &frame, &renderer->shadow);
+        backdrop_draw(&renderer->backdrop, &frame);
     }
     if (renderer->solids && !frame.no_solids)
         GL_STAGE(timer, STAGE_SOLIDS)

@@ -107,22 +107,22 @@ static void lay(Backdrop *backdrop, const Frame *frame)
                        0, 0, 0, 0, frame->width, frame->height, 1);
 }
 
-static void shade_floor(const Backdrop *backdrop, const Frame *frame, const Shadow *shadow)
+static void shade_floor(const Backdrop *backdrop, const Frame *frame)
 {
     if (frame->floor_radius <= 0 || frame->camera.eye[1] <= frame->floor_height)
         return;
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
-    glBindTextureUnit(FLOOR_LIGHT_UNIT, shadow->floor_map);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
     glUseProgram(backdrop->shadow_program);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
-void backdrop_draw(Backdrop *backdrop, const Frame *frame, const Shadow *shadow)
+void backdrop_draw(Backdrop *backdrop, const Frame *frame)
 {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glBindVertexArray(backdrop->vertex_array);
     lay(backdrop, frame);
-    shade_floor(backdrop, frame, shadow);
+    shade_floor(backdrop, frame);
 }

@@ -1,4 +1,5 @@
-/* The backdrop: sky and floor, the first thing in a picture. Writes the target's colour; no depth.
+/* The backdrop: sky and floor, the first thing in a picture, the floor with Frame.floor_light. Writes the
+   target's colour; no depth.
 
    Without the fluid's shadow it depends on the camera alone, so it is kept while that stands still: then a
    picture costs a copy, and shading where the shadow may lie. */
@@ -6,7 +7,6 @@
 #define SLOSH_BACKDROP_H
 
 #include "render/frame/frame.h"
-#include "render/frame/shadow.h"
 #include "sim/base/error.h"
 
 enum { BACKDROP_KEY_SIZE = 32 };
@@ -21,6 +21,6 @@ typedef struct Backdrop {
 
 bool backdrop_create(Backdrop *backdrop, Error *error);
 void backdrop_destroy(Backdrop *backdrop);
-void backdrop_draw(Backdrop *backdrop, const Frame *frame, const Shadow *shadow);
+void backdrop_draw(Backdrop *backdrop, const Frame *frame);
 
 #endif

@@ -60,7 +60,8 @@ typedef struct Frame {
     bool over_coarse;          /* and those of overlays are not whole yet: the next picture has others */
     bool over_lacks;           /* there is no memory for them */
     bool depths;               /* overlays and edges leave their depth, all that is wanted of them */
-    unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor; 0: not known */
+    unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor, more than 1 where
+                                  it is gathered; 0: not known */
     double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
     bool beyond[2];            /* an automatic range leaves some out, below and above it */
     double opacity_range[2],
@@ -78,6 +79,7 @@ typedef struct Frame {
                          several */
     bool *behind;     /* becomes true where an overlay shows a number of the picture before; NULL: the GPU is
                          waited for instead */
+    float refraction; /* index of a clear fluid */
     int glass;        /* the box is of it: 1 its edges, 2 the rest too; 0: it is drawn as lines */
     float clear; /* the share of the light that the fluid lets through to the floor and to solids in it */
     bool plain;  /* colours as they are, without light and shadow */

@@ -185,7 +185,7 @@ const char *view_colormap(const ViewDef *def)
     return colormap_of(def->colormap, view_color_by(def));
 }
 
-static bool shows_clear_fluid(const ViewDef *def)
+bool view_shows_clear_fluid(const ViewDef *def)
 {
     const ViewKind *kind = view_find(def->kind);
     return kind && kind->own_colors && kind->own_colors(def);
@@ -195,18 +195,18 @@ Scalar view_color_by(const ViewDef *def)
 {
     if (def->color_by != SCALAR_COUNT)
         return def->color_by;
-    return shows_clear_fluid(def) ? SCALAR_FLUID : SCALAR_SPEED;
+    return view_shows_clear_fluid(def) ? SCALAR_FLUID : SCALAR_SPEED;
 }
 
 bool view_has_glass(const ViewDef *def)
 {
     return def->box &&
-           (def->walls == VIEW_WALLS_GLASS || (def->walls == VIEW_WALLS_AUTO && shows_clear_fluid(def)));
+           (def->walls == VIEW_WALLS_GLASS || (def->walls == VIEW_WALLS_AUTO && view_shows_clear_fluid(def)));
 }
 
 ViewQuality view_quality(const ViewDef *def, bool moving)
 {
-    const bool clear = shows_clear_fluid(def); /* the dearest look */
+    const bool clear = view_shows_clear_fluid(def); /* the dearest look */
     if (def->quality != VIEW_AUTO)
         return (ViewQuality)def->quality;
     return moving && clear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;

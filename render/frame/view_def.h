@@ -114,6 +114,9 @@ ViewQuality view_quality(const ViewDef *def, bool moving);
    they are at their defaults. `moving`: in a window. */
 ViewDef view_at_quality(const ViewDef *def, bool moving);
 
+/* Whether the view's own colours are a clear fluid's: looks and shadings water and jelly. */
+bool view_shows_clear_fluid(const ViewDef *def);
+
 /* Whether the box is drawn as glass: not in two dimensions, and with `auto` where the view's own colours are
    a clear fluid's. Panes and what else costs time: not in a draft. */
 bool view_has_glass(const ViewDef *def);

@@ -75,6 +75,7 @@ const Key view_frame_keys[] = {
     CHOICE_OF("view.walls", L | KEY_INDEX, view_walls_names, AT(walls), "how the box is drawn: lines: its edges; glass: edges that catch the light, panes that mirror faintly and a line where water meets them (a draft has the edges alone); auto: glass where the view shows clear fluid, else lines"),
     BOOLEAN("view.floor", L, AT(floor), "draw the floor below the box"),
     COLOR("view.background", L, AT(background), NULL, "sRGB: [red, green, blue], each 0 to 1"),
+    BOOLEAN("view.caustics", L, AT(caustics), "light patterns on the floor below clear fluid; never in a draft"),
     {.path = "view.camera", .type = KEY_MAPPING, .unit = "", .offset = KEY_NOWHERE, .aux = AT(camera_auto),
      .help = "the camera; without it, one that shows the whole box"},
     VEC3("view.camera.from", R | L, "m", -1e5, 1e5, AT(camera.from), "the eye, in the world's frame"),

@@ -345,6 +345,7 @@ static bool splat_own_colors(const ViewDef *def)
 static void splat_show_in(const ViewDef *def, Frame *frame)
 {
     frame->clear = splat_clear(splat_def(def)) ? CLEAR_FLUID_LIGHT : 0;
+    frame->refraction = (float)splat_def(def)->ior;
 }
 
 static void splat_quality(ViewDef *def, ViewQuality quality)

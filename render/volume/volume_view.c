@@ -186,6 +186,7 @@ static void show(const ViewDef *def, Frame *frame)
 {
     const bool steps = volume_def(def)->show == VOLUME_STEPS;
     frame->clear = volume_def(def)->show == VOLUME_SHADED && own_colors(def) ? CLEAR_FLUID_LIGHT : 0;
+    frame->refraction = (float)volume_def(def)->raycast.ior;
     if (volume_opacity(def) == VOLUME_EVEN)
         frame->curves = 0;
     if (!steps && volume_def(def)->show != VOLUME_SLICE)

@@ -35,6 +35,7 @@
 #define FLOOR_LIGHT_UNIT  3
 #define SOLID_SHADOW_UNIT 4
 #define CAST_UNIT         5
+#define CAUSTIC_UNIT      6 /* before a view draws */
 #define BEHIND_COLOR_UNIT 14
 #define BEHIND_DEPTH_UNIT 15
 
@@ -63,5 +64,7 @@
 #define ID_STRIDE_AT        75
 #define EDGES_BEHIND_AT     76
 #define CLEAR_AT            77
+#define CAUSTIC_STEP_AT     78
+#define CAUSTIC_WIDTH_AT    79
 
 #endif

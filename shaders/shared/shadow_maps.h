@@ -4,5 +4,6 @@
 
 #define SHADOW_MAP_TEXELS 512
 #define FLOOR_MAP_TEXELS  64
+#define CAUSTIC_TEXELS    192 /* of the maps of light patterns, which cover what the floor's map does */
 
 #endif

@@ -77,13 +77,18 @@ float thickness_in_box(vec3 ray, float depth)
 #endif
 
 #ifdef PANES
-// How many of the pixels around one of a pane, as far away as a line is wide, are none, of four.
+// Whether what is beside a pixel of a pane is none, and is no speck in it.
+float ends_at(ivec2 pixel, ivec2 beside)
+{
+    return texelFetch(nearest_map, pixel + beside, 0).x >= 0.0 && texelFetch(nearest_map, pixel + 5 * beside, 0).x >= 0.0 ? 0.5 : 0.0;
+}
+
 float line_share(ivec2 pixel)
 {
     int reach = int(water_line_width() + 0.5);
-    vec4 around = vec4(texelFetch(nearest_map, pixel + ivec2(reach, 0), 0).x, texelFetch(nearest_map, pixel - ivec2(reach, 0), 0).x,
-                       texelFetch(nearest_map, pixel + ivec2(0, reach), 0).x, texelFetch(nearest_map, pixel - ivec2(0, reach), 0).x);
-    return min(2.0 * dot(vec4(greaterThanEqual(around, vec4(0.0))), vec4(0.25)), 1.0);
+    return min(ends_at(pixel, ivec2(reach, 0)) + ends_at(pixel, ivec2(-reach, 0)) + ends_at(pixel, ivec2(0, reach)) +
+                   ends_at(pixel, ivec2(0, -reach)),
+               1.0);
 }
 #endif
 

@@ -1,0 +1,16 @@
+// A point's light over the texels around it by a cubic B-spline: their shares add up to 1 wherever the point is, so that no light is
+// lost or won, and points a texel apart make an even light.
+layout(location = 0) flat in vec2 centre;
+layout(location = 0) out float light;
+
+vec2 spline(vec2 at)
+{
+    vec2 away = abs(at), near = 2.0 / 3.0 - away * away * (1.0 - 0.5 * away), far = max(2.0 - away, 0.0);
+    return mix(near, far * far * far / 6.0, greaterThan(away, vec2(1.0)));
+}
+
+void main()
+{
+    vec2 shares = spline(gl_FragCoord.xy - centre);
+    light = shares.x * shares.y;
+}

@@ -1,0 +1,14 @@
+// The light on the floor: what shadows leave of it, times what the fluid's surface gathers there. Points beyond the map's sides are
+// missing in two rows of texels, where no fluid is.
+#include "shaders/shared/bindings.h"
+#include "shaders/shared/shadow_maps.h"
+layout(binding = FLOOR_LIGHT_UNIT) uniform sampler2D shadow_left;
+layout(binding = CAUSTIC_UNIT) uniform sampler2D caustic_map;
+layout(location = 0) out float light;
+
+void main()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy), from_side = min(texel, CAUSTIC_TEXELS - 1 - texel);
+    float gathered = min(from_side.x, from_side.y) < 2 ? 1.0 : texelFetch(caustic_map, texel, 0).x;
+    light = textureLod(shadow_left, gl_FragCoord.xy / float(CAUSTIC_TEXELS), 0.0).x * gathered;
+}
