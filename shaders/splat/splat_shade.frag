@@ -77,18 +77,12 @@ float thickness_in_box(vec3 ray, float depth)
 #endif
 
 #ifdef PANES
-// Whether what is beside a pixel of a pane is none, and is no speck in it.
-float ends_at(ivec2 pixel, ivec2 beside)
-{
-    return texelFetch(nearest_map, pixel + beside, 0).x >= 0.0 && texelFetch(nearest_map, pixel + 5 * beside, 0).x >= 0.0 ? 0.5 : 0.0;
-}
-
+// Of a pixel of a pane: whether what is above it on the screen is none, and is no speck in it. The fluid's lower ends are at the box's.
 float line_share(ivec2 pixel)
 {
-    int reach = int(water_line_width() + 0.5);
-    return min(ends_at(pixel, ivec2(reach, 0)) + ends_at(pixel, ivec2(-reach, 0)) + ends_at(pixel, ivec2(0, reach)) +
-                   ends_at(pixel, ivec2(0, -reach)),
-               1.0);
+    ivec2 up = ivec2(0, int(water_line_width() + 0.5));
+    bool ends = texelFetch(nearest_map, pixel + up, 0).x >= 0.0 && texelFetch(nearest_map, pixel + 5 * up, 0).x >= 0.0;
+    return ends ? 0.7 : 0.0;
 }
 #endif
 
