@@ -519,8 +519,7 @@ static int glass_of(const Renderer *renderer, const Frame *frame)
 static void draw_caustics(const Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
 {
     if (particles->count > 0 && caustics_wanted(frame))
-        frame->floor_light =
-            caustics_draw(&renderer->caustics, frame, renderer->shadow.floor_map, particles->spacing);
+        frame->floor_light = caustics_draw(&renderer->caustics, particles, frame, renderer->shadow.floor_map);
 }
 
 static void draw_panes(const Renderer *renderer, const Frame *frame, bool behind)

@@ -81,8 +81,16 @@ static void smooth(const Caustics *caustics, const Frame *frame, double spacing)
     }
 }
 
+/* Twice as high above the floor as the fluid would be at rest, m. */
+static double highest(const Frame *frame, const ParticleBuffers *particles)
+{
+    const double *box = particles->box_size, side = particles->spacing;
+    const double bottom = particles->box.position[1] - frame->floor_height;
+    return fmax(bottom, 0) + 2 * (double)particles->count * side * side * side / (box[0] * box[2]);
+}
+
 /* Adds up the light of all points. */
-static void gather(const Caustics *caustics, const Frame *frame)
+static void gather(const Caustics *caustics, const Frame *frame, const ParticleBuffers *particles)
 {
     static const float nothing[4] = {0};
     const GLuint program = caustics->programs[GATHER];
@@ -95,20 +103,22 @@ static void gather(const Caustics *caustics, const Frame *frame)
     glEnable(GL_PROGRAM_POINT_SIZE);
     glUseProgram(program);
     glProgramUniform1f(program, REFRACTION_INDEX_AT, frame->refraction);
+    glProgramUniform1f(program, CAUSTIC_HIGHEST_AT, (float)highest(frame, particles));
     glDrawArrays(GL_POINTS, 0, CAUSTIC_TEXELS * CAUSTIC_TEXELS);
     glDisable(GL_PROGRAM_POINT_SIZE);
     glDisable(GL_BLEND);
 }
 
-unsigned caustics_draw(const Caustics *caustics, const Frame *frame, unsigned shadow_left, double spacing)
+unsigned caustics_draw(const Caustics *caustics, const ParticleBuffers *particles, const Frame *frame,
+                       unsigned shadow_left)
 {
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glViewport(0, 0, CAUSTIC_TEXELS, CAUSTIC_TEXELS);
     glBindVertexArray(caustics->vertex_array);
     pass(caustics, FIND, 0, CAUSTIC_HEIGHT);
-    smooth(caustics, frame, spacing);
-    gather(caustics, frame);
+    smooth(caustics, frame, particles->spacing);
+    gather(caustics, frame, particles);
     glBindTextureUnit(FLOOR_LIGHT_UNIT, shadow_left);
     pass(caustics, COMPOSE, caustics->maps[CAUSTIC_FACTOR], CAUSTIC_LIGHT);
     return caustics->maps[CAUSTIC_LIGHT];

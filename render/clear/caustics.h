@@ -6,8 +6,8 @@
 
    Not modelled: the bends where light leaves the box, the shift that a flat surface gives to all light alike,
    a second surface below the first, light through the box's sides, what the fluid mirrors or absorbs on the
-   way (Frame.clear stands for that), patterns on solids. Spray, what is as rough and the last spacing before
-   a wall bend nothing. */
+   way (Frame.clear stands for that), patterns on solids. Spray, what is as rough, what hangs far above where
+   the fluid would lie at rest, and the last spacings before a wall bend nothing. */
 #ifndef SLOSH_CAUSTICS_H
 #define SLOSH_CAUSTICS_H
 
@@ -33,8 +33,9 @@ void caustics_destroy(Caustics *caustics); /* zeroed is allowed */
 bool caustics_wanted(const Frame *frame);
 
 /* Behind shadow_end, whose map of the fluid is bound to unit 0. `shadow_left`: R32F, what shadows leave of
-   the light on the floor; `spacing`: of particles, m. Returns the texture that has it with the patterns: for
+   the light on the floor. Returns the texture that has it with the patterns: for
    Frame.floor_light. */
-unsigned caustics_draw(const Caustics *caustics, const Frame *frame, unsigned shadow_left, double spacing);
+unsigned caustics_draw(const Caustics *caustics, const ParticleBuffers *particles, const Frame *frame,
+                       unsigned shadow_left);
 
 #endif

@@ -5,6 +5,7 @@
 #include "shaders/shared/shadow_maps.h"
 layout(binding = CAUSTIC_UNIT) uniform sampler2D height_map;
 layout(location = REFRACTION_INDEX_AT) uniform float refraction_index;
+layout(location = CAUSTIC_HIGHEST_AT) uniform float highest; // above the floor, m
 layout(location = 0) flat out vec2 centre; // texels
 
 const float steepest = 1.5, overhang = 0.3, apart = 1.0; // spacings from texel to texel
@@ -38,8 +39,9 @@ void main()
     float upright = 1.0 + dot(to_light.xz / to_light.y, on_floor);
     vec2 slope = upright > overhang ? on_floor / upright : vec2(0.0);
     slope *= min(1.0, steepest / max(length(slope), 1e-6));
-    float rough = sqrt(here.z) / particle_spacing, smooth_share = 1.0 - smoothstep(0.9, 1.8, rough); // spray is no surface,
-    float share = smooth_share * smoothstep(0.5, 0.9, here.y);                                     // nor is a drop, or a rim
+    // Neither spray, a drop nor a rim is a surface. What hangs far above where the fluid would lie lets the light out again below.
+    float share = (1.0 - smoothstep(0.9, 1.8, sqrt(here.z) / particle_spacing)) * smoothstep(0.5, 0.9, here.y);
+    share *= 1.0 - smoothstep(1.0, 1.5, here.x / highest);
     vec2 moved = share * here.x * (bent(slope, to_light) - bent(vec2(0.0), to_light));
     centre = vec2(texel) + 0.5 + (here.y > 0.0 ? moved / side : vec2(0.0));
     gl_Position = vec4(2.0 * centre / float(CAUSTIC_TEXELS) - 1.0, 0.0, 1.0);

@@ -66,5 +66,6 @@
 #define CLEAR_AT            77
 #define CAUSTIC_STEP_AT     78
 #define CAUSTIC_WIDTH_AT    79
+#define CAUSTIC_HIGHEST_AT  80
 
 #endif

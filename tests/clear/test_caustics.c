@@ -89,11 +89,12 @@ static void pattern_of(const Wave *wave, Frame *frame, float *factor)
     Error error = {0};
     if (!caustics_create(&caustics, &error))
         fail_msg("%s", error.message);
+    const ParticleBuffers box = box_state(50000, SPACING); /* at rest 0.2 m high */
     const unsigned uniforms = frame_uniforms_create(), lit = no_shadows();
     const GLuint map = shadow_of(wave, frame);
     glClearTexImage(lit, 0, GL_RED, GL_FLOAT, &one);
     frame_uniforms_update(uniforms, frame, (double[]){2, 1, 1}, SPACING);
-    glGetTextureImage(caustics_draw(&caustics, frame, lit, SPACING), 0, GL_RED, GL_FLOAT, SIDE * SIDE * 4,
+    glGetTextureImage(caustics_draw(&caustics, &box, frame, lit), 0, GL_RED, GL_FLOAT, SIDE * SIDE * 4,
                       factor);
     glDeleteTextures(1, &map);
     glDeleteBuffers(1, &uniforms);

@@ -114,8 +114,9 @@ static void panes_mirror_by_fresnels_formula(void **state)
     matrix_invert_rigid(camera.view, to_world);
     matrix_transform(to_world, (float[3]){0}, eye);
     for (int i = 0; i < WIDTH * HEIGHT; i++) {
-        const float in_eye[3] = {(2 * ((float)(i % WIDTH) + 0.5F) / WIDTH - 1) * camera.tangent[0],
-                                 (1 - 2 * ((float)(i / WIDTH) + 0.5F) / HEIGHT) * camera.tangent[1], -1};
+        const int column = i % WIDTH, row = i / WIDTH;
+        const float in_eye[3] = {(2 * ((float)column + 0.5F) / WIDTH - 1) * camera.tangent[0],
+                                 (1 - 2 * ((float)row + 0.5F) / HEIGHT) * camera.tangent[1], -1};
         float end[3];
         double to[3], enter = 0, leave = INFINITY, edge = INFINITY;
         int in = 0, out = 0;
@@ -140,7 +141,7 @@ static void panes_mirror_by_fresnels_formula(void **state)
         checked++;
         seen += fabs(wanted - sky(&def, to)) > 0.025;
         if (!(fabs(found - wanted) < 0.015)) /* three roundings to 8 bits, and the sky's grain */
-            fail_msg("pixel %d %d: %g, not %g; the sky behind is %g", i % WIDTH, i / WIDTH, found, wanted,
+            fail_msg("pixel %d %d: %g, not %g; the sky behind is %g", column, row, found, wanted,
                      sky(&def, to));
     }
     if (!(checked > 2000 && seen > 200))
