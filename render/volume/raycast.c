@@ -82,7 +82,9 @@ static GLuint create_program(const Subject *subject, const char *field, Error *e
              subject->world->solid_count > 0 ? "#define SOLIDS 1\n" : "", field,
              cast->look == RAYCAST_TRANSLUCENT ? translucent_defines(subject->def, translucent) : "",
              cast->shadows ? "#define SHADOWS 1\n" : "",
-             cast->look == RAYCAST_WATER ? "#define WATER 1\n#define FLOOR_SHADOW 1\n" : "");
+             cast->look != RAYCAST_WATER      ? ""
+             : raycast_is_whole(subject->def) ? "#define WATER 1\n#define FLOOR_SHADOW 1\n#define WHOLE 1\n"
+                                              : "#define WATER 1\n#define FLOOR_SHADOW 1\n");
     return program_create("raycast", stages, defines, error);
 }
 
@@ -97,6 +99,11 @@ static bool create_drops(Raycast *raycast, const Subject *subject, const Voxeliz
     snprintf(defines, sizeof defines, "%s%s", raycast->solids ? "#define SOLIDS 1\n" : "",
              raycast->look == RAYCAST_WATER ? "#define WATER 1\n#define FLOOR_SHADOW 1\n" : "");
     return volume_drops_create(&raycast->drops, subject->def, defines, error);
+}
+
+bool raycast_is_whole(const ViewDef *def)
+{
+    return def->drawn_quality != VIEW_DRAFT;
 }
 
 bool raycast_is_curved(const ViewDef *def)
@@ -329,8 +336,10 @@ static void look_through(Raycast *raycast, const Frame *frame)
     const RaycastDef *cast = &volume_def(frame->def)->raycast;
     if (raycast->solids)
         behind_take(&raycast->behind, &raycast->edges, frame);
-    else
+    else if (raycast_is_whole(frame->def))
         behind_take_edges(&raycast->behind, &raycast->edges, frame);
+    else
+        glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
     const GLuint programs[] = {raycast->program, raycast->drops.program};
     for (int i = 0; i < 2 && programs[i]; i++) {
         glProgramUniform1f(programs[i], REFRACTION_INDEX_AT, (GLfloat)cast->ior);

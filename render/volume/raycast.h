@@ -19,6 +19,9 @@ typedef struct Raycast Raycast;
 Raycast *raycast_create(const Subject *subject, const Voxelizer *voxelizer, Error *error);
 void raycast_destroy(Raycast *raycast); /* NULL is allowed */
 
+/* Not in a draft, which leaves out edges behind water and the line where it meets glass: another program. */
+bool raycast_is_whole(const ViewDef *def);
+
 /* Whether the transfer function has another curve than its ramp: another program. */
 bool raycast_is_curved(const ViewDef *def);
 

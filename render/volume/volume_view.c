@@ -211,6 +211,7 @@ static bool same(const Subject *a, const Subject *b)
 {
     return volume_opacity(a->def) == volume_opacity(b->def) &&
            raycast_is_curved(a->def) == raycast_is_curved(b->def) &&
+           raycast_is_whole(a->def) == raycast_is_whole(b->def) &&
            (view_color_by(a->def) == SCALAR_FLUID) == (view_color_by(b->def) == SCALAR_FLUID) &&
            (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
 }

@@ -1,5 +1,5 @@
 // Marches through the volume from where its faces are entered to where they are left, or to a solid: opaque to the surface, WATER beyond
-// it, or TRANSLUCENT gathering light. SHOW 1 entry, 2 exit, 3 length, 4 steps, 5 normals show what it goes by instead.
+// it, or TRANSLUCENT gathering light. WHOLE: with what a draft leaves out. SHOW 1 entry, 2 exit, 3 length, 4 steps, 5 normals show what it goes by instead.
 // After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B; Krüger and Westermann 2003; Scharsach 2005.
 #include "common/frame.glsl"
 #include "common/light.glsl"
@@ -66,8 +66,11 @@ void show(Ray ray)
     Surface surface = Surface(place, ray.to / ray.slant, normal, albedo, lit, key_at(place, lit), 0.0);
 #ifdef WATER
     color = vec4(water(surface), 1.0);
-    if (glass == 2u && t <= ray.wall)
+#ifdef WHOLE
+    int rounds = glass == 2u && t <= ray.wall ? 1 : 0; // software drivers skip loops only
+    for (int i = 0; i < rounds; i++)
         color.rgb = with_water_line(color.rgb, line_share(ray, t, normal));
+#endif
 #else
     color = vec4(mix(albedo, phong(surface), shading), 1.0);
 #endif

@@ -36,15 +36,19 @@ vec3 seen_through(inout Surface s)
     vec3 on = refract(ray.to, inwards, refraction_index);
     on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
     on = s.thickness < end - 1e-3 * cell_size ? on : ray.to;
-    float way = way_in_box(leave, on);
 #ifdef SOLIDS
-    vec3 seen = behind_at(leave + min(0.3 * max(box_size.x, box_size.y), way) * on, near_plane / -s.place.z, gl_FragCoord.xy);
+    float way = min(0.3 * max(box_size.x, box_size.y), way_in_box(leave, on));
+    vec3 seen = behind_at(leave + way * on, near_plane / -s.place.z, gl_FragCoord.xy);
 #else
-    vec3 seen = with_edges(environment(leave, on), leave + way * on);
+    vec3 seen = environment(leave, on);
+#ifdef WHOLE
+    seen = with_edges(seen, leave + way_in_box(leave, on) * on);
+#endif
 #endif
     return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation)); // Beer and Lambert
 }
 
+#ifdef WHOLE
 // Of a place on a wall: the surface is as far away as the field along the wall says.
 float line_share(Ray ray, float t, vec3 normal)
 {
@@ -53,6 +57,7 @@ float line_share(Ray ray, float t, vec3 normal)
     float pixel = 2.0 * view_tangent.y * t * pixel_size.y, away = (field_at(at) - surface_level) / max(length(slope), 1e-6);
     return clamp(water_line_width() + 0.5 - away / pixel, 0.0, 1.0);
 }
+#endif
 
 vec3 water(Surface s)
 {

@@ -544,6 +544,7 @@ static int views_of(ViewDef base, ViewDef views[VIEWS_MAX])
     for (int look = RAYCAST_OPAQUE; look <= RAYCAST_TRANSLUCENT; look++) {
         VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look,
              volume_def(&v)->raycast.shadows = !volume_def(&v)->raycast.shadows, v.floor = true);
+        VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look, v.quality = VIEW_DRAFT);
         VIEW("volume", volume_def(&v)->raycast.look = (RaycastLook)look,
              volume_def(&v)->raycast.jitter = !volume_def(&v)->raycast.jitter,
              volume_def(&v)->raycast.skip = !volume_def(&v)->raycast.skip,

@@ -137,7 +137,7 @@ static void water_of_index_one_is_not_seen(void **state)
     Picture picture = picture_of_block();
     volume_def(&picture.def)->raycast.look = RAYCAST_WATER;
     picture.def.color_by = SCALAR_FLUID;
-    picture.def.box = true;
+    picture.def.box = true, picture.def.walls = VIEW_WALLS_LINES;
     volume_def(&picture.def)->raycast.ior = 1;
     volume_def(&picture.def)->raycast.attenuation = 1e5;
     Image clear = drawn(&picture, true);
