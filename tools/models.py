@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""tools/models.py [FOLDER]: makes the meshes of scenes/meshes: a rabbit and a bust, each 1 high on the floor y = 0.
+"""tools/models.py [FOLDER]: makes the meshes of scenes/meshes: a rabbit, a bust, a duck, a ship, each 1 high on the floor
+y = 0, and the wheel of a mill, 1 across.
 
-They are our own: ellipsoids that melt into each other (I. Quilez, "Smooth minimum" and "Distance to an ellipsoid"), whose
+They are our own. All but the wheel are ellipsoids that melt into each other (I. Quilez, "Smooth minimum" and "Distance to an ellipsoid"), whose
 surface is found by surface nets (S. Gibson, "Constrained elastic surface nets", 1998): in each cell of a grid that the
 surface passes a vertex, around each edge of the grid that it crosses a face of four."""
 import itertools
@@ -80,6 +81,51 @@ def bust():
     return parts, cuts
 
 
+def duck():
+    """Swims along x."""
+    parts = [(0.05, ellipsoid((0, 0.28, 0), (0.62, 0.28, 0.52))), (0.12, ellipsoid((-0.55, 0.44, 0), (0.17, 0.1, 0.16), -35)),
+             (0.1, ellipsoid((0.24, 0.56, 0), (0.12, 0.18, 0.12))), (0.05, ellipsoid((0.26, 0.82, 0), (0.19, 0.17, 0.17))),
+             (0.04, ellipsoid((0.46, 0.79, 0), (0.12, 0.04, 0.09), 10))]
+    parts += [(0.05, part) for part in pair((-0.1, 0.4, 0.42), (0.26, 0.13, 0.1), 15)]        # wings
+    return parts, []
+
+
+def block(centre, half):
+    def distance(*x):
+        d = [abs(i - c) - h for i, c, h in zip(x, centre, half)]
+        return math.hypot(*(max(i, 0) for i in d)) + min(max(d), 0)
+    return distance
+
+
+def hull(x, y, z):
+    """Of a boat 3 long, whose bow is at x = 1.5; its stern is cut off."""
+    along = max(-1.0, min(1.0, x / 1.5))
+    wide = 0.56 * (1 - max(along, 0)**2.5) * (1 - 0.25 * min(along, 0)**2)
+    deck, low = 0.62 + 0.16 * along * along, max(y, 0.0) / 0.7
+    side = abs(z) - wide * min(low, 1.0)**0.4
+    return max(0.8 * side, y - deck, -1.4 - x, x - 1.5)
+
+
+def ship():
+    return [(0.02, hull), (0.03, block((-0.45, 0.75, 0), (0.5, 0.16, 0.26))), (0.02, block((-0.65, 0.9, 0), (0.22, 0.1, 0.2)))], []
+
+
+def wheel(paddles=10, hub=0.2, width=0.13, half=0.16):
+    """Turns about z: a star, whose every side is a plane, between its two faces."""
+    ring = []
+    for i in range(paddles):
+        angle, root = 2 * math.pi * i / paddles, math.asin(0.5 * width / 2 / hub)
+        tip = math.asin(0.5 * width / 2 / 0.5)
+        ring += [(r * math.cos(angle + a), r * math.sin(angle + a)) for r, a in ((hub, -root), (0.5, -tip), (0.5, tip), (hub, root))]
+    n = len(ring)
+    vertices = [(x, y, z) for z in (-half, half) for x, y in ring] + [(0, 0, -half), (0, 0, half)]
+    faces = []
+    for i in range(n):
+        j = (i + 1) % n
+        faces += [(i, j, n + j, n + i), (j, i, 2 * n), (n + i, n + j, 2 * n + 1)]
+    return vertices, faces
+
+
 def field_of(parts, cuts):
     def distance(x, y, z):
         d = 1e9
@@ -153,11 +199,14 @@ def main():
     folder = pathlib.Path(sys.argv[1] if sys.argv[1:] else pathlib.Path(__file__).resolve().parents[1] / 'scenes/meshes')
     for title, model, write, low, high, cell in [
             ('rabbit', rabbit(), write_obj, (-0.46, -0.05, -0.32), (0.46, 1.06, 0.32), 0.026),
-            ('bust', bust(), write_ply, (-0.46, -0.05, -0.36), (0.46, 1.02, 0.3), 0.021)]:
+            ('bust', bust(), write_ply, (-0.46, -0.05, -0.36), (0.46, 1.02, 0.3), 0.021),
+            ('duck', duck(), write_obj, (-0.83, -0.05, -0.62), (0.75, 1.06, 0.62), 0.05),
+            ('ship', ship(), write_obj, (-1.5, -0.06, -0.66), (1.6, 1.06, 0.66), 0.06)]:
         vertices, faces = surface(field_of(*model), low, high, cell)
         path = folder / (title + ('.obj' if write is write_obj else '.ply'))
         write(path, title, unit_high(vertices), faces)
         print(f'{path.name}: {len(vertices)} vertices, {2 * len(faces)} triangles, {path.stat().st_size} bytes')
+    write_obj(folder / 'wheel.obj', 'wheel', *wheel())
 
 
 if __name__ == '__main__':

@@ -59,7 +59,7 @@ bool export_solid_at(const ExportSolids *solids, int k, const SnapshotStep *step
     BoxState pose;
     if (!allocate(mesh, from))
         return error_set(error, "no memory for the mesh of solids[%d]", k);
-    solid_pose(&solids->solid[k].def, step->time, &pose);
+    solid_pose_in(&solids->solid[k].def, step->time, &step->restart.bodies.of[k].pose, &pose);
     for (size_t i = 0; i < from->vertex_count; i++)
         place_vertex(mesh, i, &from->vertices[i], &pose);
     memcpy(mesh->triangle, from->indices, mesh->triangle_count * sizeof *mesh->triangle);

@@ -15,7 +15,7 @@ static bool is_left_alone(const WorldDef *def)
     for (int k = 0; k < 3; k++)
         alone &= def->lid[k] == 0 && !(def->periodic[k] && def->gravity[k] != 0);
     for (int i = 0; i < def->solid_count; i++)
-        alone &= def->solids[i].motion_count == 0;
+        alone &= !solid_moves(&def->solids[i]);
     for (int f = 0; f < def->fluid_count; f++)
         alone &= def->fluids[f].emit_count == 0;
     return alone;
@@ -67,8 +67,11 @@ static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldIn
     SolidPose pose[SOLIDS_MAX];
     double pressed = 0;
     *mass = 0;
-    for (int i = 0; i < def->solid_count; i++)
-        solid_pose_at(&def->solids[i], info->time, &pose[i]);
+    for (int i = 0; i < def->solid_count; i++) {
+        BoxState at;
+        solid_pose_in(&def->solids[i], info->time, &info->floating[i], &at);
+        solid_pose_of(&at, &pose[i]);
+    }
     const bool ok =
         cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
     for (size_t i = 0; ok && i < cloud.count; i++) {

@@ -62,6 +62,9 @@ typedef struct SnapshotStep {
     unsigned lacks; /* bit k: the file has no k-th field of SNAPSHOT_FIELDS; only of snapshot_read_shown */
 } SnapshotStep;
 
+/* Where the solids that float are in it, by number. */
+void snapshot_floating(const SnapshotStep *step, BoxState floating[SOLIDS_MAX]);
+
 /* Arrays for `count` particles, not initialised; false, and nothing to free, when memory is short. */
 bool snapshot_step_allocate(SnapshotStep *step, size_t count);
 /* The same for what is no method's of a saved state's columns (columns_saved). */

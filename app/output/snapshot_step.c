@@ -18,6 +18,12 @@ void snapshot_step_free(SnapshotStep *step)
     *step = (SnapshotStep){0};
 }
 
+void snapshot_floating(const SnapshotStep *step, BoxState floating[SOLIDS_MAX])
+{
+    for (int k = 0; k < SOLIDS_MAX; k++)
+        floating[k] = step->restart.bodies.of[k].pose;
+}
+
 bool snapshot_step_allocate(SnapshotStep *step, size_t count)
 {
     size_t some = count ? count : 1;

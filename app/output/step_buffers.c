@@ -49,6 +49,7 @@ static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *
                              .support_radius = scene->support_radius,
                              .box = step->box,
                              .time = step->time};
+    snapshot_floating(step, state.floating);
     memcpy(state.box_size, scene->box_size, sizeof state.box_size);
     return state;
 }

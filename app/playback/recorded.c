@@ -180,6 +180,7 @@ static void describe(const Recorded *recorded, const SnapshotStep *step, Particl
                              .box = step->box,
                              .time = step->time,
                              .step = step->step};
+    snapshot_floating(step, out->floating);
     memcpy(out->box_size, recorded->numbers.box_size, sizeof out->box_size);
     memcpy(out->gravity, step->gravity, sizeof out->gravity);
 }

@@ -78,7 +78,7 @@ static bool in_solid(const WorldDef *def, const SolidPose pose[SOLIDS_MAX], cons
 {
     const float at[3] = {(float)x[0], (float)x[1], (float)x[2]};
     for (int k = 0; k < def->solid_count; k++)
-        if (def->solids[k].motion_count == 0 &&
+        if (!solid_moves(&def->solids[k]) &&
             solid_clearance(&def->solids[k], &pose[k], def->dimensions, at, (float)def->spacing) < 0)
             return true;
     return false;

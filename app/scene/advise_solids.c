@@ -1,6 +1,7 @@
 /* Solids that fluid may be on the other side of within a step. */
 #include "app/scene/advise_parts.h"
 #include "app/scene/check.h"
+#include "sim/matter/viscosity.h"
 
 #include <math.h>
 
@@ -18,12 +19,27 @@ static double greatest_shaking(const WorldDef *def)
     return sum;
 }
 
+/* What the force on a solid leaves out: sim/matter/forces.h. */
+static void advise_floating(const Tree *tree, const WorldDef *def, Notes *notes)
+{
+    for (int k = 0; k < def->solid_count; k++) {
+        char path[64];
+        snprintf(path, sizeof path, "solids[%d].density", k);
+        if (solid_floats(&def->solids[k]) && def->viscosity_solver == VISCOSITY_IMPLICIT)
+            advise(
+                tree, path, notes,
+                "solver.viscosity: implicit holds fluid to a solid, but no solid to the fluid: this one feels "
+                "pressure alone; use explicit for friction");
+    }
+}
+
 /* A solid holds what it finds within itself at the end of a step; what a step has carried over it, it does
    not see. The box's walls are the end of the world, and hold whatever comes. */
 void advise_solids(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *def = &scene->world;
     const double step = def->dt / def->substeps, way = step * greatest_shaking(def);
+    advise_floating(tree, def, notes);
     for (int k = 0; k < def->solid_count && def->step_mode == STEP_FIXED; k++) {
         const double width = scene_solid_width(&def->solids[k], def->dimensions);
         char path[64];

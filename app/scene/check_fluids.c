@@ -53,7 +53,7 @@ static bool check_out_of_solids(const Check *check, const char *path, const doub
         SolidPose pose;
         const float at[3] = {(float)x[0], (float)x[1], (float)x[2]};
         solid_pose_at(&world->solids[k], 0, &pose);
-        if (world->solids[k].motion_count == 0 &&
+        if (!solid_moves(&world->solids[k]) &&
             solid_clearance(&world->solids[k], &pose, world->dimensions, at, 0) < 0)
             return FAIL(check, path, "the emitter is inside solids[%d]; move one of them", k);
     }

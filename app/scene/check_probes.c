@@ -71,7 +71,7 @@ static double depth_in_solids(const WorldDef *world, const double x[3])
     double depth = -1;
     for (int k = 0; k < world->solid_count; k++) {
         SolidPose pose;
-        if (world->solids[k].motion_count > 0)
+        if (solid_moves(&world->solids[k]))
             continue;
         solid_pose_at(&world->solids[k], 0, &pose);
         depth = fmax(depth, -(double)solid_clearance(&world->solids[k], &pose, world->dimensions, at, 1));

@@ -22,6 +22,31 @@ static bool check_solid_plane(const Check *check, const SolidDef *solid, const c
     return scene_check_plane(check, key, solid->centre);
 }
 
+/* What moves by the fluid has no other motion, and a hinge holds nothing else. */
+static bool check_floating(const Check *check, const SolidDef *solid, const char *path)
+{
+    const WorldDef *world = &check->scene->world;
+    const bool hinged = solid->hinge_axis[0] != 0 || solid->hinge_axis[1] != 0 || solid->hinge_axis[2] != 0;
+    char density[96], hinge[96], axis[96], at[96];
+    snprintf(density, sizeof density, "%s.density", path);
+    snprintf(hinge, sizeof hinge, "%s.hinge", path);
+    snprintf(axis, sizeof axis, "%s.hinge.axis", path);
+    snprintf(at, sizeof at, "%s.hinge.at", path);
+    if (!hinged && (solid->hinge_at[0] != 0 || solid->hinge_at[1] != 0 || solid->hinge_at[2] != 0))
+        return FAIL(check, hinge, "the hinge has no direction; write its `axis`, such as [0, 0, 1]");
+    if (!solid_floats(solid))
+        return !hinged ||
+               FAIL(check, hinge, "nothing turns a solid without a density; write `density`, in kg/m3");
+    if (solid->motion_count > 0)
+        return FAIL(check, density,
+                    "fluid moves a solid with a density; leave out its motion, or the density");
+    if (world->periodic[0] || world->periodic[1] || world->periodic[2])
+        return FAIL(check, density, "a solid that floats needs a box with walls; leave out box.periodic");
+    if (world->dimensions == 2 && hinged && (solid->hinge_axis[0] != 0 || solid->hinge_axis[1] != 0))
+        return FAIL(check, axis, "a hinge in a 2D scene has the axis [0, 0, 1]");
+    return !hinged || scene_check_plane(check, at, solid->hinge_at);
+}
+
 bool scene_check_solid(const Check *check, int index)
 {
     const SolidDef *solid = &check->scene->world.solids[index];
@@ -33,6 +58,8 @@ bool scene_check_solid(const Check *check, int index)
         return false;
     if (solid->motion_count == 0 && scene_outside_box(check, solid->centre) > solid_reach(solid))
         return FAIL(check, path, "the solid is outside the box, and does not move; no fluid comes there");
+    if (!check_floating(check, solid, path))
+        return false;
     snprintf(key, sizeof key, "%s.motion", path);
     for (int m = 0; m < solid->motion_count; m++)
         if (!scene_check_motion(check, key, m, &solid->motions[m]))

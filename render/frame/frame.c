@@ -82,7 +82,7 @@ static void add_solids(const Frame *frame, double time, float low[2], float high
     for (int i = 0; i < frame->world->solid_count; i++) {
         BoxState pose;
         float at[3], in_light[3];
-        solid_pose(&frame->world->solids[i], time, &pose);
+        solid_pose_in(&frame->world->solids[i], time, &frame->floating[i], &pose);
         for (int k = 0; k < 3; k++)
             at[k] = (float)pose.position[k];
         matrix_transform(frame->box_to_world, at, at);
@@ -178,6 +178,7 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
                      .height = target->height,
                      .def = def,
                      .world = subject->world,
+                     .floating = particles->floating,
                      .target = target,
                      .particle_radius = radii.drawn,
                      .particle_reach = radii.reach,

@@ -30,6 +30,7 @@ typedef struct Frame {
     int width, height; /* pixels */
     const ViewDef *def;
     const WorldDef *world;
+    const BoxState *floating; /* poses of its solids that float: ParticleBuffers.floating */
     const Target *target;
     GlTimer *timer;     /* NULL: not measured */
     ViewCounts *counts; /* NULL: not counted */

@@ -124,7 +124,7 @@ void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame 
     for (int i = 0; i < world->solid_count; i++) {
         BoxState pose;
         float to_world[16];
-        solid_pose(&world->solids[i], particles->time, &pose);
+        solid_pose_in(&world->solids[i], particles->time, &particles->floating[i], &pose);
         camera_box_matrix(&pose, to_world);
         matrix_multiply(frame->box_to_world, to_world, to_world);
         matrix_multiply(frame->camera.view, to_world, block.solids[i].to_eye);

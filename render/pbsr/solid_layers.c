@@ -105,18 +105,16 @@ static void turn_of(const BoxState *pose, float turn[3][3])
     }
 }
 
-static void see_from(StillLayer *still, const SolidDef *solid, double time, const SetSight *sight)
+static void see_from(StillLayer *still, const BoxState *pose, const SetSight *sight)
 {
-    BoxState pose;
-    solid_pose(solid, time, &pose);
-    turn_of(&pose, still->turn);
+    turn_of(pose, still->turn);
     still->sight = *sight;
     for (int r = 0; r < 3; r++)
         for (int k = 0; k < 3; k++) {
             still->sight.row[r][k] = 0;
             for (int i = 0; i < 3; i++)
                 still->sight.row[r][k] += sight->row[r][i] * still->turn[i][k];
-            still->sight.row[r][3] += sight->row[r][k] * (float)pose.position[k];
+            still->sight.row[r][3] += sight->row[r][k] * (float)pose->position[k];
         }
 }
 
@@ -143,13 +141,15 @@ void solid_layers_follow(SolidLayers *layers, const PbsrDef *def, double time, c
         const SolidDef *solid = &world->solids[i];
         const unsigned number = number_of(def, layers->layer, world, i);
         StillLayer *still = &layers->still[i];
+        BoxState pose;
         still->moving = layers->moving;
         if (!same(layers, i, solid, def, frame->slab, number, count))
             begin(still, solid, def, frame->slab, i, count);
         still->followed = true;
         layers->shapes[i] = *solid;
         layers->numbers[i] = number;
-        see_from(still, solid, time, sight);
+        solid_pose_in(solid, time, &frame->floating[i], &pose);
+        see_from(still, &pose, sight);
         if (still->begun)
             (void)still_layer_see(still, &def->layers[layers->layer], true, number);
     }

@@ -12,6 +12,7 @@ void particle_buffers_describe(const WorldInfo *info, ParticleBuffers *out)
                              .box = info->box,
                              .time = info->time,
                              .step = info->step};
+    memcpy(out->floating, info->floating, sizeof out->floating);
     memcpy(out->box_size, info->box_size, sizeof out->box_size);
     memcpy(out->gravity, info->gravity, sizeof out->gravity);
 }

@@ -61,6 +61,7 @@ typedef struct ParticleBuffers {
     double support_radius;                  /* h, m */
     double box_size[3];                     /* m */
     BoxState box;                           /* pose of the same state */
+    BoxState floating[SOLIDS_MAX];          /* of solids that float: WorldInfo.floating */
     double gravity[3];                      /* in the box's frame, m/s2 */
     double time;                            /* s */
     uint64_t step;

@@ -150,6 +150,15 @@ void solid_pose(const SolidDef *solid, double time, BoxState *pose)
     quat_multiply(hand.orientation, pose->orientation, pose->orientation);
 }
 
+void solid_pose_in(const SolidDef *solid, double time, const BoxState *floating, BoxState *pose)
+{
+    const double *q = floating->orientation;
+    if (solid_floats(solid) && (q[0] != 0 || q[1] != 0 || q[2] != 0 || q[3] != 0))
+        *pose = *floating;
+    else
+        solid_pose(solid, time, pose);
+}
+
 static double block_distance(const double half[3], int dimensions, const double x[3])
 {
     const int axes = dimensions == 2 ? 2 : 3;
@@ -245,7 +254,7 @@ double solid_reach(const SolidDef *solid)
 /* How far its motions carry it along the axis, m. */
 static double way_along(const SolidDef *solid, int axis)
 {
-    double way = 0;
+    double way = solid_floats(solid) ? INFINITY : 0;
     for (int i = 0; i < solid->motion_count; i++) {
         const Motion *motion = &solid->motions[i];
         const double along = fabs(motion->axis[axis]) / length(motion->axis);

@@ -1,4 +1,5 @@
-/* Solids: bodies in the box, at rest in it or moving on a prescribed path, that the fluid flows around.
+/* Solids: bodies in the box, at rest in it, moving on a prescribed path or by the fluid, that it flows
+   around.
 
    A solid has a frame of its own: a sphere is centred there, a box has its edges along the axes, a cylinder
    lies along y, a bowl (half of a hollow sphere) opens towards +y, a mesh has the middle of the block around
@@ -72,6 +73,8 @@ typedef struct SolidDef {
     int motion_count;
     Motion motions[MOTIONS_MAX]; /* act together, as the box's own do; turns go about the centre */
     SolidHand hand;              /* zero: nobody has moved it */
+    double density;              /* kg/m3: more than 0: no motions, fluid and gravity move it (sim/body), */
+    double hinge_at[3], hinge_axis[3]; /* about this axis alone, fixed to the box; 0 0 0: freely */
 } SolidDef;
 
 const char *solid_name(SolidKind kind);
@@ -95,8 +98,23 @@ bool solid_hand_move(SolidHand *hand, const double at[3], const double turn[4], 
 /* The turn by `angle_deg` about `axis`. */
 void solid_turn(const double axis[3], double angle_deg, double q[4]);
 
-/* Where the solid's frame is at `time` (s), in the box's frame, and how it moves there. */
+/* Where the solid's frame is at `time` (s), in the box's frame, and how it moves there; of one that is free
+   to move, where it began. */
 void solid_pose(const SolidDef *solid, double time, BoxState *pose);
+
+/* Whether fluid moves it; whether anything does. */
+static inline bool solid_floats(const SolidDef *solid)
+{
+    return solid->density > 0;
+}
+static inline bool solid_moves(const SolidDef *solid)
+{
+    return solid->motion_count > 0 || solid_floats(solid);
+}
+
+/* The same as solid_pose, of a state that has `floating` as the pose of this solid if it floats; all 0: the
+   state does not say, and it is where it began. */
+void solid_pose_in(const SolidDef *solid, double time, const BoxState *floating, BoxState *pose);
 
 /* Signed distance of x (the solid's frame, m) from the surface: less than 0 inside; outside it is exact,
    inside no more than the true depth; of a mesh as sim/mesh/distance.h has it. In two dimensions x[2] must be

@@ -12,20 +12,25 @@ static void store(const double v[3], float out[3])
         out[k] = (float)v[k];
 }
 
-void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose)
+void solid_pose_of(const BoxState *at, SolidPose *pose)
 {
     static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    BoxState at;
-    solid_pose(solid, time, &at);
-    store(at.position, pose->x);
-    store(at.velocity, pose->v);
-    store(at.angular_velocity, pose->w);
+    store(at->position, pose->x);
+    store(at->velocity, pose->v);
+    store(at->angular_velocity, pose->w);
     for (int column = 0; column < 3; column++) {
         double turned[3];
-        quat_rotate(at.orientation, axes[column], turned);
+        quat_rotate(at->orientation, axes[column], turned);
         for (int row = 0; row < 3; row++)
             pose->r[row][column] = (float)turned[row];
     }
+}
+
+void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose)
+{
+    BoxState at;
+    solid_pose(solid, time, &at);
+    solid_pose_of(&at, pose);
 }
 
 void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step)

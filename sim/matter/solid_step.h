@@ -22,6 +22,7 @@ typedef struct SolidStep {
 } SolidStep;
 
 void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose);
+void solid_pose_of(const BoxState *at, SolidPose *pose);
 
 /* From `begin` to `end`, s. */
 void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step);

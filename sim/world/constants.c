@@ -59,6 +59,23 @@ static bool solid_in_plane(const SolidDef *solid)
            (solid->kind != SOLID_BOWL || axis[2] == 0);
 }
 
+/* One that fluid moves. */
+static bool floats_check(const WorldDef *def, int index, Error *error)
+{
+    const SolidDef *solid = &def->solids[index];
+    const double *axis = solid->hinge_axis;
+    const bool hinged = axis[0] != 0 || axis[1] != 0 || axis[2] != 0;
+    if (!(solid->density >= 0) || !isfinite(solid->density))
+        return error_set(error, "solid %d: its density must be positive", index);
+    if (solid_floats(solid) && solid->motion_count > 0)
+        return error_set(error, "solid %d: has a density, and fluid moves it: it can have no motions", index);
+    if (solid_floats(solid) && (def->periodic[0] || def->periodic[1] || def->periodic[2]))
+        return error_set(error, "solid %d: has a density, and needs a box with walls all round", index);
+    if (def->dimensions == 2 && hinged && (axis[0] != 0 || axis[1] != 0))
+        return error_set(error, "solid %d: in 2D a hinge's axis is 0 0 1", index);
+    return true;
+}
+
 static bool solids_check(const WorldDef *def, Error *error)
 {
     if (def->solid_count < 0 || def->solid_count > SOLIDS_MAX)
@@ -70,7 +87,8 @@ static bool solids_check(const WorldDef *def, Error *error)
                 error, "solid %d: lengths must be positive, an axis not zero, no cylinder or mesh in 2D", i);
         if (def->dimensions == 2 && !solid_in_plane(solid))
             return error_set(error, "solid %d: leaves the plane of a 2D scene", i);
-        if (!motions_check(solid->motions, solid->motion_count, def->dimensions, error))
+        if (!motions_check(solid->motions, solid->motion_count, def->dimensions, error) ||
+            !floats_check(def, i, error))
             return false;
     }
     return true;

@@ -1,5 +1,6 @@
 #include "sim/world/sentinel.h"
 
+#include "sim/body/bodies.h"
 #include "sim/world/iterate.h"
 
 #include <math.h>
@@ -41,6 +42,17 @@ void sentinel_note_solves(World *world)
         look_at_solves(world);
 }
 
+/* They bound the next step as particles do. */
+static void look_at_bodies(World *world)
+{
+    StepState *s = &world->stepping;
+    const double speed = world->bodies ? bodies_speed(world->bodies) : 0;
+    if (!world->seen && !(speed * s->dt <= (double)world->constants.support_radius))
+        world->seen = STEP_TROUBLE_SOLID;
+    else
+        s->max_speed = fmax(s->max_speed, speed);
+}
+
 bool world_sound(World *world)
 {
     StepState *s = &world->stepping;
@@ -50,6 +62,7 @@ bool world_sound(World *world)
         s->max_speed = watch.max_speed;
         s->max_acceleration = watch.max_acceleration;
         world->seen = world->seen ? world->seen : trouble;
+        look_at_bodies(world);
         look_at_solves(world);
         world->kicked = false;
     }
@@ -86,6 +99,8 @@ static void restore(World *world)
         memcpy(world->finger.point, numbers->finger.point, sizeof world->finger.point);
     if (world->energy.until > 0) /* 0: forgotten since then, by a change that going back does not undo */
         world->energy = numbers->energy;
+    if (world->bodies)
+        bodies_load(world->bodies, &numbers->bodies);
     world->stepping.max_speed = numbers->stepping.max_speed;
     world->stepping.max_acceleration = numbers->stepping.max_acceleration;
     world->stepping.frame_left = -1;

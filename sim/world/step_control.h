@@ -66,6 +66,7 @@ typedef struct StepWatch {
 #define STEP_TROUBLES(X)                                                                                     \
     X(NONE, "")                                                                                              \
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
+    X(SOLID, "a solid that floats moves further than the support radius in one step")                        \
     X(DENSITY, "fluid is pressed to more than five times its density")                                       \
     X(ENERGY, "energy grows by a tenth without work done")                                                   \
     X(SOLVE, "a solver does not converge")                                                                   \

@@ -2,6 +2,7 @@
 #ifndef SLOSH_SUBSTEP_H
 #define SLOSH_SUBSTEP_H
 
+#include "sim/body/bodies.h"
 #include "sim/matter/solid_step.h"
 #include "sim/touch/finger.h"
 #include "sim/world/backend.h"
@@ -20,6 +21,7 @@ typedef struct Substep {
     Guide guides[GUIDES_MAX];
     FingerStep finger;               /* of who touches the fluid */
     SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
+    Bodies *bodies;                  /* solids that float; NULL: none */
     ApparentGravity apparent;        /* in the middle */
     float gravity[3];                /* in the box's axes in the middle, m/s2 */
 } Substep;
@@ -70,6 +72,10 @@ static inline void substep_kick(const Substep *step)
         step->backend->touch(step->state, &step->finger);
     if (step->guide_count > 0)
         step->backend->guide(step->state, step->guides, step->guide_count);
+    if (step->bodies && step->backend->felt)
+        step->backend->felt(step->state);
+    if (step->bodies)
+        bodies_kick(step->bodies);
 }
 
 #endif

@@ -120,7 +120,8 @@ void world_forces(World *world, Forces *forces);
 /* False, and nothing of use in the arrays, when memory is short. */
 bool world_read(World *world, const ParticleArrays *out);
 
-/* A hash of id, position and velocity of every particle in the order of their ids: equal for equal bits; 0
+/* A hash of id, position and velocity of every particle in the order of their ids, and of where solids that
+   float are and go: equal for equal bits; 0
    when memory is short. */
 uint64_t world_hash(World *world);
 

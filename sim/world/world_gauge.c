@@ -1,5 +1,6 @@
 /* What is plotted of a world while it runs: asked for now, answered when it is there; and what box and solids
    feel, asked for once. */
+#include "sim/body/bodies.h"
 #include "sim/world/world_struct.h"
 
 void world_gauge_ask(World *world)
@@ -31,6 +32,10 @@ bool world_feel(World *world, Error *error)
     if (!world->backend->feel)
         return error_set(error, "backend %s sums no forces; use backend cpu or compute",
                          world->backend->name);
+    if (world->bodies) { /* they have summed them since the start */
+        bodies_tell(world->bodies, &world->felt);
+        return world->feels = true;
+    }
     world->feels = world->backend->feel(world->state, &world->felt, error);
     return world->feels;
 }

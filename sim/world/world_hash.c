@@ -1,4 +1,4 @@
-#include "sim/world/world.h"
+#include "sim/world/world_struct.h"
 
 #include <stdlib.h>
 
@@ -38,6 +38,9 @@ uint64_t world_hash(World *world)
             hash = hash_bytes(hash, &out.position[4 * i], 3 * sizeof(float));
             hash = hash_bytes(hash, &out.velocity[4 * i], 3 * sizeof(float));
         }
+        for (int k = 0; k < world->def.solid_count; k++)
+            if (solid_floats(&world->def.solids[k]))
+                hash = hash_bytes(hash, &info.floating[k], sizeof info.floating[k]);
     }
     free(out.position);
     free(out.velocity);

@@ -1,5 +1,6 @@
 #include "sim/world/world_state.h"
 
+#include "sim/body/bodies.h"
 #include "sim/world/energy_watch.h"
 #include "sim/world/sentinel.h"
 #include "sim/world/world_struct.h"
@@ -62,6 +63,8 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .pours = world->pours,
     };
     live_save(&def, numbers->live);
+    if (world->bodies)
+        bodies_save(world->bodies, &numbers->bodies);
 }
 
 static bool not_sound(const World *world, Error *error)
@@ -167,6 +170,8 @@ bool world_load(World *world, const WorldState *state, Error *error)
     const WorldNumbers *numbers = &state->numbers;
     if (!numbers_check(numbers, error) || !particles_check(world, state, error))
         return false;
+    if (world->bodies && !bodies_sane(world->bodies, &numbers->bodies))
+        return error_set(error, "the saved state does not say where the solids that float are");
     const WorldDef before = world->def;
     WorldDef def = before;
     Births births = {0};
@@ -192,6 +197,8 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->finger = numbers->finger;
     world->shut = (uint64_t)numbers->shut;
     world->pours = numbers->pours;
+    if (world->bodies)
+        bodies_load(world->bodies, &numbers->bodies);
     world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
     world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);

@@ -1,4 +1,5 @@
 /* How a world begins: its particles, from the fills or as they are given. */
+#include "sim/body/bodies.h"
 #include "sim/matter/balance.h"
 #include "sim/matter/fill.h"
 #include "sim/matter/packing.h"
@@ -292,6 +293,18 @@ static bool initial_check(const WorldDef *def, const InitialState *initial, Erro
     return true;
 }
 
+/* Solids that float, with the forces that move them. */
+static bool start_bodies(World *world, Error *error)
+{
+    const BodiesIn in = {.def = &world->def,
+                         .walls = &world->constants.walls,
+                         .reach = (double)world->constants.support_radius,
+                         .sounds = !world->method->incompressible,
+                         .leaps = world->method->leaps};
+    return bodies_create(&world->bodies, &in, error) &&
+           (!world->bodies || world->backend->feel(world->state, bodies_felt(world->bodies), error));
+}
+
 bool world_start(World *world, Error *error)
 {
     Seeds seeds = {0};
@@ -309,7 +322,7 @@ bool world_start(World *world, Error *error)
             world->backend->create(&world->constants, &world->def, &initial, world->capacity, error);
         for (size_t i = 0; i < initial.count; i++)
             world->mass += (double)world->constants.mass[initial.fluid ? initial.fluid[i] : 0];
-        ok = world->state != NULL;
+        ok = world->state && start_bodies(world, error);
     }
     seeds_free(&seeds);
     world->def.initial = NULL;

@@ -4,6 +4,7 @@
 #define SLOSH_WORLD_STATE_H
 
 #include "sim/base/births.h"
+#include "sim/body/body_state.h"
 #include "sim/world/column.h"
 #include "sim/world/live.h"
 #include "sim/world/method.h"
@@ -44,6 +45,7 @@ typedef struct WorldNumbers {
     double
         shut; /* which gates of emitters and drains are, as the bits of a whole number: sim/matter/flow.h */
     double pours; /* s: since when the finger does so */
+    BodyStates bodies; /* solids that float */
 } WorldNumbers;
 
 enum {

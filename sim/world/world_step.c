@@ -46,6 +46,8 @@ void world_settle(World *world)
     SolidPose pose[SOLIDS_MAX];
     for (int i = 0; i < world->def.solid_count; i++)
         solid_pose_at(&world->def.solids[i], world_time_at(world, (double)world->step), &pose[i]);
+    if (world->bodies)
+        bodies_poses(world->bodies, NULL, pose);
     if (world->def.solid_count > 0)
         world->backend->pose(world->state, pose);
     world->backend->grid(world->state);
@@ -157,6 +159,7 @@ void world_destroy(World *world)
     world_state_free(&world->good);
     births_free(&world->births);
     free(world->layer);
+    bodies_destroy(world->bodies);
     free(world);
 }
 
@@ -216,6 +219,14 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     quat_rotate_inverse(middle.orientation, world->def.gravity, gravity);
     for (int k = 0; k < 3; k++)
         step->gravity[k] = (float)gravity[k];
+    step->bodies = world->bodies;
+    if (world->bodies)
+        bodies_begin(world->bodies, &(BodiesStep){.time = world_time_at(world, at),
+                                                  .dt = dt,
+                                                  .box = {begin, middle, world->box},
+                                                  .apparent = &step->apparent,
+                                                  .gravity = step->gravity,
+                                                  .solids = step->solids});
 }
 
 /* The size of the next step. Where it differs from the last step's, time counts on from here. */
@@ -280,6 +291,13 @@ void world_tally_anew(World *world)
     world->tally = (SolveTally){0};
 }
 
+static void end_of_bodies(World *world)
+{
+    if (world->backend->felt)
+        world->backend->felt(world->state);
+    bodies_end(world->bodies);
+}
+
 bool world_substep(World *world, StageClock *clock, Error *error)
 {
     Substep step;
@@ -303,6 +321,8 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     substep_whole(&step, world->method->substep);
     if (world->backend->leave)
         world->backend->leave(world->state);
+    if (world->bodies)
+        end_of_bodies(world);
     world->kicked = true;
     count_step(world);
     if (world->backend->gpu)
@@ -444,6 +464,8 @@ void world_info(const World *world, WorldInfo *info)
     info->solved.projects = world->method->solvers[0].name != NULL;
     info->solved.rubs = world->constants.implicit.on;
     memcpy(info->limited, world->limited, sizeof info->limited);
+    if (world->bodies)
+        bodies_poses(world->bodies, info->floating, NULL);
     memcpy(info->box_size, world->def.box_size, sizeof info->box_size);
     memcpy(info->hand.position, world->filter.position, sizeof info->hand.position);
     memcpy(info->hand.orientation, world->filter.orientation, sizeof info->hand.orientation);

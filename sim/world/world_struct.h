@@ -37,6 +37,7 @@ struct World {
     BoxState box;                       /* at the present time, the hand's part included */
     FingerState finger;                 /* at the present time */
     double pours;                       /* s: since when the finger does so */
+    struct Bodies *bodies;              /* sim/body/bodies.h; NULL: no solid floats */
     uint64_t shut;                      /* gates of emitters and drains, a bit each */
     double mass;                        /* of the initial fluid, kg */
     EnergyMark energy;                  /* of sim/world/energy_watch.h */

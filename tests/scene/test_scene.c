@@ -186,6 +186,23 @@ static void unknown_keys_name_the_nearest_known_one(void **state)
                    "scene.yaml:8:38: unknown key 'frequency'");
 }
 
+/* What floats needs a density, walls around it and no other motion. */
+static void what_cannot_float_is_refused(void **state)
+{
+    (void)state;
+#define BALL "solids:\n  - sphere: {centre: [0, 0.6, 0], radius: 0.1}\n"
+    assert_refused(
+        LEAST BALL "    density: 300\n    motion: [{spin: {axis: [0, 1, 0], rate: 1}}]\n",
+        "scene.yaml:9:14: fluid moves a solid with a density; leave out its motion, or the density");
+    assert_refused(LEAST BALL "    hinge: {at: [0, 0.6, 0], axis: [0, 0, 1]}\n",
+                   "scene.yaml:9:12: nothing turns a solid without a density; write `density`, in kg/m3");
+    assert_refused(LEAST BALL "    density: 300\n    hinge: {at: [0, 0.6, 0]}\n",
+                   "scene.yaml:10:12: the hinge has no direction; write its `axis`, such as [0, 0, 1]");
+    assert_refused(LEAST BALL "    density: -1\n",
+                   "scene.yaml:9:14: solids[0].density must be 0 to 1e+06 kg/m3, not -1");
+#undef BALL
+}
+
 /* What a fill calls a ball is a sphere among solids. */
 static void a_kind_by_another_lists_name_is_found(void **state)
 {
@@ -462,6 +479,7 @@ int main(void)
         cmocka_unit_test(what_is_too_much_is_refused_at_once),
         cmocka_unit_test(unknown_keys_name_the_nearest_known_one),
         cmocka_unit_test(a_kind_by_another_lists_name_is_found),
+        cmocka_unit_test(what_cannot_float_is_refused),
         cmocka_unit_test(wrong_types_are_refused),
         cmocka_unit_test(numbers_must_be_finite_and_in_range),
         cmocka_unit_test(what_is_missing_is_named),

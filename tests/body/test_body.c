@@ -1,0 +1,252 @@
+/* Bodies by themselves: what they weigh, how they fly, hang and hit. */
+#include "../mesh_models.h"
+#include "../sim/fixture.h"
+
+#include "sim/body/body_contact.h"
+
+static void near(double value, double expected, double within, const char *what)
+{
+    if (!(fabs(value - expected) <= within))
+        fail_msg("%s is %.9g, not %.9g", what, value, expected);
+}
+
+/* A box of 1 x 2 x 3 m of a mesh, turned and moved: the same mass, principal moments and centre. */
+static void mesh_weighs_what_its_box_does(void **state)
+{
+    (void)state;
+    static const double size[3] = {1, 2, 3}, at[3] = {0.3, -0.2, 0.5};
+    MeshShape shape = {.triangles = model_room(6 * 4 * 4, 12 * 3 * 3)};
+    const SolidDef box = {.kind = SOLID_BOX, .size = {1, 2, 3}, .density = 500};
+    const SolidDef mesh = {.kind = SOLID_MESH, .mesh = {.scale = 1, .shape = &shape}, .density = 500};
+    BodyMass of_box, of_mesh;
+    double q[4];
+    model_box(&shape.triangles, (double[3]){0}, size, 3);
+    solid_turn((double[3]){1, 2, -0.5}, 40, q);
+    for (size_t i = 0; i < shape.triangles.vertex_count; i++) {
+        float *v = shape.triangles.vertex[i];
+        double x[3] = {(double)v[0], (double)v[1], (double)v[2]};
+        quat_rotate(q, x, x);
+        for (int k = 0; k < 3; k++)
+            v[k] = (float)(x[k] + at[k]);
+    }
+    body_mass(&box, 3, &of_box);
+    body_mass(&mesh, 3, &of_mesh);
+    near(of_box.mass, 3000, 1e-9, "the box's mass");
+    near(of_mesh.mass, 3000, 1e-3, "the mesh's mass");
+    for (int k = 0; k < 3; k++)
+        near(of_mesh.centre[k], at[k], 1e-6, "its centre");
+    for (int k = 0; k < 3; k++) {
+        const double expected = 3000.0 / 12 * (14 - size[k] * size[k]);
+        double axis[3] = {k == 0, k == 1, k == 2}, off = INFINITY, own[4];
+        near(of_box.inertia[k], expected, 1e-9, "a moment of the box");
+        quat_rotate(q, axis, axis); /* some principal axis of the mesh is this one, with this moment */
+        memcpy(own, of_mesh.axes, sizeof own);
+        for (int p = 0; p < 3; p++) {
+            double other[3] = {p == 0, p == 1, p == 2};
+            quat_rotate(own, other, other);
+            const double along = fabs(axis[0] * other[0] + axis[1] * other[1] + axis[2] * other[2]);
+            off = fmin(off, fabs(along - 1) + fabs(of_mesh.inertia[p] / expected - 1));
+        }
+        near(off, 0, 1e-4, "the mesh's nearest principal axis");
+    }
+    triangles_free(&shape.triangles);
+}
+
+/* Textbook values of the others; a bowl of a thick wall beside its half ball without a hole. */
+static void shapes_weigh_what_books_say(void **state)
+{
+    (void)state;
+    BodyMass m;
+    body_mass(&(SolidDef){.kind = SOLID_SPHERE, .radius = 2, .density = 3}, 3, &m);
+    near(m.mass, 32 * M_PI, 1e-9, "a ball's mass");
+    near(m.inertia[1], 0.4 * m.mass * 4, 1e-9, "its moment");
+    body_mass(&(SolidDef){.kind = SOLID_SPHERE, .radius = 2, .density = 3}, 2, &m);
+    near(m.inertia[2], 0.5 * 12 * M_PI * 4, 1e-9, "a disc's moment");
+    body_mass(&(SolidDef){.kind = SOLID_CYLINDER, .radius = 1, .height = 3, .density = 2}, 3, &m);
+    near(m.inertia[1], 0.5 * 6 * M_PI, 1e-9, "a cylinder's moment about its axis");
+    near(m.inertia[0], 6 * M_PI * (3 + 9) / 12, 1e-9, "and across");
+    body_mass(&(SolidDef){.kind = SOLID_BOWL, .radius = 1e-9, .thickness = 1, .density = 1}, 3, &m);
+    near(m.centre[1], -0.375, 1e-6, "a half ball's centre");
+    near(m.inertia[1], 0.4 * m.mass, 1e-6, "its moment about y");
+    near(m.inertia[0], 83.0 / 320 * m.mass, 1e-6, "and across");
+    body_mass(&(SolidDef){.kind = SOLID_BOWL, .radius = 1, .thickness = 1e-6, .density = 1}, 3, &m);
+    near(m.centre[1], -0.5, 1e-5, "a thin bowl's centre");
+}
+
+/* A block that tumbles about its middle axis, which is unstable, in a box that turns and is shaken: energy
+   and angular momentum, seen from the world, stay; its centre flies straight. */
+static void tumbling_keeps_momentum(void **state)
+{
+    (void)state;
+    enum { STEPS = 4000 };
+    static const double dt = 0.0025;
+    static const Motion motions[] = {
+        {.kind = MOTION_SPIN, .axis = {0, 1, 0.3}, .rate = 2},
+        {.kind = MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.2, .frequency = 1}};
+    Body body;
+    BodyState now;
+    BoxState from, to;
+    double begin[3], L0[3], energy0 = 0, v_world[3];
+    body_make(&body,
+              &(SolidDef){.kind = SOLID_BOX, .size = {0.1, 0.2, 0.4}, .axis = {0, 1, 0}, .density = 300}, 3);
+    body_start(&body, (double[3]){0}, &now);
+    now.pose.angular_velocity[1] = 3, now.pose.angular_velocity[0] = 0.01, now.pose.velocity[2] = 0.5;
+    box_state_at(motions, 2, 1, 0, &from);
+    for (int i = 0; i <= STEPS; i++) {
+        double w[3], axes[4], own[3], x[3], x_world[3], L[3], energy = 0;
+        box_state_at(motions, 2, 1, dt * i, &to);
+        if (i > 0)
+            body_drift(&body, &from, &to, dt, &now);
+        from = to;
+        quat_rotate(to.orientation, now.pose.angular_velocity, w);
+        for (int k = 0; k < 3; k++)
+            w[k] += to.angular_velocity[k];
+        quat_multiply(to.orientation, now.pose.orientation, axes);
+        quat_multiply(axes, body.mass.axes, axes);
+        quat_rotate_inverse(axes, w, own);
+        for (int k = 0; k < 3; k++) {
+            energy += 0.5 * body.mass.inertia[k] * own[k] * own[k];
+            own[k] *= body.mass.inertia[k];
+        }
+        quat_rotate(axes, own, L);
+        body_centre(&body, &now, x);
+        double v[3];
+        body_velocity(&now.pose, x, v);
+        box_to_world(&to, x, v, x_world, i == 0 ? v_world : v);
+        if (i == 0) {
+            memcpy(begin, x_world, sizeof begin);
+            memcpy(L0, L, sizeof L0);
+            energy0 = energy;
+        }
+        for (int k = 0; k < 3; k++) {
+            near(x_world[k], begin[k] + dt * i * v_world[k], 1e-9, "the centre's way");
+            near(L[k], L0[k], 1e-9, "angular momentum");
+        }
+        near(energy / energy0, 1, 1e-4, "energy of turning");
+    }
+}
+
+/* A rod that hangs from its end: the period of small swings, 2 pi sqrt(2 l / 3 g); and the same in a box that
+   is accelerated sideways, where it hangs aslant. */
+static void rod_swings(void **state)
+{
+    (void)state;
+    static const double dt = 1e-3, g = 10, length = 0.6;
+    const double gravity[3] = {0, -g, 0};
+    Body body;
+    BodyState now;
+    const BoxState still = {.orientation = {0, 0, 0, 1}};
+    body_make(&body,
+              &(SolidDef){.kind = SOLID_BOX,
+                          .centre = {0, -0.5 * length, 0},
+                          .size = {0.001, length, 0.001},
+                          .axis = {0, 0, 1},
+                          .density = 800,
+                          .hinge_axis = {0, 0, 2}},
+              3);
+    for (int aslant = 0; aslant < 2; aslant++) {
+        const double push = aslant ? 5 : 0, all = hypot(g, push);
+        ApparentGravity apparent = {.origin = {(float)-push, (float)-g, 0}};
+        double last = 0, crossings[3] = {0};
+        int count = 0;
+        body_start(&body, (double[3]){0}, &now);
+        now.pose.angular_velocity[2] = aslant ? 0 : 0.1;
+        for (int i = 1; i < 6000 && count < 3; i++) {
+            body_drift(&body, &still, &still, 0.5 * dt, &now);
+            body_fall(&body, gravity, &apparent, dt, &now);
+            body_drift(&body, &still, &still, 0.5 * dt, &now);
+            const double angle = atan2(now.pose.position[0], -now.pose.position[1]) + atan2(push, g);
+            if (last * angle < 0)
+                crossings[count++] = dt * (i - angle / (angle - last));
+            last = angle;
+            near(hypot(now.pose.position[0], now.pose.position[1]), 0.5 * length, 1e-12, "its length");
+        }
+        /* The second one swings by 0.46: the period is longer by 1 + a^2 / 16. */
+        const double wide = aslant ? 1 + pow(atan2(push, g), 2) / 16 : 1;
+        near(crossings[2] - crossings[0], wide * 2 * M_PI * sqrt(2 * length / (3 * all)), 2e-3, "its period");
+    }
+}
+
+/* A push moves the centre of mass and turns about it, whether of this step or left by the one before; then
+   none is left. */
+static void pushes_move_and_turn(void **state)
+{
+    (void)state;
+    const BodyFluid fluid = {.density = 1000, .sound = 1, .reach = 1, .gravity = 10};
+    for (int left = 0; left < 2; left++) {
+        const Push push = {.force = {6, 0, 0}, .torque = {0, 0, 0.5}}, none = {.force = {0}};
+        Body body;
+        BodyState now;
+        body_make(&body,
+                  &(SolidDef){.kind = SOLID_BOX, .size = {0.1, 0.2, 0.3}, .axis = {0, 1, 0}, .density = 500},
+                  3);
+        body_start(&body, (double[3]){0}, &now);
+        now.left = left ? push : none;
+        body_push(&body, &fluid, left ? &none : &push, 1e-3, &now);
+        near(now.pose.velocity[0], 6 / 3.0, 1e-12, "its speed");
+        near(now.pose.angular_velocity[2], 0.5 / (3.0 / 12 * 0.05), 1e-9, "its turning");
+        near(now.left.force[0] + now.left.torque[2], 0, 0, "what is left");
+    }
+}
+
+/* A block that falls on its corner comes to rest on the floor, flat, and never in it; one that lies on it
+   stays there; a ball rolls without gaining. */
+static void blocks_come_to_rest(void **state)
+{
+    (void)state;
+    static const double dt = 2e-3;
+    const double gravity[3] = {0, -9.81, 0};
+    const SolidDef solids[2] = {{.kind = SOLID_BOX,
+                                 .size = {0.2, 0.1, 0.3},
+                                 .centre = {0, 0.5, 0},
+                                 .axis = {1, 0.3, 1},
+                                 .angle_deg = 35,
+                                 .density = 500},
+                                {.kind = SOLID_BOX,
+                                 .size = {0.2, 0.2, 0.2},
+                                 .centre = {0.03, 0.9, 0.02},
+                                 .axis = {0, 1, 0},
+                                 .density = 500}};
+    Walls walls;
+    Body bodies[2];
+    BodyStates now = {0};
+    BoxState fixed[2];
+    const BoxState still = {.orientation = {0, 0, 0, 1}};
+    walls_place(&walls, 3, (double[3]){1, 2, 1}, (bool[3]){false}, 0.05);
+    const BodyWorld world = {3, 2, &walls, solids, bodies, fixed, 9.81, 0.05};
+    for (int b = 0; b < 2; b++) {
+        body_make(&bodies[b], &solids[b], 3);
+        body_start(&bodies[b], gravity, &now.of[b]);
+    }
+    double deepest = 0, fastest = 0;
+    for (int i = 0; i < 3000; i++) {
+        for (int b = 0; b < 2; b++) {
+            body_drift(&bodies[b], &still, &still, 0.5 * dt, &now.of[b]);
+            body_fall(&bodies[b], gravity, NULL, dt, &now.of[b]);
+        }
+        body_contacts_hit(&world, dt, &now);
+        for (int b = 0; b < 2; b++)
+            body_drift(&bodies[b], &still, &still, 0.5 * dt, &now.of[b]);
+        body_contacts_part(&world, &now);
+        for (int b = 0; b < 2; b++)
+            for (int p = 0; p < bodies[b].hull.count; p++) {
+                double x[3];
+                quat_rotate(now.of[b].pose.orientation, bodies[b].hull.point[p], x);
+                deepest = fmin(deepest, x[1] + now.of[b].pose.position[1]);
+                const double *v = now.of[b].pose.velocity;
+                fastest = i > 2500 ? fmax(fastest, fabs(v[0]) + fabs(v[1]) + fabs(v[2])) : 0;
+            }
+    }
+    near(deepest, 0, 1e-3, "the deepest corner");
+    near(fastest, 0, 0.02, "the last speed");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mesh_weighs_what_its_box_does), cmocka_unit_test(shapes_weigh_what_books_say),
+        cmocka_unit_test(tumbling_keeps_momentum),       cmocka_unit_test(rod_swings),
+        cmocka_unit_test(pushes_move_and_turn),          cmocka_unit_test(blocks_come_to_rest),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,78 @@
+/* Solids that float on the backend `compute` against `cpu`, from the same start; and from a saved state. */
+#include "tests/gl/compare.h"
+
+/* One that is free and one on a hinge. */
+static WorldDef floating_def(const char *method)
+{
+    WorldDef def = fixture_def(1.2, 0.9, 0);
+    def.dimensions = 2;
+    def.spacing = 0.05;
+    def.sound_speed = 15;
+    def.dt = 0.002;
+    snprintf(def.method, sizeof def.method, "%s", method);
+    *world_threads(&def) = 1;
+    fixture_block(&def, 0, -0.6, 0, 0, 0.6, 0.4, 0);
+    def.solid_count = 2;
+    def.solids[0] = (SolidDef){.kind = SOLID_BOX,
+                               .centre = {-0.2, 0.4, 0},
+                               .size = {0.3, 0.2, 1},
+                               .axis = {0, 0, 1},
+                               .angle_deg = 15,
+                               .density = 300};
+    def.solids[1] = (SolidDef){.kind = SOLID_SPHERE,
+                               .centre = {0.35, 0.4, 0},
+                               .radius = 0.12,
+                               .density = 600,
+                               .hinge_at = {0.3, 0.4, 0},
+                               .hinge_axis = {0, 0, 1}};
+    return def;
+}
+
+static void compute_moves_them_as_cpu_does(void **state)
+{
+    (void)state;
+    for (int m = 0; m < 4; m++) {
+        const WorldDef def = floating_def(fixture_method_names[m]);
+        World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+        substeps(cpu, 10);
+        substeps(gpu, 10);
+        const WorldInfo one = info_of(cpu), two = info_of(gpu);
+        for (int s = 0; s < 2; s++) {
+            const BoxState *a = &one.floating[s], *b = &two.floating[s];
+            double moved = 0, off = 0;
+            for (int k = 0; k < 3; k++) {
+                moved += fabs(a->velocity[k]) + fabs(a->angular_velocity[k]);
+                off += fabs(a->velocity[k] - b->velocity[k]) +
+                       fabs(a->angular_velocity[k] - b->angular_velocity[k]);
+            }
+            if (!(moved > 0.01 && off < 0.02 * moved))
+                fail_msg("%s, solid %d: moves by %g, and is off by %g", fixture_method_names[m], s, moved,
+                         off);
+        }
+        world_destroy(cpu);
+        world_destroy(gpu);
+    }
+}
+
+static void what_is_saved_goes_on_the_same(void **state)
+{
+    (void)state;
+    const WorldDef def = floating_def("mueller");
+    World *gpu = world_on(def, "compute"), *later = world_on(def, "compute");
+    substeps(gpu, 10);
+    copy_state(gpu, later);
+    substeps(gpu, 10);
+    substeps(later, 10);
+    assert_true(world_hash(gpu) == world_hash(later));
+    world_destroy(gpu);
+    world_destroy(later);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(compute_moves_them_as_cpu_does),
+        cmocka_unit_test(what_is_saved_goes_on_the_same),
+    };
+    return cmocka_run_group_tests(tests, compare_setup, context_teardown);
+}
