@@ -21,6 +21,8 @@
     X(bucket)                                                                                                \
     X(sloshing)                                                                                              \
     X(rolling)                                                                                               \
+    X(floating)                                                                                              \
+    X(heaving)                                                                                               \
     X(wave)                                                                                                  \
     X(ellipse)                                                                                               \
     X(collision)                                                                                             \
