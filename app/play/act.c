@@ -20,10 +20,16 @@ static void view_changed(Play *play)
     picture_set_view(&play->picture, &play->model.open, views_panel(&play->views, scene), &play->notice);
 }
 
+static void title_window(const Play *play)
+{
+    char title[192];
+    snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
+    window_title(play->window, title);
+}
+
 /* Another scene is open: nothing of the one before is in the hand, on its way or in the picture. */
 static void follow_scene(Play *play)
 {
-    char title[192];
     input_begin(&play->input);
     grip_begin(&play->grip);
     readout_begin(&play->readout);
@@ -37,8 +43,7 @@ static void follow_scene(Play *play)
     meter_forget(&play->meter);
     play->picture.dirty = true;
     play->overlay.timeline |= !play->model.open.source->simulates || play->model.open.session;
-    snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
-    window_title(play->window, title);
+    title_window(play);
     if (play->picture.panels)
         view_changed(play);
 }
@@ -49,6 +54,23 @@ bool act_open(Play *play, const char *scene, const SceneSettings *settings, Erro
     if (opened)
         follow_scene(play);
     return opened;
+}
+
+void act_follow_again(Play *play, bool begun, bool views)
+{
+    Scene *scene = &play->model.open.scene;
+    play->picture.dirty = true;
+    if (begun) {
+        follow_scene(play);
+        return;
+    }
+    title_window(play);
+    if (!views)
+        return;
+    views_open(&play->views, scene, &play->model.file_scene);
+    play->camera.held = false;
+    grip_begin(&play->grip);
+    view_changed(play);
 }
 
 static void open_file(Play *play, const char *path)

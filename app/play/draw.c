@@ -135,6 +135,8 @@ static const char *words_of(const Play *play)
     const char *notice = notice_now(&play->notice);
     if (notice)
         return notice;
+    if (*play->reload.broken.message)
+        return play->reload.broken.message;
     return play->model.status.failed   ? play->model.status.message
            : play->model.has_particles ? NULL
                                        : "filling the box ...";

@@ -3,11 +3,11 @@
 #ifndef SLOSH_PLAY_OVERLAY_H
 #define SLOSH_PLAY_OVERLAY_H
 
+#include "app/meter/meter.h"
 #include "app/panel/panel.h"
 #include "app/panel/timeline.h"
 #include "app/panel/widget_input.h"
 #include "app/play/ask.h"
-#include "app/play/meter.h"
 #include "app/play/model.h"
 #include "app/shelf/cards.h"
 #include "app/window/window.h"

@@ -158,6 +158,7 @@ bool play_scene_close(PlayScene *open, double patience_ms)
         return false;
     company_destroy(open->company);
     recording_destroy(&open->recording);
+    free(open->renewed);
     *open = (PlayScene){.source = NULL};
     return true;
 }
