@@ -34,7 +34,9 @@ typedef struct PanelData {
     const ProbeSample *probes; /* the same of the scene's probes */
     int probe_count;
     uint64_t shut; /* gates of emitters and drains: sim/matter/flow.h */
-    size_t particles;
+    size_t particles, particles_at_start;
+    double particles_wished; /* of PanelEvents, while the mouse holds it; else 0 */
+    size_t opened;           /* the number of the scene among those that were opened */
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
     StepLimit limit;         /* what bounded it */
@@ -63,6 +65,8 @@ typedef struct PanelEvents {
     int command;                                           /* a PlayCommand, or PLAY_NONE */
     bool gated;                                            /* these gates shall be shut: */
     uint64_t shut;
+    double particles;    /* more than 0: about so many are wished, */
+    char again[64];      /* or "path=value", with which the scene shall begin anew; "": not */
     bool watches;        /* the gauges are shown, */
     bool watches_probes; /* and what probes read */
     int tuned;           /* number of a motion device, or 0: it shall have these two */

@@ -1,6 +1,8 @@
 /* Does what is asked of the window, between two pictures. */
 #include "app/play/parts.h"
 
+#include "app/play/again.h"
+
 #include "render/frame/colormap.h"
 #include "render/frame/overlay.h"
 #include "render/frame/view.h"
@@ -71,6 +73,20 @@ void act_follow_again(Play *play, bool begun, bool views)
     play->camera.held = false;
     grip_begin(&play->grip);
     view_changed(play);
+}
+
+/* With another number of particles, or with a preset. */
+static void begin_again(Play *play, const char *setting, double particles)
+{
+    Error error = {{0}};
+    SettingList more = {.count = 0};
+    if (setting)
+        setting_list_add(&more, setting);
+    if (again_open(&play->model, &more, (size_t)particles, &error))
+        act_follow_again(play, true, true);
+    else
+        notice_error(&play->notice, error.message);
+    setting_list_free(&more);
 }
 
 static void open_file(Play *play, const char *path)
@@ -376,6 +392,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
     case PLAY_SAVE_RECORDING:
         model_save(model);
         break;
+    case PLAY_SAVE_SCENE:
+        again_save(model);
+        break;
     case PLAY_FULLSCREEN:
         window_fullscreen(play->window, !window_is_fullscreen(play->window));
         break;
@@ -477,6 +496,12 @@ static void act(Play *play, const Ask *ask)
     case ASK_SETTING:
         if (model_set(&play->model, ask->text))
             view_changed(play);
+        break;
+    case ASK_AGAIN:
+        begin_again(play, ask->text, 0);
+        break;
+    case ASK_PARTICLES:
+        begin_again(play, NULL, ask->amount[0]);
         break;
     case ASK_OPEN:
         open_file(play, ask->text);

@@ -2,7 +2,9 @@
 
 #include "app/base/path.h"
 #include "app/output/file_name.h"
+#include "app/recipe/recipe.h"
 #include "app/scene/keys.h"
+#include "app/setting/save.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -83,6 +85,19 @@ static void leave_spacing(SettingList *list)
     setting_list_remove_under(list, "particles.spacing=");
 }
 
+/* What was set before gives way to a preset that is chosen now. */
+static void give_way(SettingList *list, const SettingList *more)
+{
+    static const char PRESET[] = "preset=";
+    SettingList gone = {.count = 0};
+    for (int i = 0; i < more->count; i++)
+        for (int k = 0; k < list->count && strncmp(more->set[i], PRESET, strlen(PRESET)) == 0; k++)
+            if (recipe_concerns(more->set[i] + strlen(PRESET), list->set[k]))
+                setting_list_add(&gone, list->set[k]);
+    setting_list_remove(list, &gone);
+    setting_list_free(&gone);
+}
+
 bool again_open(Model *model, const SettingList *more, size_t particles, Error *error)
 {
     Again *again = calloc(1, sizeof *again);
@@ -96,6 +111,7 @@ bool again_open(Model *model, const SettingList *more, size_t particles, Error *
         const SceneSettings *said = &model->open.recording.settings;
         setting_list_join_scene(&all, said);
         setting_list_join(&all, &again->mine.settings);
+        give_way(&all, more);
         setting_list_join(&all, more);
         if (particles > 0)
             leave_spacing(&all);
@@ -105,6 +121,34 @@ bool again_open(Model *model, const SettingList *more, size_t particles, Error *
     setting_list_free(&again->mine.settings);
     free(again);
     return ok;
+}
+
+static bool save(Model *model, Again *again, Error *error)
+{
+    char words[512];
+    size_t size;
+    const char *text = again_text(&model->open, &size);
+    if (!again_look(model, again, error))
+        return false;
+    Saved saved = {.lost = false};
+    const Save what = {.scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
+    const bool ok = save_scene(&what, NULL, &saved, error);
+    saved_words(&saved, words, sizeof words);
+    if (ok)
+        notice_tell(model->notice, "%s", words);
+    setting_list_free(&saved.changed);
+    return ok;
+}
+
+void again_save(Model *model)
+{
+    Error error = {{0}};
+    Again *again = calloc(1, sizeof *again);
+    if (!again || !save(model, again, &error))
+        notice_error(model->notice, again ? error.message : "no memory to save the scene");
+    if (again)
+        setting_list_free(&again->mine.settings);
+    free(again);
 }
 
 /* ---- the file was written ---- */

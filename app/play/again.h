@@ -21,6 +21,9 @@ const char *again_text(const PlayScene *open, size_t *size);
    with about so many. A session that is not saved is saved first. False: all stays. */
 bool again_open(Model *model, const SettingList *more, size_t particles, Error *error);
 
+/* The scene with its settings as they stand, as a new file in the present folder; says what came of it. */
+void again_save(Model *model);
+
 typedef enum AgainResult {
     AGAIN_FAILED, /* it cannot be read; all stays */
     AGAIN_SAME,   /* nothing that counts has changed */

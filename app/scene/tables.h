@@ -30,6 +30,11 @@ bool scene_beside_path(const char *scene, const char *name, char path[1200], Err
 void scene_find_tables(const char *path, const char *bytes, size_t size, const SceneSettings *settings,
                        void (*found)(void *user, const char *what, const char *path), void *user);
 
+/* Tables, meshes and volumes are found from the scene's folder. Calls `moved` with each that a scene at
+   `output` would not find any more: its node, the path of its key, and the file's whole name. */
+typedef void FileMoved(void *user, Node *node, const char *path, const char *whole);
+void scene_move_files(Tree *tree, const char *output, FileMoved *moved, void *user);
+
 /* Whether the scene names any. */
 bool scene_has_tables(const Scene *scene);
 

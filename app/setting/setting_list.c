@@ -5,8 +5,8 @@
 
 static bool same_path(const char *a, const char *b)
 {
-    const size_t length = strcspn(a, "=");
-    return length == strcspn(b, "=") && strncmp(a, b, length) == 0;
+    const size_t length = scene_setting_key(a);
+    return length == scene_setting_key(b) && strncmp(a, b, length) == 0;
 }
 
 static void take_out(SettingList *list, int at)

@@ -58,8 +58,8 @@ APP = {
     "yaml": "base",
     "volume": "base yaml",
     "mesh_file": "base",
-    "preset": "base yaml",
-    "scene": "base metric probe yaml volume mesh_file preset",
+    "recipe": "base yaml",
+    "scene": "base metric probe yaml volume mesh_file recipe",
     "term": "scene",
     "recording": "base yaml scene",
     "hand": "base scene",
@@ -83,11 +83,11 @@ APP = {
     "window": "",
     "watch": "base",
     "meter": "base session lab",
-    "panel": "probe preset scene term hand held session shelf window",
-    "play": "base yaml preset scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
+    "panel": "probe recipe scene term hand held session shelf window",
+    "play": "base yaml recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
     "manual": "base scene session",
     "film": "base scene recording output setting session playback beside",
-    "command": "base metric probe outcome yaml preset scene recording hand device held output setting session playback export beside shelf trace case lab stability fit ablate gallery meter play manual film",
+    "command": "base metric probe outcome yaml recipe scene recording hand device held output setting session playback export beside shelf trace case lab stability fit ablate gallery meter play manual film",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]
@@ -95,7 +95,7 @@ DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "volume", "recording", "devi
 
 
 # What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
-METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/preset.c", "app/command/info.c"]
+METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/preset.c", "app/recipe/recipe_rows.c", "app/command/info.c"]
 
 # What names views beside their folders and app/case: lists.
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
