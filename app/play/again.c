@@ -151,6 +151,23 @@ void again_save(Model *model)
     free(again);
 }
 
+bool again_carry(const Model *model, Carried *out, Error *error)
+{
+    size_t size;
+    const char *text = again_text(&model->open, &size);
+    Again *again = calloc(1, sizeof *again);
+    if (!again) {
+        error_set(error, "no memory for the scene of the picture");
+        return false;
+    }
+    bool ok = again_look(model, again, error);
+    const Save what = {.scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
+    ok = ok && carry_make(&what, out, error);
+    setting_list_free(&again->mine.settings);
+    free(again);
+    return ok;
+}
+
 /* ---- the file was written ---- */
 
 /* A file on its way into the scene that runs. */
@@ -230,7 +247,7 @@ static bool shows_others(const Scene *scene)
 static bool is_live(const Renewal *renewal)
 {
     const SettingList *due = &renewal->due.settings;
-    bool views = false;
+    bool views = is_of_view(renewal->due.built);
     for (int i = 0; i < due->count; i++) {
         views |= is_of_view(due->set[i]);
         if (!is_of_view(due->set[i]) && strlen(due->set[i]) >= SIM_SETTING_SIZE)
@@ -260,7 +277,7 @@ static bool renew(Model *model, Renewal *renewal)
 {
     PlayScene *open = &model->open;
     const SettingList *due = &renewal->due.settings;
-    bool views = false;
+    bool views = is_of_view(renewal->due.built);
     for (int i = 0; i < due->count; i++) {
         views |= is_of_view(due->set[i]);
         if (!is_of_view(due->set[i]))

@@ -4,6 +4,7 @@
 #define SLOSH_PLAY_AGAIN_H
 
 #include "app/play/model.h"
+#include "app/setting/carry.h"
 #include "app/setting/differ.h"
 
 /* As its file and the command line have it, as it stands now, and what was changed in between: the settings
@@ -23,6 +24,9 @@ bool again_open(Model *model, const SettingList *more, size_t particles, Error *
 
 /* The scene with its settings as they stand, as a new file in the present folder; says what came of it. */
 void again_save(Model *model);
+
+/* The same for a picture: carry_free. */
+bool again_carry(const Model *model, Carried *out, Error *error);
 
 typedef enum AgainResult {
     AGAIN_FAILED, /* it cannot be read; all stays */

@@ -1,5 +1,6 @@
 #include "app/play/parts.h"
 
+#include "app/base/picture_text.h"
 #include "app/play/again.h"
 #include "app/scene/tables.h"
 #include "sim/base/stage.h"
@@ -20,7 +21,7 @@ static void begin(Reload *reload, const Model *model)
     size_t size;
     const char *text = again_text(open, &size);
     *reload = (Reload){.opened = model->scenes_opened};
-    if (!open->source->simulates || open->session)
+    if (!open->source->simulates || open->session || picture_text_name(open->scene.path))
         return;
     watch_add(&reload->watch, open->scene.path);
     scene_find_tables(open->scene.path, text, size, &open->recording.settings, found, &reload->watch);

@@ -1,6 +1,7 @@
 #include "app/scene/tables.h"
 
 #include "app/base/path.h"
+#include "app/base/picture_text.h"
 #include "app/base/read_file.h"
 #include "app/scene/check_parts.h"
 #include "app/scene/field_file.h"
@@ -12,6 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* A table with the bytes that it was read from. */
 typedef struct Kept {
@@ -61,8 +63,13 @@ bool scene_beside_path(const char *scene, const char *name, char path[1200], Err
 {
     const char *slash = *name == '/' ? NULL : strrchr(scene, '/');
     const int folder = slash ? (int)(slash - scene) + 1 : 0;
-    return snprintf(path, 1200, "%.*s%s", folder, scene, name) < 1200 ||
-           error_set(error, "%.300s: its path is too long", name);
+    if (snprintf(path, 1200, "%.*s%s", folder, scene, name) >= 1200)
+        return error_set(error, "%.300s: its path is too long", name);
+    char found[SCENE_PATH_SIZE];
+    Error none;
+    if (picture_text_name(scene) && access(path, F_OK) != 0 && scene_path_find(name, found, &none))
+        memcpy(path, found, sizeof found);
+    return true;
 }
 
 static const FieldTable *table_of(const Check *check, const char *key, const char *name,

@@ -21,7 +21,8 @@ bool scene_names_table(const char *text);
 /* The same of a mesh, by the endings of their formats. */
 bool scene_names_mesh(const char *text);
 
-/* The path of a file that a scene names, from the scene's folder. */
+/* The path of a file that a scene names, from the scene's folder; of one that a picture carries, else where
+ * scenes are looked for. */
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
 
 /* Calls `found` with each "table", "mesh" and "volume" that the scene in these bytes names once the settings

@@ -101,8 +101,10 @@ static void add(const Walk *walk, const Key *key, const char *shown, const char 
     walk->out->dead |= !(key->flags & KEY_LIVE) && (!idle || machine);
 }
 
-static void built_anew(const Walk *walk, const char *shown)
+static void built_anew(const Walk *walk, const Key *key, const char *shown)
 {
+    walk->out->dead |= !(key->flags & KEY_IDLE);
+    walk->out->world |= !(key->flags & KEY_IDLE);
     if (!*walk->out->built)
         snprintf(walk->out->built, PATH, "%s", shown);
 }
@@ -125,11 +127,15 @@ static void walk_list(const Key *list, const Walk *walk, const char *shown, int 
     const KeyLike *like = key_like(list);
     const int now = *(const int *)(walk->now + list->aux);
     int before = walk->before ? *(const int *)(walk->before + list->aux) : 0;
-    if (now != before && !like) {
-        built_anew(walk, shown);
+    if (now == 0 && before > 0 && list->min == 0) {
+        add(walk, list, shown, "[]");
         return;
     }
-    if (now < before) {
+    if (now != before && !like) {
+        built_anew(walk, list, shown);
+        return;
+    }
+    if (now < before) { /* of views: all are said anew */
         add(walk, list, shown, "[]");
         before = 0;
     }
@@ -157,7 +163,7 @@ static void walk_mapping(const Key *key, const Walk *walk, const char *shown, in
     const bool was = !is_absent(key, walk->before), is = !is_absent(key, walk->now);
     Walk inner = {.before = was ? walk->before : NULL, .now = walk->now, .out = walk->out};
     if (was != is && key->type == KEY_VARIANT) {
-        built_anew(walk, shown);
+        built_anew(walk, key, shown);
         return;
     }
     if (was && !is)
@@ -204,9 +210,7 @@ void scene_differ(const Scene *before, const Scene *now, Differ *out)
     const Walk walk = {.before = (const char *)before, .now = (const char *)now, .out = out};
     walk_children(&walk, now->world.dimensions);
     if (before->world.dimensions != now->world.dimensions)
-        built_anew(&walk, "box.size");
-    out->dead |= *out->built != 0;
-    out->world |= *out->built != 0;
+        built_anew(&walk, scene_key_find("box.size"), "box.size");
 }
 
 void differ_words(const SettingList *settings, char *text, size_t size)

@@ -81,10 +81,16 @@ static void test_kinds(void **state)
         const char *setting, *built;
         bool world, dead;
     } rows[] = {
-        {"gravity=[0, -1, 0]", "", true, false},     {"view.kind=splat", "", false, false},
-        {"particles.spacing=0.025", "", true, true}, {"solver.threads=2", "", false, true},
-        {"metrics=[front]", "", false, false},       {"solids=[]", "solids", true, true},
-        {"solids[0].slip=none", "", true, true},     {"views=[]", "", false, false},
+        {"gravity=[0, -1, 0]", "", true, false},
+        {"view.kind=splat", "", false, false},
+        {"particles.spacing=0.025", "", true, true},
+        {"solver.threads=2", "", false, true},
+        {"metrics=[front]", "", false, false},
+        {"solids=[]", "", true, true},
+        {"solids[0].slip=none", "", true, true},
+        {"views=[]", "", false, false},
+        {"solids[1].sphere={centre: [0, 0.1, 0], radius: 0.02}", "solids", true, true},
+        {"view.camera_path[0]={time: 1, from: [0, 1, 1], to: [0, 0, 0]}", "view.camera_path", false, false},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         Differ differ;
