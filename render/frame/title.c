@@ -63,7 +63,7 @@ void caption_draw(Text *text, const Frame *frame)
         return;
     const float scale = wide > room ? fmaxf(LARGE * room / wide, LEAST) : LARGE;
     const float middle = (0.5F + 0.5F * covered) * (float)frame->width, half = wide * scale / LARGE / 2;
-    const float around = AROUND * em, bottom = (float)frame->height - 2.6F * em, top = bottom - scale * em;
+    const float around = AROUND * em, bottom = (float)frame->height - 1.6F * em, top = bottom - scale * em;
     text_rectangle(text, middle - half - around, top - around, middle + half + around, bottom + around,
                    0.5F * em, panel);
     text_draw(text, middle, top, scale, ink, TEXT_CENTER, words);
