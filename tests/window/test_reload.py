@@ -47,17 +47,37 @@ class Reload(Window):
     def test_begins_anew(self):
         """With the camera, the view and what the panel has set; what was done by hand is a file."""
         self.drag(1, [(240, 180), (300, 150)])
-        self.keys('s')
+        self.keys('s', 'v')
         self.display.press('Left')
         self.shown(0.2)
         self.display.release('Left')
         self.save(STILL.replace('spacing: 0.1', 'spacing: 0.125'), whole=False)
         self.wait_said(f'{SAVED}: begins anew with particles.spacing')
         self.filled()
+        self.keys('v')  # a video goes on
+        self.wait_said('.mp4: the video')
         out = self.quit()
         self.assertEqual((out['scenes_opened'], out['camera_auto'], out['color_by']), (2, False, 'density'))
         self.assertLess(out['particles'], 300)
         self.assertEqual(len(self.files('recording')), 1)
+
+    def test_files_that_it_names(self):
+        """They begin it anew; and the camera moves by itself until it is taken."""
+        self.write('h.csv', 'x,height\n-0.5,0.2\n0.5,0.4\n')
+        self.save(STILL.replace('0.4, 0.5]}', '0.4, 0.5]}, below: h.csv') + 'view: {camera_turn: 20}\n')
+        self.wait_said(f'{SAVED}: begins anew with ')
+        self.filled()
+        self.write('h.csv', 'x,height\n-0.5,0.2\n0.5,0.3\n')
+        self.wait_said(f'{SAVED}: begins anew with a file that it names')
+        self.filled()
+        still = self.display.picture(self.window)
+        self.wait_for(lambda: self.display.picture(self.window) != still, self.process)
+        self.drag(1, [(240, 180), (300, 150)])
+        self.keys('ctrl+shift+s')
+        self.wait_said('still-2.yaml: the scene with ')
+        out = self.quit()
+        self.assertEqual((out['scenes_opened'], out['camera_auto']), (3, False))
+        self.assertIn('camera_turn: 0', self.read('still-2.yaml').decode())
 
     def test_broken(self):
         """The last good one goes on, until it is mended."""
@@ -77,4 +97,4 @@ class Reload(Window):
 
 
 if __name__ == '__main__':
-    command.main()
+    command.main('Reload.test_live Reload.test_broken', 'Reload.test_begins_anew Reload.test_files_that_it_names')
