@@ -202,9 +202,9 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
             panel_devices(ui, data, events);
         if (!data->recorded)
             panel_flow(ui, data, events);
+        panel_scene(ui, data, &panel->start, events);
         if (!data->recorded)
             panel_again(ui, data, &panel->fluid, events);
-        panel_scene(ui, data, &panel->start, events);
         if (!data->recorded)
             draw_measures(ui, data, &panel->start, events);
         panel_history(ui, data);

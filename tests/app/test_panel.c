@@ -13,9 +13,9 @@
 
 enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
 
-static const char *const sections[] = {"History", "Stages", "Accuracy", "Colours",
-                                       "World",   "Fluids", "Solver",   "Hand",
-                                       "Touch",   "Glyphs", "Trails",   "Begin anew with"}; /* View is open */
+static const char *const sections[] = {"History", "Stages", "Accuracy",       "Colours", "World",
+                                       "Fluids",  "Solver", "Hand",           "Touch",   "Glyphs",
+                                       "Trails",  "Film",   "Begin anew with"}; /* View is open */
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 /* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
