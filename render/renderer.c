@@ -112,6 +112,11 @@ static void enlarge(const Renderer *renderer)
     glViewport(0, 0, to->width, to->height);
 }
 
+static bool has_letters(const ViewDef *def, const Title *title)
+{
+    return def->legend || *title->words || *def->title;
+}
+
 /* Letters for a picture that high, or none where neither legend nor title wants some. */
 static bool follow_letters(Renderer *renderer, bool wanted, int height, Error *error)
 {
@@ -216,7 +221,8 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
         !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
-    return follow_derived(renderer, def, error) && follow_letters(renderer, def->legend, height, error) &&
+    return follow_derived(renderer, def, error) &&
+           follow_letters(renderer, has_letters(def, &renderer->title), height, error) &&
            follow_clear(renderer, def, error) && follow_solids(renderer, &renderer->world, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL) &&
            overlays_follow(&renderer->overlays, &subject, error);
@@ -306,7 +312,7 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
 {
     const ViewDef drawn = view_at_quality(said, renderer->more), *def = &drawn;
     const Subject subject = {def, world ? world : &unknown};
-    const bool letters = def->legend || *renderer->title.words;
+    const bool letters = has_letters(def, &renderer->title);
     const bool followed =
         follow_derived(renderer, def, error) && follow_clear(renderer, def, error) &&
         follow_letters(renderer, letters, renderer->target.height, error) &&
@@ -332,7 +338,7 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
         return true;
     if (!target_create(&target, width, height, error))
         return false;
-    if (!follow_letters(renderer, renderer->def.legend || *renderer->title.words, height, error) ||
+    if (!follow_letters(renderer, has_letters(&renderer->def, &renderer->title), height, error) ||
         !follow_resolution(renderer, &renderer->def, width, height, error)) {
         target_destroy(&target);
         return false;
@@ -419,7 +425,7 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
     if (has_edges(renderer, frame) && !draws_front(renderer))
         edges_draw(&renderer->edges, frame);
-    if (!renderer->def.legend && !*renderer->title.words)
+    if (!has_letters(&renderer->def, &renderer->title))
         return;
     text_begin(renderer->text, frame->width, frame->height);
     if (renderer->def.legend) {
@@ -427,6 +433,7 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
         overlays_legend(&renderer->overlays, renderer->text, frame);
     }
     title_draw(renderer->text, &renderer->title, frame);
+    caption_draw(renderer->text, frame);
     text_end(renderer->text);
 }
 
@@ -641,7 +648,7 @@ void renderer_set_covered(Renderer *renderer, Covered covered)
 
 bool renderer_set_title(Renderer *renderer, const Title *title, Error *error)
 {
-    if (!follow_letters(renderer, renderer->def.legend || *title->words, renderer->target.height, error))
+    if (!follow_letters(renderer, has_letters(&renderer->def, title), renderer->target.height, error))
         return false;
     renderer->title = *title;
     return true;

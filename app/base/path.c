@@ -1,5 +1,6 @@
 #include "app/base/path.h"
 
+#include "app/base/picture_text.h"
 #include "app/base/place.h"
 #include "app/base/suggest.h"
 
@@ -149,6 +150,25 @@ static char *read_bytes(FILE *file, const char *path, size_t *size, Error *error
     return NULL;
 }
 
+static bool is_picture(FILE *file)
+{
+    char begin[8];
+    const bool is =
+        fread(begin, 1, sizeof begin, file) == sizeof begin && picture_text_is_png(begin, sizeof begin);
+    rewind(file);
+    return is;
+}
+
+/* The scene that a picture carries. */
+static char *read_picture(const char *path, size_t *size, Error *error)
+{
+    PictureText text;
+    if (!picture_text_read(path, &text, error))
+        return NULL;
+    *size = text.size;
+    return text.scene;
+}
+
 char *scene_file_read(const char *path, size_t *size, Error *error)
 {
     struct stat status;
@@ -161,7 +181,7 @@ char *scene_file_read(const char *path, size_t *size, Error *error)
         error_set(error, "%s: cannot be opened (%s)", path, strerror(errno));
         return NULL;
     }
-    char *bytes = read_bytes(file, path, size, error);
+    char *bytes = is_picture(file) ? read_picture(path, size, error) : read_bytes(file, path, size, error);
     fclose(file);
     return bytes;
 }

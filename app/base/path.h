@@ -26,8 +26,8 @@ int scene_path_is_yaml(const struct dirent *entry);
    scene may be meant, when there is none. */
 bool scene_path_find(const char *name, char path[SCENE_PATH_SIZE], Error *error);
 
-/* The file's bytes (the caller frees them), or NULL: a directory, unreadable, larger than SCENE_BYTES_MAX, or
-   a file of slosh that another command takes. */
+/* The file's bytes, or of a picture those of the scene that it carries (the caller frees them), or NULL: a
+   directory, unreadable, larger than SCENE_BYTES_MAX, or a file of slosh that another command takes. */
 char *scene_file_read(const char *path, size_t *size, Error *error);
 
 #endif

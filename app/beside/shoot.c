@@ -99,7 +99,7 @@ bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpo
         source_serve(&shoot->sources[shoot->source_of[i]], panel->view);
         shoot->views[i] = view_in_file(panel->view);
         subjects[i] = (Subject){&shoot->views[i], panel->session ? &panel->session->scene.world
-                                                          : &panel->recorded->scene.world};
+                                                                 : &panel->recorded->scene.world};
         shoot->solids[i] = subjects[i].world->solid_count;
     }
     for (int i = 0; i < shoot->source_count; i++)

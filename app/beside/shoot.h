@@ -47,7 +47,7 @@ typedef struct Shoot {
     int source_of[PANELS_MAX]; /* of each panel; */
     ViewDef views[PANELS_MAX];
     int solids[PANELS_MAX]; /* that it shows */
-    bool fresh;                /* a state is another one than in the last picture */
+    bool fresh;             /* a state is another one than in the last picture */
     Lacks lacks;
     Image image; /* the last picture */
 } Shoot;

@@ -5,6 +5,7 @@
 #include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
 #include "app/manual/manual.h"
+#include "app/recipe/recipe.h"
 #include "app/scene/keys.h"
 
 #include <stddef.h>
@@ -31,9 +32,9 @@ const CommandRow command_rows[] = {
     {COMMAND_PLAY, "play", "[SCENE|IN.h5part] [OPTIONS]",
      "opens the window: the box in your hand, or a recorded run; without a scene, box_slosh", 0, 1, NULL,
      1280, 720},
-    {COMMAND_RENDER, "render", "SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|FOLDER ...",
+    {COMMAND_RENDER, "render", "SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|OUT.gif|FOLDER ...",
      "a scene, a recorded run or a recorded session as a picture, a video or a folder of pictures; needs no display",
-     1, 1, "OUT.png, OUT.mp4 or a folder", 1280, 720},
+     1, 1, "OUT.png, OUT.mp4, OUT.gif or a folder", 1280, 720},
     {COMMAND_RUN, "run", "SCENE -o OUT.h5part [OPTIONS]",
      "simulates a scene into snapshots that ParaView opens", 1, 1, "OUT.h5part", 1280, 720},
     {COMMAND_BENCH, "bench", "[SCENE...] [OPTIONS]", "measures how long each stage of a frame takes", 0,
@@ -62,13 +63,15 @@ const CommandRow command_rows[] = {
      "writes the smallest scene, with a comment on each line, to begin with", 1, 1, NULL, 0, 0},
     {COMMAND_INFO, "info", "[SCENE] [OPTIONS]", "lists what there is to choose from, and a scene's settings",
      0, 1, NULL, 1280, 720},
-    {COMMAND_HELP, "help", "[COMMAND|keys|window]", "says what a command does and takes", 0, 0, NULL, 0, 0},
+    {COMMAND_HELP, "help", "[COMMAND|keys|window|presets]", "says what a command does and takes", 0, 0, NULL,
+     0, 0},
     {0},
 };
 
 const HelpTopic help_topics[] = {
     {"keys", "every key of a scene", scene_keys_print},
     {"window", "what keys, mouse and gamepad do in the window", play_commands_print},
+    {"presets", "settings that go together, for --preset", recipe_print},
     {"man", NULL, manual_print},
     {"bash", NULL, completion_print_bash},
     {"zsh", NULL, completion_print_zsh},
@@ -168,6 +171,7 @@ const OptionRow option_rows[] = {
     {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes the fluid"},
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "the equations of the solver"},
     {"--view", "NAME", ALL & ~(VALIDATE | CHART | STABILITY | FIT), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how the fluid is drawn"},
+    {"--preset", "NAME", PLAY | RENDER | RUN | BENCH | INFO, OPTION_SETTING, AT(settings), .path = "preset", .help = "settings that go together, in place of the scene's: of a fluid (NAME:FLUID: of that one of several) or of the solver; --set goes before it", .names = recipe_choice},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "threads of the CPU; 0: one for each processor"},
     {"--simd", "NAME", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.simd", .help = "SIMD instructions of the CPU solver"},
     {"--gpu", "N", SCENES | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},
@@ -185,6 +189,7 @@ const OptionRow option_rows[] = {
     {"--mapping", "FILE", DEVICES, OPTION_TEXT, AT(mapping), .help = "check such a file, and say in words what devices do by it"},
     {"--write-mapping", "FILE", DEVICES, OPTION_TEXT, AT(write_mapping), .help = "write what devices do into a new file, to be changed"},
     {"--watch", NULL, DEVICES, OPTION_FLAG, AT(watch), .help = "show what they say, live, until Ctrl-C or the end of the recording"},
+    {"--save", "FILE", INFO, OPTION_TEXT, AT(save), .help = "write the scene with what --set and the like say into a new file FILE.yaml, comments and all"},
     {"--json", "FILE", ALL | SCENES | REPLAY | EXPORT | DEVICES, OPTION_TEXT, AT(json), .help = "also write the figures as JSON into FILE; -: standard output"},
     {"--quiet", NULL, ALL | SCENES | NEW | REPLAY | EXPORT | DEVICES, OPTION_FLAG, AT(quiet), .help = "no progress and no table"},
     {"--help", NULL, ALL | SCENES | NEW | REPLAY | EXPORT | DEVICES, OPTION_HELP, .help = "this text"},

@@ -8,8 +8,8 @@
 #include "app/command/cmd.h"
 #include "app/device/devices.h"
 #include "app/device/mapping.h"
+#include "app/meter/report.h"
 #include "app/play/play.h"
-#include "app/play/report.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,11 +1,14 @@
 #include "app/base/json_file.h"
+#include "app/base/path.h"
 #include "app/command/cmd.h"
 #include "app/export/export.h"
 #include "app/metric/metric_list.h"
+#include "app/recipe/recipe.h"
 #include "app/scene/json.h"
 #include "app/scene/keys.h"
 #include "app/scene/preset.h"
 #include "app/session/headless.h"
+#include "app/setting/save.h"
 #include "render/frame/view.h"
 #include "sim/kernel/kernel.h"
 #include "sim/matter/seed.h"
@@ -14,6 +17,7 @@
 #include "sim/world/world.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 
 /* What is printed, and the same for --json. */
 typedef struct Info {
@@ -102,7 +106,10 @@ static void put_backends(Info *info, const WorldDef *scene, int gpu)
 static void put_methods(Info *info)
 {
     put_named(info, "methods", "methods", world_methods());
-    begin_list(info, "presets", "presets");
+    begin_list(info, "presets, by --preset", "recipes");
+    for (const Recipe *recipe = recipe_list; recipe->name; recipe++)
+        put_row(info, recipe->name, recipe->help);
+    begin_list(info, "presets of the solver, solver.preset", "presets");
     for (const Preset *preset = preset_list; preset->name; preset++)
         put_row(info, preset->name, preset->help);
     begin_list(info, "density kernels", "density_kernels");
@@ -186,6 +193,25 @@ static int fail(int code, const Error *error)
     return code;
 }
 
+/* The scene with what the command line set, as a file. */
+static bool save(const Args *args, const Scene *scene, Error *error)
+{
+    char words[512];
+    size_t size;
+    Saved saved = {.lost = false};
+    char *text = scene_file_read(scene->path, &size, error);
+    if (!text)
+        return false;
+    const Save what = {.scene = scene, .path = scene->path, .text = text, .size = size};
+    const bool ok = save_scene(&what, args->save, &saved, error);
+    saved_words(&saved, words, sizeof words);
+    if (ok && !args->quiet)
+        fprintf(stderr, "%s\n", words);
+    setting_list_free(&saved.changed);
+    free(text);
+    return ok;
+}
+
 int cmd_info(const Args *args)
 {
     Error error = {{0}};
@@ -195,6 +221,12 @@ int cmd_info(const Args *args)
     if (args->scene_count && !scene_load(args->scenes[0], &settings, &scene, &notes, &error))
         return fail(EXIT_USAGE, &error);
     if (args->json && !json_file_check(args->json, &error))
+        return fail(EXIT_FAILED, &error);
+    if (args->save && !args->scene_count)
+        error_set(&error, "slosh info: --save writes a scene; name the one that it comes from");
+    if (*error.message)
+        return fail(EXIT_USAGE, &error);
+    if (args->save && !save(args, &scene, &error))
         return fail(EXIT_FAILED, &error);
     Info info = {.quiet = args->quiet,
                  .json = json_pack("{s:s, s:s}", "command", "info", "version", SLOSH_VERSION)};

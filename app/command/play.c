@@ -3,7 +3,7 @@
 #include "app/base/output.h"
 #include "app/command/cmd.h"
 #include "app/device/devices.h"
-#include "app/play/report.h"
+#include "app/meter/report.h"
 #include "app/play/scene.h"
 #include "app/playback/recorded.h"
 

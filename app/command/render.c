@@ -1,5 +1,6 @@
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
+#include "app/base/path.h"
 #include "app/base/progress.h"
 #include "app/beside/panel_title.h"
 #include "app/beside/shoot.h"
@@ -10,6 +11,7 @@
 #include "app/output/pictures.h"
 #include "app/playback/recorded.h"
 #include "app/recording/recording.h"
+#include "app/setting/carry.h"
 #include "sim/base/stage.h"
 
 #include <math.h>
@@ -33,6 +35,8 @@ typedef struct Render {
     Schedule schedule;
     Progress progress;
     RenderFigures figures;
+    Carried carried; /* by each PNG file */
+    ImageText text;
 } Render;
 
 static Schedule make_schedule(const Args *args, PicturesKind kind)
@@ -200,6 +204,7 @@ static bool take_picture(Render *render, double time, Error *error)
         if (!shoot_set_title(shoot, i, &titles[i], error))
             return false;
     }
+    render->text.time = render->sessions[0].info.time;
     if (!shoot_draw(shoot, error) || !pictures_add(render->pictures, &shoot->image, error))
         return false;
     for (int i = 0; i < plan->panel_count; i++)
@@ -273,10 +278,45 @@ static void tell_times(const Render *render)
     }
 }
 
+/* The scene as it was said, unless it says that its pictures carry none. */
+static bool make_carried(const Args *args, Scene *scene, Carried *out, Error *error)
+{
+    SceneSettings settings = args->settings;
+    size_t size = 0;
+    if (!scene_load(args->scenes[0], &settings, scene, NULL, error))
+        return false;
+    char *text = scene->view.carries_scene ? scene_file_read(scene->path, &size, error) : NULL;
+    if (!text)
+        return !scene->view.carries_scene;
+    const Save save = {.scene = scene, .path = scene->path, .text = text, .size = size};
+    const bool ok = carry_make(&save, out, error);
+    free(text);
+    return ok;
+}
+
+/* What --compare sets differs from panel to panel. */
+static void carry(Render *render, PicturesKind kind)
+{
+    Scene *scene = kind == PICTURES_VIDEO ? NULL : calloc(1, sizeof *scene);
+    Carried *carried = &render->carried;
+    Error error = {{0}};
+    if (!scene)
+        return;
+    if (!make_carried(render->args, scene, carried, &error))
+        fprintf(stderr, "%s; the pictures carry no scene\n", error.message);
+    render->text = carry_text(carried, 0);
+    if (carried->scene)
+        pictures_carry(render->pictures, &render->text);
+    if (carried->scene && render->args->sweep_count > 0)
+        fprintf(stderr, "--compare: pictures carry the scene without what it compares\n");
+    free(scene);
+}
+
 static int shoot_all(Render *render, PicturesKind kind, Error *error)
 {
     bool taken = false;
     render->schedule = make_schedule(render->args, kind);
+    carry(render, kind);
     tell_times(render);
     if (open_shoot(render, error)) {
         progress_begin(&render->progress, stderr, "render", render->args->quiet);
@@ -360,6 +400,7 @@ int cmd_render(const Args *args)
     for (int i = PANELS_MAX; i-- > 0;)
         session_close(&render->sessions[i]);
     render_plan_close(&render->plan);
+    carry_free(&render->carried);
     free(render);
     return code;
 }

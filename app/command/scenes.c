@@ -108,7 +108,7 @@ typedef struct Gallery {
 static bool save(const Image *image, const char *path, Error *error)
 {
     Output output = {.temp = ""};
-    const bool ok = output_begin(&output, path, error) && image_write(image, output.temp, error) &&
+    const bool ok = output_begin(&output, path, error) && image_write(image, NULL, output.temp, error) &&
                     output_commit(&output, error);
     output_discard(&output);
     return ok;

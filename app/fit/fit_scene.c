@@ -12,7 +12,6 @@
 #include "app/yaml/yaml.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -141,32 +140,16 @@ static void drop_unused(Node *mapping, const char *above, const Scene *own, cons
     }
 }
 
-/* The file of a mesh: no other key of a scene is called so, but for views' data, whose endings are others. */
-static bool names_mesh(const Node *node)
+/* A FileMoved. */
+static void name_whole(void *user, Node *node, const char *path, const char *whole)
 {
-    return node->key && strcmp(node->key, "file") == 0 && scene_names_mesh(node->text);
-}
-
-/* Tables and meshes are found from the scene's folder: one that the new file would not find gets its whole
- * name. */
-static void keep_tables(Tree *tree, Node *node, const char *output)
-{
-    char from[2 * PATH_MAX], to[2 * PATH_MAX], place[PATH_MAX], other[PATH_MAX];
-    for (Node *child = node->first; child; child = child->next)
-        keep_tables(tree, child, output);
-    if (!node->text || *node->text == '/' || !(scene_names_table(node->text) || names_mesh(node)))
+    (void)path;
+    const size_t size = strlen(whole) + 1;
+    char *own = tree_alloc(user, size);
+    if (!own)
         return;
-    const char *slash = strrchr(tree->path, '/'), *out = strrchr(output, '/');
-    snprintf(from, sizeof from, "%.*s%.1000s", slash ? (int)(slash + 1 - tree->path) : 0, tree->path,
-             node->text);
-    snprintf(to, sizeof to, "%.*s%.1000s", out ? (int)(out + 1 - output) : 0, output, node->text);
-    if (!realpath(from, place) || (realpath(to, other) && strcmp(place, other) == 0))
-        return;
-    char *whole = tree_alloc(tree, strlen(place) + 1);
-    if (whole) {
-        memcpy(whole, place, strlen(place));
-        node->text = whole;
-    }
+    snprintf(own, size, "%s", whole);
+    node->text = own;
 }
 
 /* ---- the words above it ---- */
@@ -290,7 +273,7 @@ static bool write_chosen(const FitPlan *plan, Tree *tree, Error *error)
     Node *solver = (Node *)tree_at(tree, "solver");
     if (solver)
         drop_unused(solver, "solver", &plan->scene, &scene);
-    keep_tables(tree, tree->root, plan->output);
+    scene_move_files(tree, plan->output, name_whole, tree);
     char *text = print_text(plan, tree);
     const bool ok = text ? write_text(plan, text, error) : error_set(error, "no memory for the scene");
     free(text);

@@ -119,6 +119,7 @@ void orbit_apply(const Orbit *orbit, ViewDef *def)
         def->camera.to[k] = def->camera.from[k] - orbit->distance * back[k];
     def->camera.fov_deg = orbit->fov_deg;
     def->camera_auto = false;
+    camera_stay(def);
 }
 
 void orbit_axes(const Orbit *orbit, double right[3], double up[3], double away[3])

@@ -32,6 +32,7 @@ typedef enum PlayCommand {
     PLAY_SCREENSHOT,
     PLAY_VIDEO,
     PLAY_SAVE_RECORDING,
+    PLAY_SAVE_SCENE,
     PLAY_FULLSCREEN,
     PLAY_PANEL,
     PLAY_HELP,

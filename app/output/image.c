@@ -1,5 +1,7 @@
 #include "app/output/image.h"
 
+#include "app/base/picture_text.h"
+
 #include <errno.h>
 #include <png.h>
 #include <setjmp.h>
@@ -43,19 +45,38 @@ static void flush_bytes(png_structp png)
         png_error(png, strerror(errno));
 }
 
-static void write_png(png_structp png, png_infop info, const Image *image)
+/* libpng copies what it is given. */
+static void add_text(png_structp png, png_infop info, const ImageText *text)
+{
+    char time[40];
+    snprintf(time, sizeof time, "%.9g", text->time);
+    const png_text chunks[] = {
+        {.compression = PNG_TEXT_COMPRESSION_NONE,
+         .key = (char *)"Software",
+         .text = (char *)"slosh " SLOSH_VERSION},
+        {.compression = PNG_ITXT_COMPRESSION_NONE, .key = (char *)PICTURE_NAME, .text = (char *)text->name},
+        {.compression = PNG_ITXT_COMPRESSION_NONE, .key = (char *)PICTURE_TIME, .text = time},
+        {.compression = PNG_ITXT_COMPRESSION_zTXt, .key = (char *)PICTURE_SCENE, .text = (char *)text->scene},
+    };
+    png_set_text(png, info, chunks, sizeof chunks / sizeof *chunks);
+}
+
+static void write_png(png_structp png, png_infop info, const Image *image, const ImageText *text)
 {
     png_set_IHDR(png, info, (png_uint_32)image->width, (png_uint_32)image->height, 8, PNG_COLOR_TYPE_RGB,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_set_compression_level(png, 6);
+    if (text)
+        add_text(png, info, text);
     png_write_info(png, info);
     for (int y = 0; y < image->height; y++)
         png_write_row(png, image->rgb + 3 * (size_t)image->width * (size_t)y);
     png_write_end(png, info);
 }
 
-bool image_write_stream(const Image *image, FILE *stream, const char *name, Error *error)
+bool image_write_stream(const Image *image, const ImageText *text, FILE *stream, const char *name,
+                        Error *error)
 {
     char reason[128] = "out of memory";
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, reason, on_png_error, on_png_warning);
@@ -63,7 +84,7 @@ bool image_write_stream(const Image *image, FILE *stream, const char *name, Erro
     bool written = false;
     if (info && !setjmp(png_jmpbuf(png))) {
         png_set_write_fn(png, stream, write_bytes, flush_bytes);
-        write_png(png, info, image);
+        write_png(png, info, image, text);
         flush_bytes(png);
         written = true;
     }
@@ -71,12 +92,12 @@ bool image_write_stream(const Image *image, FILE *stream, const char *name, Erro
     return written || error_set(error, "%s: cannot write the picture: %s", name, reason);
 }
 
-bool image_write(const Image *image, const char *path, Error *error)
+bool image_write(const Image *image, const ImageText *text, const char *path, Error *error)
 {
     FILE *file = fopen(path, "wb");
     if (!file)
         return error_set(error, "%s: cannot create the file: %s", path, strerror(errno));
-    bool written = image_write_stream(image, file, path, error);
+    bool written = image_write_stream(image, text, file, path, error);
     if (fclose(file) != 0 && written)
         written = error_set(error, "%s: cannot write the picture: %s", path, strerror(errno));
     if (!written)

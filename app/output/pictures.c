@@ -16,6 +16,7 @@ struct Pictures {
     char path[1024];
     Video *video;
     Output png;
+    const ImageText *text; /* NULL: none */
     size_t count;
     bool made_folder;
 };
@@ -29,10 +30,11 @@ bool pictures_kind(const char *path, PicturesKind *kind, Error *error)
         *kind = PICTURES_FOLDER;
     else if (extension && strcasecmp(extension, ".png") == 0)
         *kind = PICTURES_PNG;
-    else if (extension && strcasecmp(extension, ".mp4") == 0)
+    else if (extension && (strcasecmp(extension, ".mp4") == 0 || video_is_gif(path)))
         *kind = PICTURES_VIDEO;
     else
-        return error_set(error, "cannot tell the format from '%s'; use .png, .mp4 or a folder name", path);
+        return error_set(error, "cannot tell the format from '%s'; use .png, .mp4, .gif or a folder name",
+                         path);
     return true;
 }
 
@@ -87,12 +89,12 @@ Pictures *pictures_create(const char *path, int width, int height, double fps, E
     return NULL;
 }
 
-static bool write_png(const Output *output, const Image *image, Error *error)
+static bool write_png(const Output *output, const Image *image, const ImageText *text, Error *error)
 {
     FILE *file = fopen(output->temp, "wb");
     if (!file)
         return error_set(error, "%s: cannot write the picture: %s", output->path, strerror(errno));
-    bool written = image_write_stream(image, file, output->path, error);
+    bool written = image_write_stream(image, text, file, output->path, error);
     if (fclose(file) != 0 && written)
         written = error_set(error, "%s: cannot write the picture: %s", output->path, strerror(errno));
     return written;
@@ -105,15 +107,20 @@ static bool add_frame(const Pictures *pictures, const Image *image, Error *error
     frame_path(pictures, pictures->count, path);
     if (!output_begin(&output, path, error))
         return false;
-    if (write_png(&output, image, error))
+    if (write_png(&output, image, pictures->text, error))
         return output_commit(&output, error);
     output_discard(&output);
     return false;
 }
 
+void pictures_carry(Pictures *pictures, const ImageText *text)
+{
+    pictures->text = text;
+}
+
 bool pictures_add(Pictures *pictures, const Image *image, Error *error)
 {
-    bool added = pictures->kind == PICTURES_PNG     ? write_png(&pictures->png, image, error)
+    bool added = pictures->kind == PICTURES_PNG     ? write_png(&pictures->png, image, pictures->text, error)
                  : pictures->kind == PICTURES_VIDEO ? video_add(pictures->video, image->rgb, error)
                                                     : add_frame(pictures, image, error);
     pictures->count += added;

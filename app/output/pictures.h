@@ -10,7 +10,8 @@
 
 typedef enum PicturesKind { PICTURES_PNG, PICTURES_VIDEO, PICTURES_FOLDER } PicturesKind;
 
-/* NAME.png, NAME.mp4, or a folder: no extension, or a slash at the end. False for any other extension. */
+/* NAME.png, NAME.mp4 or NAME.gif, or a folder: no extension, or a slash at the end. False for any other
+ * extension. */
 bool pictures_kind(const char *path, PicturesKind *kind, Error *error);
 
 typedef struct Pictures Pictures;
@@ -18,6 +19,9 @@ typedef struct Pictures Pictures;
 /* A folder that is missing is created (not those above it). NULL with the reason, see output_begin and
    video_create. */
 Pictures *pictures_create(const char *path, int width, int height, double fps, Error *error);
+
+/* PNG files from now on carry the scene that is said there, which must live as long; NULL: none. */
+void pictures_carry(Pictures *pictures, const ImageText *text);
 
 /* One more picture, of that size. In a folder each is a whole file of its own, frame_00000.png and so on; a
    second one into a PNG is a mistake of the caller. */

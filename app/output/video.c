@@ -10,13 +10,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 extern char **environ;
 
-enum { LOG_BYTES = 4096 };
+enum { LOG_BYTES = 4096, GIF_FPS = 50 };
 enum { PIPE_BYTES = 1 << 20 }; /* so that ffmpeg works while the next picture is drawn */
 
 struct Video {
@@ -40,22 +41,55 @@ static void write_filter(char filter[192], int width, int height)
     snprintf(filter, 192, "%sscale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd", odd);
 }
 
-/* Quiet, H.264, the index in front. Returns 0 or the system's error number. */
+bool video_is_gif(const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    return dot && strcasecmp(dot, ".gif") == 0;
+}
+
+/* The options behind the input. A palette a picture: one for all would keep all pictures in memory. */
+static const char *const as_gif[] = {
+    "-filter_complex",
+    "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4",
+    "-fps_mode",
+    "passthrough",
+    "-loop",
+    "0",
+    "-f",
+    "gif",
+    NULL};
+/* H.264, the index in front. */
+static const char *const as_mp4[] = {
+    "-c:v",         "libx264",     "-preset",   "veryfast",         "-crf",  "18",         "-pix_fmt",
+    "yuv420p",      "-colorspace", "bt709",     "-color_primaries", "bt709", "-color_trc", "bt709",
+    "-color_range", "tv",          "-movflags", "+faststart",       "-f",    "mp4",        NULL};
+
+enum { ARGUMENTS_MAX = 48 };
+
+static void add_all(char *arguments[ARGUMENTS_MAX], const char *const more[])
+{
+    int count = 0;
+    while (arguments[count])
+        count++;
+    for (int i = 0; more[i]; i++)
+        arguments[count++] = (char *)more[i];
+}
+
+/* Quiet. Returns 0 or the system's error number. */
 static int spawn_ffmpeg(Video *video, int input, int width, int height, double fps)
 {
     char size[32], rate[32], filter[192];
+    const bool gif = video_is_gif(video->output.path);
     snprintf(size, sizeof size, "%dx%d", width, height);
     snprintf(rate, sizeof rate, "%.6f", fps);
     write_filter(filter, width, height);
-    char *arguments[] = {"ffmpeg",    "-nostdin",    "-hide_banner", "-v",           "error",
-                         "-xerror",   "-y",          "-f",           "rawvideo",     "-pix_fmt",
-                         "rgb24",     "-video_size", size,           "-framerate",   rate,
-                         "-i",        "pipe:0",      "-vf",          filter,         "-c:v",
-                         "libx264",   "-preset",     "veryfast",     "-crf",         "18",
-                         "-pix_fmt",  "yuv420p",     "-colorspace",  "bt709",        "-color_primaries",
-                         "bt709",     "-color_trc",  "bt709",        "-color_range", "tv",
-                         "-movflags", "+faststart",  "-f",           "mp4",          video->output.temp,
-                         NULL};
+    char *arguments[ARGUMENTS_MAX] = {
+        "ffmpeg",   "-nostdin", "-hide_banner", "-v", "error",      "-xerror", "-y", "-f",    "rawvideo",
+        "-pix_fmt", "rgb24",    "-video_size",  size, "-framerate", rate,      "-i", "pipe:0"};
+    if (!gif)
+        add_all(arguments, (const char *const[]){"-vf", filter, NULL});
+    add_all(arguments, gif ? as_gif : as_mp4);
+    add_all(arguments, (const char *const[]){video->output.temp, NULL});
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t defaults;
@@ -105,6 +139,12 @@ Video *video_create(const char *path, int width, int height, double fps, Error *
     }
     video->pipe = video->log = -1;
     video->bytes = 3 * (size_t)width * (size_t)height;
+    if (video_is_gif(path) && fps > GIF_FPS) {
+        error_set(error, "%s: a GIF has at most %d pictures a second, not %g; use --fps 25, or an .mp4", path,
+                  GIF_FPS, fps);
+        free(video);
+        return NULL;
+    }
     if (output_begin(&video->output, path, error) && start(video, width, height, fps, error))
         return video;
     video_discard(video);

@@ -12,7 +12,8 @@ static const float WIDTH_EM = 25, LEAST_EM = 15, SHARE = 0.5F, MARGIN_EM = 0.75F
 
 struct Panel {
     Scene start; /* the scene as it was when it was opened */
-    bool has_start;
+    size_t opened;
+    int fluid; /* that presets are for */
 };
 
 Panel *panel_create(void)
@@ -38,13 +39,12 @@ float panel_width(const Ui *ui, int width)
     return fminf(wanted, fmaxf((float)width - 2 * margin, 1)) + 2 * margin;
 }
 
-static void follow_scene(Panel *panel, const Scene *scene)
+static void follow_scene(Panel *panel, const PanelData *data)
 {
-    if (panel->has_start && strcmp(panel->start.path, scene->path) == 0 &&
-        panel->start.world.fluid_count == scene->world.fluid_count)
+    if (panel->opened == data->opened)
         return;
-    panel->start = *scene;
-    panel->has_start = true;
+    panel->start = *data->scene;
+    panel->opened = data->opened;
 }
 
 /* "8,250" */
@@ -190,7 +190,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
                              .height_most = fmaxf((float)height - 2 * margin, 1),
                              .label_share = LABEL_SHARE};
     *events = (PanelEvents){.command = PLAY_NONE};
-    follow_scene(panel, data->scene);
+    follow_scene(panel, data);
     ui_window_begin(ui, &window);
     if (ui_title(ui, data->scene->title)) {
         draw_figures(ui, data);
@@ -203,6 +203,8 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
         if (!data->recorded)
             panel_flow(ui, data, events);
         panel_scene(ui, data, &panel->start, events);
+        if (!data->recorded)
+            panel_again(ui, data, &panel->fluid, events);
         if (!data->recorded)
             panel_box(ui, data, events);
         if (!data->recorded)

@@ -36,7 +36,9 @@ typedef struct PanelData {
     uint64_t shut; /* gates of emitters and drains: sim/matter/flow.h */
     double box_wanted[3],
         box_most; /* the size to which the box goes; the longest side that the file has, m */
-    size_t particles;
+    size_t particles, particles_at_start;
+    double particles_wished; /* of PanelEvents, while the mouse holds it; else 0 */
+    size_t opened;           /* the number of the scene among those that were opened */
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
     StepLimit limit;         /* what bounded it */
@@ -67,6 +69,8 @@ typedef struct PanelEvents {
     uint64_t shut;
     bool sized; /* the box shall be so large, m: */
     double size[3];
+    double particles;    /* more than 0: about so many are wished, */
+    char again[64];      /* or "path=value", with which the scene shall begin anew; "": not */
     bool watches;        /* the gauges are shown, */
     bool watches_probes; /* and what probes read */
     int tuned;           /* number of a motion device, or 0: it shall have these two */

@@ -43,6 +43,9 @@ void panel_devices(Ui *ui, const PanelData *data, PanelEvents *events);
 void panel_box(Ui *ui, const PanelData *data, PanelEvents *events);
 void panel_flow(Ui *ui, const PanelData *data, PanelEvents *events);
 
+/* again.c: the number of particles, and presets, of which those of fluids are for the one at *fluid. */
+void panel_again(Ui *ui, const PanelData *data, int *fluid, PanelEvents *events);
+
 /* scene.c: what the shown view reads; what colours mean; every other live key, by the first part of its path.
    `start` is the scene as it was opened: a slider reaches from a tenth to ten times the value there. */
 void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);

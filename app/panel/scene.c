@@ -31,6 +31,18 @@ static const struct {
     {"view.camera.fov", "the mouse moves the camera"},
 };
 
+/* Live keys under a heading of their own: what is for pictures that are shown to others. */
+static const char FILM_GROUP[] = "Film";
+static const char *const of_film[] = {"view.camera_turn", "view.carries_scene"};
+
+static bool is_of_film(const Key *key)
+{
+    for (size_t i = 0; i < sizeof of_film / sizeof *of_film; i++)
+        if (strcmp(of_film[i], key->path) == 0)
+            return true;
+    return false;
+}
+
 static bool is_elsewhere(const Key *key)
 {
     if (key->type == KEY_TEXT) /* words have no widget: they are for scenes and --set */
@@ -77,7 +89,9 @@ static void group_of(const Key *key, char name[NAME_LENGTH])
 {
     const char *part;
     const size_t length = strcspn(key->path, ".["), own = part_of_view(key, &part);
-    if (!key->path[length])
+    if (is_of_film(key))
+        snprintf(name, NAME_LENGTH, "%s", FILM_GROUP);
+    else if (!key->path[length])
         snprintf(name, NAME_LENGTH, "World");
     else if (own > 0 && !is_a_view(part, own))
         snprintf(name, NAME_LENGTH, "%.*s", (int)own, part);

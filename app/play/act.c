@@ -1,6 +1,8 @@
 /* Does what is asked of the window, between two pictures. */
 #include "app/play/parts.h"
 
+#include "app/play/again.h"
+
 #include "render/frame/colormap.h"
 #include "render/frame/overlay.h"
 #include "render/frame/view.h"
@@ -20,10 +22,16 @@ static void view_changed(Play *play)
     picture_set_view(&play->picture, &play->model.open, views_panel(&play->views, scene), &play->notice);
 }
 
+static void title_window(const Play *play)
+{
+    char title[192];
+    snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
+    window_title(play->window, title);
+}
+
 /* Another scene is open: nothing of the one before is in the hand, on its way or in the picture. */
 static void follow_scene(Play *play)
 {
-    char title[192];
     input_begin(&play->input);
     grip_begin(&play->grip);
     readout_begin(&play->readout);
@@ -37,8 +45,7 @@ static void follow_scene(Play *play)
     meter_forget(&play->meter);
     play->picture.dirty = true;
     play->overlay.timeline |= !play->model.open.source->simulates || play->model.open.session;
-    snprintf(title, sizeof title, "%s - slosh", play->model.open.scene.title);
-    window_title(play->window, title);
+    title_window(play);
     if (play->picture.panels)
         view_changed(play);
 }
@@ -49,6 +56,37 @@ bool act_open(Play *play, const char *scene, const SceneSettings *settings, Erro
     if (opened)
         follow_scene(play);
     return opened;
+}
+
+void act_follow_again(Play *play, bool begun, bool views)
+{
+    Scene *scene = &play->model.open.scene;
+    play->picture.dirty = true;
+    if (begun) {
+        follow_scene(play);
+        return;
+    }
+    title_window(play);
+    if (!views)
+        return;
+    views_open(&play->views, scene, &play->model.file_scene);
+    play->camera.held = false;
+    grip_begin(&play->grip);
+    view_changed(play);
+}
+
+/* With another number of particles, or with a preset. */
+static void begin_again(Play *play, const char *setting, double particles)
+{
+    Error error = {{0}};
+    SettingList more = {.count = 0};
+    if (setting)
+        setting_list_add(&more, setting);
+    if (again_open(&play->model, &more, (size_t)particles, &error))
+        act_follow_again(play, true, true);
+    else
+        notice_error(&play->notice, error.message);
+    setting_list_free(&more);
 }
 
 static void open_file(Play *play, const char *path)
@@ -383,6 +421,9 @@ static void do_command(Play *play, PlayCommand command, bool held)
     case PLAY_SAVE_RECORDING:
         model_save(model);
         break;
+    case PLAY_SAVE_SCENE:
+        again_save(model);
+        break;
     case PLAY_FULLSCREEN:
         window_fullscreen(play->window, !window_is_fullscreen(play->window));
         break;
@@ -502,6 +543,12 @@ static void act(Play *play, const Ask *ask)
     case ASK_SETTING:
         if (model_set(&play->model, ask->text))
             view_changed(play);
+        break;
+    case ASK_AGAIN:
+        begin_again(play, ask->text, 0);
+        break;
+    case ASK_PARTICLES:
+        begin_again(play, NULL, ask->amount[0]);
         break;
     case ASK_OPEN:
         open_file(play, ask->text);

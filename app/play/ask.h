@@ -11,12 +11,14 @@
 #include <stdint.h>
 
 typedef enum AskKind {
-    ASK_COMMAND, /* command, held */
-    ASK_SETTING, /* text: "path=value" of a live key */
-    ASK_OPEN,    /* text: the file of a scene */
-    ASK_TUNE,    /* device, amount: gain and dead zone */
-    ASK_LET_GO,  /* the box stops where it is: what moved it is gone */
-    ASK_TIME,    /* amount: s, simulated: to be shown, and to rest there */
+    ASK_COMMAND,   /* command, held */
+    ASK_SETTING,   /* text: "path=value" of a live key */
+    ASK_OPEN,      /* text: the file of a scene */
+    ASK_AGAIN,     /* text: "path=value", with which the scene begins anew */
+    ASK_PARTICLES, /* amount: about so many, with which it does */
+    ASK_TUNE,      /* device, amount: gain and dead zone */
+    ASK_LET_GO,    /* the box stops where it is: what moved it is gone */
+    ASK_TIME,      /* amount: s, simulated: to be shown, and to rest there */
     ASK_CHOOSE,  /* amount: a place in the picture, pixels: the view there becomes the one that all acts on */
     ASK_GRAB,    /* the camera goes into the hand, as it stands */
     ASK_TURN,    /* amount: radians to the right and up, of a camera in the hand */

@@ -3,6 +3,7 @@
 #include "render/frame/legend.h"
 
 #include <math.h>
+#include <string.h>
 
 static const double REACH = 0.8; /* of letters' height */
 
@@ -19,7 +20,8 @@ void camera_sight(const Model *model, const ViewDef *view, const CameraSight *si
     const ParticleBuffers *particles = model_state(model, view);
     *out = (Sight){
         .box = particles->box, .width = sight->width, .height = sight->height, .reach = REACH * letters};
-    camera_make(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
+    const ViewDef seen = camera_at(view, particles->time);
+    camera_make(&seen, particles->box_size, &particles->box, (double)sight->width / sight->height,
                 covered(model, view, sight), &out->camera);
 }
 
@@ -27,10 +29,11 @@ Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight
 {
     const ViewDef *view = &model->open.scene.view;
     const ParticleBuffers *particles = model_state(model, view);
+    const ViewDef seen = camera_at(view, particles->time);
     return camera->held && !view->camera_auto
                ? camera->orbit
-               : orbit_begin(view, particles->box_size, &particles->box, (double)sight->width / sight->height,
-                             covered(model, view, sight));
+               : orbit_begin(&seen, particles->box_size, &particles->box,
+                             (double)sight->width / sight->height, covered(model, view, sight));
 }
 
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight)
@@ -51,4 +54,7 @@ void camera_home(PlayCamera *camera, Model *model)
     camera->held = false;
     view->camera_auto = model->file_scene.view.camera_auto;
     view->camera = model->file_scene.view.camera;
+    view->camera_turn = model->file_scene.view.camera_turn;
+    view->camera_path_count = model->file_scene.view.camera_path_count;
+    memcpy(view->camera_path, model->file_scene.view.camera_path, sizeof view->camera_path);
 }

@@ -1,4 +1,5 @@
 /* One picture: the fluid, what lies over it, and what is counted of it. */
+#include "app/play/again.h"
 #include "app/play/parts.h"
 #include "sim/base/stage.h"
 
@@ -144,13 +145,29 @@ static void draw_fluid(Play *play)
     events_follow_hand(play);
 }
 
+/* A picture of a scene carries it. */
+static void take_files(Play *play)
+{
+    const Picture *picture = &play->picture;
+    const Model *model = &play->model;
+    Carried carried = {.scene = NULL};
+    Error error = {{0}};
+    if (play->files.shoot && model->open.source->simulates && model->open.scene.view.carries_scene &&
+        !again_carry(model, &carried, &error))
+        notice_error(&play->notice, error.message);
+    const ImageText text = carry_text(&carried, model->particles.time);
+    files_take(&play->files, picture->panels, picture->width, picture->height, carried.scene ? &text : NULL,
+               &play->notice);
+    carry_free(&carried);
+}
+
 /* The fluid as it was drawn last, and what lies over it. */
 static void present_fluid(Play *play, bool fresh)
 {
     Picture *picture = &play->picture;
     picture_present(picture);
     if (fresh)
-        files_take(&play->files, picture->panels, picture->width, picture->height, &play->notice);
+        take_files(play);
     draw_marks(play);
     draw_overlay(play);
 }
@@ -160,6 +177,8 @@ static const char *words_of(const Play *play)
     const char *notice = notice_now(&play->notice);
     if (notice)
         return notice;
+    if (*play->reload.broken.message)
+        return play->reload.broken.message;
     return play->model.status.failed   ? play->model.status.message
            : play->model.has_particles ? NULL
                                        : "filling the box ...";

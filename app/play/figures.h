@@ -2,8 +2,8 @@
 #ifndef SLOSH_PLAY_FIGURES_H
 #define SLOSH_PLAY_FIGURES_H
 
+#include "app/meter/report.h"
 #include "app/play/parts.h"
-#include "app/play/report.h"
 
 void figures_of(const Play *play, PlayFigures *figures);
 

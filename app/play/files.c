@@ -16,7 +16,8 @@ static bool read_picture(const Panels *panels, int width, int height, Image *ima
     return panels_read(panels, image->rgb, error);
 }
 
-static void take_screenshot(Files *files, const Panels *panels, int width, int height, Notice *notice)
+static void take_screenshot(Files *files, const Panels *panels, int width, int height, const ImageText *text,
+                            Notice *notice)
 {
     Image image = {0};
     Output output = {.temp = ""};
@@ -25,8 +26,9 @@ static void take_screenshot(Files *files, const Panels *panels, int width, int h
     file_name_new(path, "png");
     files->shoot = false;
     if (read_picture(panels, width, height, &image, &error) && output_begin(&output, path, &error) &&
-        image_write(&image, output.temp, &error) && output_commit(&output, &error))
-        notice_tell(notice, "%s: the picture", path);
+        image_write(&image, text, output.temp, &error) && output_commit(&output, &error))
+        notice_tell(notice, text ? "%s: the picture; slosh %s opens its scene again" : "%s: the picture",
+                    path, path);
     else
         notice_error(notice, error.message);
     output_discard(&output);
@@ -101,10 +103,11 @@ static void take_frame(Files *files, const Panels *panels, int width, int height
     image_destroy(&image);
 }
 
-void files_take(Files *files, const Panels *panels, int width, int height, Notice *notice)
+void files_take(Files *files, const Panels *panels, int width, int height, const ImageText *text,
+                Notice *notice)
 {
     if (files_due(files))
         take_frame(files, panels, width, height, notice);
     if (files->shoot)
-        take_screenshot(files, panels, width, height, notice);
+        take_screenshot(files, panels, width, height, text, notice);
 }

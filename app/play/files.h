@@ -3,6 +3,7 @@
 #ifndef SLOSH_PLAY_FILES_H
 #define SLOSH_PLAY_FILES_H
 
+#include "app/output/image.h"
 #include "app/output/video.h"
 #include "app/play/notice.h"
 #include "render/panels.h"
@@ -20,8 +21,9 @@ typedef struct Files {
 /* Whether the video needs a picture now. */
 bool files_due(const Files *files);
 
-/* Takes what was just drawn, for what waits for it. */
-void files_take(Files *files, const Panels *panels, int width, int height, Notice *notice);
+/* Takes what was just drawn, for what waits for it. A single picture carries the text; NULL: none. */
+void files_take(Files *files, const Panels *panels, int width, int height, const ImageText *text,
+                Notice *notice);
 
 /* Begins a video of that size, or ends the present one. */
 void files_video(Files *files, int width, int height, Notice *notice);

@@ -4,6 +4,7 @@
 #include "app/scene/live.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
+#include "sim/matter/seed.h"
 #include "sim/world/world.h"
 
 #include <math.h>
@@ -223,6 +224,8 @@ static void adopt(Model *model, const PlayScene *opened)
     model->told_fixed = model->asked_acceleration = model->resizing = false;
     model->told_script = SCRIPT_NONE;
     model->scenes_opened++;
+    model->seeded =
+        opened->source->simulates ? seed_count(&opened->scene.world, opened->scene.world.spacing) : 0;
     model->open.source->set_speed(&model->open, model->speed);
 }
 

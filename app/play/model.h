@@ -31,6 +31,7 @@ typedef struct Model {
     double simulated_s;        /* of the scenes before, less what was simulated before the first picture */
     char kept_view[NAME_SIZE]; /* that the user chose, and the next scene is to have; "": as its file says */
     size_t scenes_opened;
+    size_t seeded;            /* particles of the open scene at its start */
     unsigned saves, messages; /* that were told */
     ScriptState told_script;  /* that was told */
     uint64_t shut;            /* gates that shall be: world_shut */

@@ -165,6 +165,9 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .box_most =
                             fmax(model->file_scene.world.box_size[0], model->file_scene.world.box_size[1]),
                         .particles = particles->count,
+                        .particles_at_start = model->seeded,
+                        .particles_wished = overlay->particles,
+                        .opened = model->scenes_opened,
                         .time = particles->time,
                         .dt = status->dt,
                         .limit = status->limit,
@@ -226,8 +229,21 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
     if (events->sized)
         ask_add(asks,
                 &(Ask){.kind = ASK_SIZE, .amount = {events->size[0], events->size[1], events->size[2]}});
+    if (*events->again) {
+        Ask ask = {.kind = ASK_AGAIN};
+        snprintf(ask.text, sizeof ask.text, "%s", events->again);
+        ask_add(asks, &ask);
+    }
     if (events->command != PLAY_NONE)
         ask_command(asks, (PlayCommand)events->command);
+}
+
+/* Once for a whole drag: the scene begins anew by it. */
+static void queue_particles(Overlay *overlay, AskQueue *asks)
+{
+    if (overlay->particles > 0 && overlay->held == 0)
+        ask_add(asks, &(Ask){.kind = ASK_PARTICLES, .amount = {overlay->particles}});
+    overlay->particles = overlay->held ? overlay->particles : 0;
 }
 
 /* Of a recorded session, as far as it is done again. */
@@ -319,6 +335,7 @@ static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *fac
     if (shows_opener(overlay) && panel_opener_draw(overlay->ui, title_height(overlay, model)))
         events.command = PLAY_PANEL;
     queue_events(&events, asks);
+    overlay->particles = events.particles > 0 ? events.particles : overlay->particles;
     if (shows_timeline(overlay, model))
         draw_timeline(overlay, model, facts, asks);
     overlay->input.now.changed = false;
@@ -347,6 +364,7 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
     overlay->shown = shown;
     widget_input_next(&overlay->input);
     draw_widgets(overlay, model, facts, asks);
+    queue_particles(overlay, asks);
     ui_end(overlay->ui);
     return overlay->input.count > 0 || ui_unsettled(overlay->ui);
 }

@@ -3,11 +3,11 @@
 #ifndef SLOSH_PLAY_OVERLAY_H
 #define SLOSH_PLAY_OVERLAY_H
 
+#include "app/meter/meter.h"
 #include "app/panel/panel.h"
 #include "app/panel/timeline.h"
 #include "app/panel/widget_input.h"
 #include "app/play/ask.h"
-#include "app/play/meter.h"
 #include "app/play/model.h"
 #include "app/shelf/cards.h"
 #include "app/window/window.h"
@@ -21,16 +21,17 @@ typedef struct Overlay {
     Ui *ui;
     Panel *widgets;
     WidgetInput input;
-    float mouse[2];  /* where the last event had it, */
-    unsigned held;   /* buttons of the mouse, a bit each */
-    double moved_ms; /* wall time of that */
-    int height;      /* of the picture drawn last */
-    bool scrubs;     /* the mouse holds the time line, */
-    double wished;   /* at this time, s */
-    double time;     /* s: of the state drawn last */
-    double drawn_ms; /* wall time of the last drawing */
-    int shown;       /* what was drawn then */
-    bool watches;    /* with the gauges, */
+    float mouse[2];   /* where the last event had it, */
+    unsigned held;    /* buttons of the mouse, a bit each */
+    double moved_ms;  /* wall time of that */
+    int height;       /* of the picture drawn last */
+    bool scrubs;      /* the mouse holds the time line, */
+    double wished;    /* at this time, s */
+    double particles; /* wished in the panel, for when the mouse lets go; 0: none */
+    double time;      /* s: of the state drawn last */
+    double drawn_ms;  /* wall time of the last drawing */
+    int shown;        /* what was drawn then */
+    bool watches;     /* with the gauges, */
     bool watches_probes;
     const char *warnings[8 + NOTES_MAX];
     int warning_count;

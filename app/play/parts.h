@@ -4,12 +4,12 @@
 #define SLOSH_PLAY_PARTS_H
 
 #include "app/hand/outline.h"
+#include "app/meter/meter.h"
 #include "app/play/ask.h"
 #include "app/play/camera.h"
 #include "app/play/files.h"
 #include "app/play/grip.h"
 #include "app/play/input.h"
-#include "app/play/meter.h"
 #include "app/play/model.h"
 #include "app/play/notice.h"
 #include "app/play/overlay.h"
@@ -17,6 +17,7 @@
 #include "app/play/readout.h"
 #include "app/play/views.h"
 #include "app/touch/touch.h"
+#include "app/watch/watch.h"
 #include "app/window/shake.h"
 #include "app/window/window.h"
 
@@ -25,6 +26,13 @@ typedef struct PadFinger {
     double looked_ms;       /* wall time of the last look */
     double press, until_ms; /* of a device: how it presses, and until when without more news */
 } PadFinger;
+
+/* A scene whose file is saved in an editor while it is open. */
+typedef struct Reload {
+    Watch watch;
+    size_t opened; /* Model.scenes_opened of what it watches */
+    Error broken;  /* why the file is not taken, until it is mended: stands in the picture; "": it is */
+} Reload;
 
 typedef struct Play {
     Window *window;
@@ -44,6 +52,7 @@ typedef struct Play {
     Picture picture;
     Overlay overlay;
     Files files;
+    Reload reload;
     PlayMeter meter;
     Notice notice;
     double shake_seconds; /* given: more than 0: a script shakes the box for so long, then all ends */
@@ -111,6 +120,13 @@ void act_all(Play *play);
 
 /* Opens a scene: what it was before stays where it cannot be opened. */
 bool act_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
+
+/* After app/play/again.h: the scene has begun anew, or its views are others, or something else of it. */
+void act_follow_again(Play *play, bool begun, bool views);
+
+/* reload.c: once a loop, between two pictures: a file that was saved is read again, and what has changed is
+   there at once. */
+void reload_look(Play *play);
 
 /* draw.c: one picture of the newest state on the screen. While time is paused what lies over the fluid may be
    drawn anew without it: on a software driver a fluid takes a while, and the mouse asks all the time. Whether

@@ -142,6 +142,7 @@ static bool run(Session *session, Error *error)
         model_leave(&play->model, 0);
         follow_scale(play);
         follow_shaders(play);
+        reload_look(play);
         if (!picture_follow_size(&play->picture, play->window, error))
             return false;
         play->picture.dirty |= notice_changed(&play->notice) | overlay_follow(&play->overlay);

@@ -3,7 +3,7 @@
 #define SLOSH_PLAY_H
 
 #include "app/device/mapping.h"
-#include "app/play/report.h"
+#include "app/meter/report.h"
 #include "app/session/args.h"
 
 typedef struct PlaySetup {

@@ -1,11 +1,13 @@
 #include "app/play/scene.h"
 
 #include "app/base/path.h"
+#include "app/base/picture_text.h"
 #include "app/beside/beside.h"
 #include "app/scene/advise.h"
 #include "app/session/recording_play.h"
 
 #include <dirent.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,6 +49,19 @@ static bool read_session(PlayScene *open, const char *path, const SceneSettings 
     return true;
 }
 
+/* Of a scene that a picture carries: what of the picture is not there again. */
+static void tell_picture(const char *path, Notes *notes)
+{
+    PictureText text;
+    Error none;
+    if (!picture_text_name(path) || !picture_text_read(path, &text, &none))
+        return;
+    if (isfinite(text.time))
+        notes_add(notes, "%.200s: a picture of %s at %.4g s; its scene begins at the start", path,
+                  *text.name ? text.name : "a scene", text.time);
+    free(text.scene);
+}
+
 static bool read_scene(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
                        Error *error)
 {
@@ -64,6 +79,8 @@ static bool read_scene(PlayScene *open, const char *name, const SceneSettings *s
         recording_create(&open->recording, path, text, size, settings ? settings : &none, error) &&
         company_read(&company, &open->company, notes, error);
     free(text);
+    if (ok)
+        tell_picture(path, notes);
     return ok;
 }
 
@@ -156,6 +173,7 @@ bool play_scene_close(PlayScene *open, double patience_ms)
         return false;
     company_destroy(open->company);
     recording_destroy(&open->recording);
+    free(open->renewed);
     *open = (PlayScene){.source = NULL};
     return true;
 }

@@ -16,8 +16,11 @@ typedef struct PlayScene {
     Scene scene;         /* as it stands now: the file's values, and what was changed since */
     Notes notes;         /* what is to be said of it as it stands now */
     Recording recording; /* the file's text and the settings: where the session begins */
-    bool session;        /* it was recorded, commands and all, and is to be done again */
-    Upload *upload;      /* carries every scalar, so that colours may change at once; NULL on a GPU */
+    char *renewed; /* the file's text, where it was saved since and went into what runs; NULL: the recording's
+                    */
+    size_t renewed_size;
+    bool session;   /* it was recorded, commands and all, and is to be done again */
+    Upload *upload; /* carries every scalar, so that colours may change at once; NULL on a GPU */
     Simulator *simulator;
     Recorded *recorded; /* of a file of snapshots; the player has taken its content over */
     Player *player;

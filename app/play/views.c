@@ -9,13 +9,18 @@ static bool same_camera(const ViewDef *a, const ViewDef *b)
     bool same = a->camera.fov_deg == b->camera.fov_deg;
     for (int k = 0; k < 3; k++)
         same &= a->camera.from[k] == b->camera.from[k] && a->camera.to[k] == b->camera.to[k];
-    return a->camera_auto == b->camera_auto && (a->camera_auto || same);
+    same = a->camera_auto == b->camera_auto && (a->camera_auto || same);
+    return same && a->camera_turn == b->camera_turn && a->camera_path_count == b->camera_path_count &&
+           memcmp(a->camera_path, b->camera_path, (size_t)a->camera_path_count * sizeof *a->camera_path) == 0;
 }
 
 static void copy_camera(const ViewDef *from, ViewDef *to)
 {
     to->camera_auto = from->camera_auto;
     to->camera = from->camera;
+    to->camera_turn = from->camera_turn;
+    to->camera_path_count = from->camera_path_count;
+    memcpy(to->camera_path, from->camera_path, sizeof to->camera_path);
 }
 
 void views_open(PlayViews *views, Scene *scene, Scene *file)

@@ -56,7 +56,7 @@ bool recording_create(Recording *recording, const char *path, const char *text, 
 bool recording_set(Recording *recording, const char *setting)
 {
     SceneSettings *own = &recording->settings;
-    const size_t key = strcspn(setting, "=") + 1;
+    const size_t key = scene_setting_key(setting) + 1;
     int at = 0;
     while (at < own->count && strncmp(own->set[at], setting, key) != 0)
         at++;

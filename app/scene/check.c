@@ -108,6 +108,19 @@ static bool check_sources(const Check *check)
                 "each entry of views has a `file`; leave it out of one, which shows the scene");
 }
 
+/* The keyframes of a camera, one after another. */
+static bool check_path(const Check *check, const char *path, const ViewDef *view)
+{
+    for (int i = 1; i < view->camera_path_count; i++) {
+        char key[64];
+        snprintf(key, sizeof key, "%s.camera_path[%d].time", path, i);
+        if (view->camera_path[i].time <= view->camera_path[i - 1].time)
+            return FAIL(check, key, "%s must be later than that of the keyframe before, %g s", key,
+                        view->camera_path[i - 1].time);
+    }
+    return true;
+}
+
 static bool check_views(const Check *check)
 {
     if (!check_sources(check))
@@ -115,10 +128,11 @@ static bool check_views(const Check *check)
     for (int i = 0; i < check->scene->view_count; i++) {
         char path[32];
         snprintf(path, sizeof path, "views[%d]", i);
-        if (!check_view(check, path, &check->scene->views[i]))
+        if (!check_view(check, path, &check->scene->views[i]) ||
+            !check_path(check, path, &check->scene->views[i]))
             return false;
     }
-    return check_view(check, "view", &check->scene->view);
+    return check_path(check, "view", &check->scene->view) && check_view(check, "view", &check->scene->view);
 }
 
 static bool check_spacing(const Check *check)

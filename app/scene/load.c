@@ -2,6 +2,7 @@
 #include "app/scene/scene.h"
 
 #include "app/base/path.h"
+#include "app/recipe/recipe.h"
 #include "app/scene/advise.h"
 #include "app/scene/check.h"
 #include "app/scene/keys.h"
@@ -71,10 +72,28 @@ static void ranges_of_views(const Tree *tree, const KeyScalar *scalar, Scene *sc
     }
 }
 
-static bool apply_settings(Tree *tree, const SceneSettings *settings, Error *error)
+static const char RECIPE[] = "preset=";
+
+static bool is_recipe(const char *setting)
 {
+    return strncmp(setting, RECIPE, strlen(RECIPE)) == 0;
+}
+
+size_t scene_setting_key(const char *setting)
+{
+    return is_recipe(setting) ? strlen(setting) : strcspn(setting, "=");
+}
+
+/* Presets first, wherever they stand: what is said of a key alone goes before them. */
+static bool apply_settings(Tree *tree, const SceneSettings *settings, Notes *notes, Error *error)
+{
+    for (int i = 0; i < settings->count; i++) {
+        const char *set = settings->set[i], *said = settings->said[i];
+        if (is_recipe(set) && !recipe_apply(tree, set + strlen(RECIPE), said ? said : set, notes, error))
+            return false;
+    }
     for (int i = 0; i < settings->count; i++)
-        if (!tree_set(tree, settings->set[i], settings->said[i], error))
+        if (!is_recipe(settings->set[i]) && !tree_set(tree, settings->set[i], settings->said[i], error))
             return false;
     return true;
 }
@@ -185,7 +204,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
 {
     ScalarNames scalars;
     file_scalars(tree, scalars);
-    if (!apply_settings(tree, settings, error) || !read_scene(tree, settings, out, notes, error) ||
+    if (!apply_settings(tree, settings, notes, error) || !read_scene(tree, settings, out, notes, error) ||
         !scene_read_view_files(tree, settings->recorded, out, notes, error))
         return false;
     out->purpose = settings->purpose;

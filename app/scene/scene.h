@@ -64,6 +64,9 @@ typedef struct SceneSettings {
                       the settings alone it is said what has no effect */
 } SceneSettings;
 
+/* How much of a setting is the same in another that takes its place: up to its '=', and of a preset all. */
+size_t scene_setting_key(const char *setting);
+
 /* Picture number `index` of those beside each other, from 0; how many there are, at least 1. */
 const ViewDef *scene_view(const Scene *scene, int index);
 int scene_view_count(const Scene *scene);

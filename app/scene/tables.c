@@ -1,15 +1,19 @@
 #include "app/scene/tables.h"
 
 #include "app/base/path.h"
+#include "app/base/picture_text.h"
 #include "app/base/read_file.h"
 #include "app/scene/check_parts.h"
 #include "app/scene/field_file.h"
 #include "app/volume/volume_file.h"
 #include "app/yaml/yaml.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* A table with the bytes that it was read from. */
 typedef struct Kept {
@@ -59,8 +63,13 @@ bool scene_beside_path(const char *scene, const char *name, char path[1200], Err
 {
     const char *slash = *name == '/' ? NULL : strrchr(scene, '/');
     const int folder = slash ? (int)(slash - scene) + 1 : 0;
-    return snprintf(path, 1200, "%.*s%s", folder, scene, name) < 1200 ||
-           error_set(error, "%.300s: its path is too long", name);
+    if (snprintf(path, 1200, "%.*s%s", folder, scene, name) >= 1200)
+        return error_set(error, "%.300s: its path is too long", name);
+    char found[SCENE_PATH_SIZE];
+    Error none;
+    if (picture_text_name(scene) && access(path, F_OK) != 0 && scene_path_find(name, found, &none))
+        memcpy(path, found, sizeof found);
+    return true;
 }
 
 static const FieldTable *table_of(const Check *check, const char *key, const char *name,
@@ -230,4 +239,50 @@ bool scene_has_tables(const Scene *scene)
                 return true;
     }
     return false;
+}
+
+/* ---- another folder ---- */
+
+typedef struct Mover {
+    const char *from, *to; /* the scenes */
+    FileMoved *moved;
+    void *user;
+} Mover;
+
+static bool names_file(const Node *node)
+{
+    return node->text && *node->text != '/' &&
+           (scene_names_table(node->text) || (node->key && strcmp(node->key, "file") == 0));
+}
+
+/* The file that a scene at `scene` means; false: there is none. */
+static bool whole_name(const char *scene, const char *name, char whole[PATH_MAX])
+{
+    char path[1200];
+    Error none;
+    struct stat is;
+    return scene_beside_path(scene, name, path, &none) && realpath(path, whole) && stat(whole, &is) == 0 &&
+           S_ISREG(is.st_mode);
+}
+
+static void move_below(const Mover *mover, Node *node, const char *path)
+{
+    char own[PATH_MAX], other[PATH_MAX];
+    int place = 0;
+    for (Node *child = node->first; child; child = child->next, place++) {
+        char inner[256];
+        if (node->kind == NODE_SEQUENCE)
+            snprintf(inner, sizeof inner, "%.180s[%d]", path, place);
+        else
+            snprintf(inner, sizeof inner, "%.180s%s%.60s", path, *path ? "." : "", child->key);
+        move_below(mover, child, inner);
+        if (names_file(child) && whole_name(mover->from, child->text, own) &&
+            !(whole_name(mover->to, child->text, other) && strcmp(own, other) == 0))
+            mover->moved(mover->user, child, inner, own);
+    }
+}
+
+void scene_move_files(Tree *tree, const char *output, FileMoved *moved, void *user)
+{
+    move_below(&(Mover){tree->path, output, moved, user}, tree->root, "");
 }

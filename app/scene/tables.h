@@ -21,7 +21,8 @@ bool scene_names_table(const char *text);
 /* The same of a mesh, by the endings of their formats. */
 bool scene_names_mesh(const char *text);
 
-/* The path of a file that a scene names, from the scene's folder. */
+/* The path of a file that a scene names, from the scene's folder; of one that a picture carries, else where
+ * scenes are looked for. */
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
 
 /* Calls `found` with each "table", "mesh" and "volume" that the scene in these bytes names once the settings
@@ -29,6 +30,11 @@ bool scene_beside_path(const char *scene, const char *name, char path[1200], Err
    Reads headers alone; of a text that is no scene, finds none. */
 void scene_find_tables(const char *path, const char *bytes, size_t size, const SceneSettings *settings,
                        void (*found)(void *user, const char *what, const char *path), void *user);
+
+/* Tables, meshes and volumes are found from the scene's folder. Calls `moved` with each that a scene at
+   `output` would not find any more: its node, the path of its key, and the file's whole name. */
+typedef void FileMoved(void *user, Node *node, const char *path, const char *whole);
+void scene_move_files(Tree *tree, const char *output, FileMoved *moved, void *user);
 
 /* Whether the scene names any. */
 bool scene_has_tables(const Scene *scene);

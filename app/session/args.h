@@ -70,6 +70,7 @@ typedef struct Args {
         settings;        /* --set, --particles, and what --backend, --method, --view, --threads stand for */
     bool quiet;          /* no progress and no table */
     const char *json;    /* FILE, or NULL */
+    const char *save;    /* info: FILE, or NULL */
     const char *output;  /* -o, or NULL */
     const char *forces;  /* run: FILE, or NULL */
     const char *probes;  /* run: FILE, or NULL */

@@ -22,7 +22,8 @@ typedef struct TouchTool {
     bool scripted;    /* and whether a recorded session was played then */
 } TouchTool;
 
-/* What the left button does beyond the ways of a finger: it takes solids. In the place of a FingerWay less one. */
+/* What the left button does beyond the ways of a finger: it takes solids. In the place of a FingerWay less
+ * one. */
 enum { TOUCH_HOLD = FINGER_POUR };
 
 /* What the other button does than that which does `way`: pull, or push where that pulls. */

@@ -108,18 +108,43 @@ void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3
 
 static const double FLAT = 0.1; /* of width and height */
 
-static void look_at_box(Camera *camera, const double size[3], const BoxState *box, double covered_right)
+/* The picture's axes from a direction towards the eye. */
+static void make_axes(vec3 back, vec3 right, vec3 up)
 {
-    vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up = {0, 1, 0};
+    glm_vec3_normalize(back);
+    glm_vec3_crossn((vec3){0, 1, 0}, back, right);
+    glm_vec3_crossn(back, right, up);
+}
+
+/* From where the whole box is seen from all sides: a camera that turns keeps its distance. */
+static float distance_all_around(const Camera *camera, const double size[3], Room room, vec3 back)
+{
+    enum { SIDES = 48 };
+    float distance = 0;
+    for (int side = 0; side < SIDES; side++) {
+        vec3 turned, right, up;
+        glm_vec3_copy(back, turned);
+        glm_vec3_rotate(turned, (float)(2 * M_PI * side / SIDES), (vec3){0, 1, 0});
+        make_axes(turned, right, up);
+        distance = fmaxf(distance, distance_to_fit(camera, size, room, turned, right, up));
+    }
+    return distance;
+}
+
+static void look_at_box(Camera *camera, const ViewDef *def, const double size[3], const BoxState *box,
+                        double covered_right)
+{
+    vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up;
     Room room = make_room(covered_right);
     if (size[2] < FLAT * fmin(size[0], size[1])) /* a picture, not a thing: seen as one */
         back[0] = back[1] = 0;
-    glm_vec3_normalize(back);
-    glm_vec3_crossn(up, back, right);
-    glm_vec3_crossn(back, right, up);
+    if (def->camera_turn != 0)
+        glm_vec3_rotate(back, (float)def->camera_yaw, (vec3){0, 1, 0});
+    make_axes(back, right, up);
     camera_anchor(size, box, at);
     at[1] += (float)size[1] / 2;
-    float distance = distance_to_fit(camera, size, room, back, right, up);
+    float distance = def->camera_turn != 0 ? distance_all_around(camera, size, room, back)
+                                           : distance_to_fit(camera, size, room, back, right, up);
     glm_vec3_muladds(right, -(room.left + room.right) / 2 * camera->tangent[0] * distance, at);
     glm_vec3_copy(at, eye);
     glm_vec3_muladds(back, distance, eye);
@@ -138,7 +163,7 @@ static void make_free(const ViewDef *def, const double box_size[3], const BoxSta
     camera->near_plane =
         (float)(1e-3 * diagonal); /* infinite reversed float depth loses nothing by a near one */
     if (def->camera_auto) {
-        look_at_box(camera, box_size, box, covered_right);
+        look_at_box(camera, def, box_size, box, covered_right);
         return;
     }
     vec3 eye, at;

@@ -30,6 +30,15 @@ float camera_slant_square(const Camera *camera);
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
                  Covered covered, Camera *camera);
 
+/* The def at a time, s: the camera is where its path (`view.camera_path`) and its turning have brought it.
+   The path is a cubic curve through the keyframes, in time and without a corner: its velocity at each is that
+   from the one before to the one after, and 0 at both ends, where the camera rests before and after. */
+ViewDef camera_at(const ViewDef *def, double time);
+
+/* Whether it moves by itself; and makes it stay. */
+bool camera_moves(const ViewDef *def);
+void camera_stay(ViewDef *def);
+
 /* What the automatic camera and the floor stand by: the box's position less its free way of half its size. */
 void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3]);
 

@@ -183,7 +183,8 @@ void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *par
                      .particle_radius = radii.drawn,
                      .particle_reach = radii.reach,
                      .shadow_radius = radii.shadow};
-    camera_make(def, particles->box_size, &particles->box, (double)target->width / target->height, covered,
+    const ViewDef seen = camera_at(def, particles->time);
+    camera_make(&seen, particles->box_size, &particles->box, (double)target->width / target->height, covered,
                 &frame->camera);
     camera_box_matrix(&particles->box, frame->box_to_world);
     float middle[3] = {0, (float)particles->box_size[1] / 2, 0}, center[3];

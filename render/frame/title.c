@@ -50,3 +50,21 @@ void title_draw(Text *text, const Title *title, const Frame *frame)
     text_draw(text, x, em + around, 1, ink, TEXT_LEFT, words);
     text_draw(text, x, em + around + (1 + BETWEEN) * em, 1, faint, TEXT_LEFT, figures);
 }
+
+void caption_draw(Text *text, const Frame *frame)
+{
+    static const float LARGE = 1.6F, LEAST = 0.5F;
+    const char *words = frame->def->title;
+    const uint32_t ink = legend_ink(frame->def),
+                   panel = legend_ink_is_dark(frame->def) ? 0xffffffd0 : 0x101418c0;
+    const float em = text_height(text), covered = fmaxf(frame->camera.centre[0], 0);
+    const float room = (float)frame->width * (1 - covered) - 4 * em, wide = text_width(text, LARGE, words);
+    if (!*words || room <= 0)
+        return;
+    const float scale = wide > room ? fmaxf(LARGE * room / wide, LEAST) : LARGE;
+    const float middle = (0.5F + 0.5F * covered) * (float)frame->width, half = wide * scale / LARGE / 2;
+    const float around = AROUND * em, bottom = (float)frame->height - 1.6F * em, top = bottom - scale * em;
+    text_rectangle(text, middle - half - around, top - around, middle + half + around, bottom + around,
+                   0.5F * em, panel);
+    text_draw(text, middle, top, scale, ink, TEXT_CENTER, words);
+}

@@ -16,6 +16,10 @@ typedef struct Title {
 /* Leaves the legend its place: what is wider is cut, and ends with "...". */
 void title_draw(Text *text, const Title *title, const Frame *frame);
 
+/* The def's own title, `view.title`, in the middle of what is free at the lower edge: smaller where it is
+   wider than that. */
+void caption_draw(Text *text, const Frame *frame);
+
 /* Rows of pixels, from the top, that a title may cover in a picture that high. */
 int title_rows(const Title *title, int height);
 

@@ -8,6 +8,7 @@ ViewDef view_def_shared(void)
                      .color_curve = control_points_straight(),
                      .opacity = {.range_auto = true, .curve = control_points_straight()},
                      .size = {.range_auto = true, .curve = control_points_straight()},
+                     .carries_scene = true,
                      .legend = true,
                      .box = true,
                      .caustics = true,

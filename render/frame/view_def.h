@@ -15,7 +15,15 @@ typedef struct CameraDef {
     double fov_deg; /* vertical field of view, degrees */
 } CameraDef;
 
+/* Where a camera is at a time, s. */
+typedef struct CameraKey {
+    double time;
+    CameraDef at;
+} CameraKey;
+
 enum {
+    CAMERA_KEYS_MAX = 16,
+    VIEW_TITLE_SIZE = 96,
     VIEW_KINDS_MAX = 8,
     OVERLAY_KINDS_MAX = 4,
     VIEW_OWN_SIZE = 1792,
@@ -76,7 +84,13 @@ typedef struct ViewDef {
     bool floor;                      /* draw the floor below the box */
     bool camera_auto;                /* the camera shows the whole box; else `camera` */
     CameraDef camera;
-    double background[3]; /* linear RGB 0..1, at the horizon */
+    double camera_turn;                     /* degrees a second about the vertical through what it looks at */
+    int camera_path_count;                  /* of the keyframes that it flies by; 0: none */
+    CameraKey camera_path[CAMERA_KEYS_MAX]; /* times ascend */
+    double camera_yaw;           /* radians that an automatic camera is turned by: camera_at; a scene has 0 */
+    char title[VIEW_TITLE_SIZE]; /* over the picture; "": none */
+    bool carries_scene;          /* pictures in PNG files have the scene as text */
+    double background[3];        /* linear RGB 0..1, at the horizon */
     int quality;       /* a ViewQuality: chooses for keys that are at their defaults, see view_at_quality */
     int drawn_quality; /* no key: what view_at_quality chose for this picture; VIEW_AUTO before it did */
     double resolution; /* pixels drawn for a pixel shown, each way; more than 0, at most 1 */

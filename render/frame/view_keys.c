@@ -45,6 +45,14 @@ static const char *scalar_or_none(int index)
 static const KeyOwner by_opacity = {.key = "view.opacity.by", .need = "a scalar (view.opacity.by)"};
 static const KeyOwner by_size = {.key = "view.size.by", .need = "a scalar (view.size.by)"};
 
+#define KEYFRAME(field) offsetof(CameraKey, field)
+
+static void camera_key_init(void *element, int index)
+{
+    (void)index;
+    ((CameraKey *)element)->at.fov_deg = view_def_shared().camera.fov_deg;
+}
+
 /* clang-format off */
 const Key view_keys[] = {
     MAPPING("view", "the picture", .flags = I),
@@ -81,6 +89,15 @@ const Key view_frame_keys[] = {
     VEC3("view.camera.from", R | L, "m", -1e5, 1e5, AT(camera.from), "the eye, in the world's frame"),
     VEC3("view.camera.to", R | L, "m", -1e5, 1e5, AT(camera.to), "the point looked at"),
     NUMBER("view.camera.fov", L, "degrees", 1, 170, AT(camera.fov_deg), "vertical field of view"),
+    NUMBER("view.camera_turn", L, "degrees/s", -3600, 3600, AT(camera_turn), "turns the camera about the vertical through what it looks at, in simulated time"),
+    LIST("view.camera_path", 0, 0, CAMERA_KEYS_MAX, AT(camera_path), AT(camera_path_count), CameraKey, camera_key_init,
+         "where the camera flies, in simulated time: keyframes, with a smooth curve through them; it rests at the first one before, at the last one after"),
+    NUMBER("view.camera_path[].time", R, "s", 0, 1e6, KEYFRAME(time), "later than that of the one before"),
+    VEC3("view.camera_path[].from", R, "m", -1e5, 1e5, KEYFRAME(at.from), "the eye then"),
+    VEC3("view.camera_path[].to", R, "m", -1e5, 1e5, KEYFRAME(at.to), "the point looked at"),
+    NUMBER("view.camera_path[].fov", 0, "degrees", 1, 170, KEYFRAME(at.fov_deg), "vertical field of view"),
+    TEXT("view.title", L, VIEW_TITLE_SIZE, AT(title), "none", "words over the picture"),
+    BOOLEAN("view.carries_scene", L, AT(carries_scene), "PNG files carry the scene as text: slosh FILE.png opens it again"),
     CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: best in files, draft for clear fluid in the window on a software driver, else good"),
     NUMBER("view.resolution", L, "", 0.05, 1, AT(resolution), "pixels drawn for a pixel shown, each way: less is faster; the box's edges, words and the legend have all of them"),
     TEXT("view.file", 0, VIEW_FILE_SIZE, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),

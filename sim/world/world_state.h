@@ -44,7 +44,7 @@ typedef struct WorldNumbers {
     FingerState finger;
     double
         shut; /* which gates of emitters and drains are, as the bits of a whole number: sim/matter/flow.h */
-    double pours; /* s: since when the finger does so */
+    double pours;      /* s: since when the finger does so */
     BodyStates bodies; /* solids that float */
 } WorldNumbers;
 
@@ -91,9 +91,9 @@ bool world_move(World **world, const char *backend, Error *error);
    that time twice the memory. False with the reason: nothing has changed. */
 bool world_rebuild(World **world, const WorldDef *def, Error *error);
 
-/* From the next step on its box is as large as that of the def, and its solids are those of the def, where the hand
-   has them: at once, where only that differs; else as world_rebuild does. Particles that a smaller box leaves
-   outside come to its walls. */
+/* From the next step on its box is as large as that of the def, and its solids are those of the def, where
+   the hand has them: at once, where only that differs; else as world_rebuild does. Particles that a smaller
+   box leaves outside come to its walls. */
 bool world_set_shapes(World **world, const WorldDef *def, Error *error);
 
 #endif

@@ -147,7 +147,7 @@ static void slips_are_named(void **state)
     refuse("dam_brake", "slosh: unknown command 'dam_brake'; did you mean the scene 'dam_break'?");
     refuse("render -o a.png",
            "slosh render: the scene is missing; write slosh render SCENE|IN.h5part|SESSION -o");
-    refuse("render s", "slosh render: -o is missing; add -o with OUT.png, OUT.mp4 or a folder");
+    refuse("render s", "slosh render: -o is missing; add -o with OUT.png, OUT.mp4, OUT.gif or a folder");
     refuse("run s", "slosh run: -o is missing; add -o with OUT.h5part");
     refuse("render s t -o a.png", "slosh render: one argument too many: 't'; it takes 1 scene");
     refuse("render s -o", "slosh render: -o needs a value: OUT");
@@ -289,7 +289,7 @@ static void help_comes_from_the_table(void **state)
     refuse("help dance", "slosh: unknown command 'dance'");
 
     char *program = help_of(COMMAND_HELP), *bench = help_of(COMMAND_BENCH), *run = help_of(COMMAND_RUN);
-    assert_non_null(strstr(program, " SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|FOLDER"));
+    assert_non_null(strstr(program, " SCENE|IN.h5part|SESSION -o OUT.png|OUT.mp4|OUT.gif|FOLDER"));
     assert_non_null(strstr(program, "slosh play"));
     assert_non_null(strstr(program, "dam_break, dam_break_2d, drop,"));
     assert_non_null(strstr(bench, "--sweep KEY=A,B,..."));

@@ -13,9 +13,9 @@
 
 enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
 
-static const char *const sections[] = {
-    "History", "Stages", "Accuracy", "Colours", "World", "Fluids",
-    "Solver",  "Hand",   "Touch",    "Glyphs",  "Trails"}; /* View is open */
+static const char *const sections[] = {"History", "Stages", "Accuracy",       "Colours", "World",
+                                       "Fluids",  "Solver", "Hand",           "Touch",   "Glyphs",
+                                       "Trails",  "Film",   "Begin anew with"}; /* View is open */
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 /* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
@@ -37,6 +37,9 @@ typedef struct Session {
     HandDevice devices[3];
     int tuned; /* the last one */
     double gain, dead_zone;
+    size_t opened;    /* scenes */
+    double particles; /* the last ones */
+    char again[64];
 } Session;
 
 static void take(Session *session, const PanelEvents *events)
@@ -48,6 +51,10 @@ static void take(Session *session, const PanelEvents *events)
         session->gain = events->gain;
         session->dead_zone = events->dead_zone;
     }
+    if (events->particles > 0)
+        session->particles = events->particles;
+    if (*events->again)
+        memcpy(session->again, events->again, sizeof session->again);
     for (int i = 0; i < events->setting_count; i++) {
         Error error = {{0}};
         session->settings++;
@@ -63,6 +70,7 @@ static void draw_panel(void *user, Desk *desk)
 {
     Session *session = user;
     PanelEvents events;
+    session->data.opened = session->opened;
     panel_draw(session->panel, desk->ui, desk->target.width, desk->target.height, &session->data, &events);
     session->data.shut = events.gated ? events.shut : session->data.shut;
     session->watches = events.watches;
@@ -76,6 +84,7 @@ static void load(Session *session, const char *name)
 {
     Error error = {{0}};
     SceneSettings settings = {.count = 0};
+    session->opened++;
     assert_true(scene_load(name, &settings, &session->scene, NULL, &error));
     pbsr_def(&session->scene.view)->layer_count = 2; /* elements of a list have widgets */
 }
@@ -112,6 +121,7 @@ static void fill(Session *session)
                                 .probes = session->probes,
                                 .probe_count = HISTORY,
                                 .particles = 1234567,
+                                .particles_at_start = 1234000,
                                 .time = 1234.56,
                                 .iterations = 10000,
                                 .solved = {12345, 1234.5, 1279, 0.000123, 0.00456},
@@ -501,6 +511,22 @@ static void test_motion_devices(void **state)
     session_close(&session, desk);
 }
 
+static void test_the_scene_begins_anew(void **state)
+{
+    (void)state;
+    static Session session;
+    Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
+    desk_click_at(desk, "Begin anew with", 0.3F);
+    desk_click_at(desk, "again.honey", 0.5F);
+    assert_string_equal(session.again, "preset=honey:0");
+    desk_click_at(desk, "again.fast", 0.5F);
+    assert_string_equal(session.again, "preset=fast");
+    desk_click_at(desk, "again.particles", 0.75F);
+    assert_true(session.particles > 1234000 && session.particles < 16 * 1234000);
+    assert_int_equal(session.settings, 0);
+    session_close(&session, desk);
+}
+
 static void test_stages_as_they_are_known(void **state)
 {
     (void)state;
@@ -779,6 +805,7 @@ int main(void)
         cmocka_unit_test_teardown(test_sliders_follow_another_scene, no_gl_errors),
         cmocka_unit_test_teardown(test_buttons_are_the_commands, no_gl_errors),
         cmocka_unit_test_teardown(test_motion_devices, no_gl_errors),
+        cmocka_unit_test_teardown(test_the_scene_begins_anew, no_gl_errors),
         cmocka_unit_test_teardown(test_stages_as_they_are_known, no_gl_errors),
         cmocka_unit_test_teardown(test_gauges_are_plotted, no_gl_errors),
         cmocka_unit_test_teardown(test_probes_are_plotted, no_gl_errors),

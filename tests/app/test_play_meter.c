@@ -1,7 +1,7 @@
 /* What the window measures of itself, against what was put in; and the script that shakes the box. */
 #include "tests/near.h"
 
-#include "app/play/meter.h"
+#include "app/meter/meter.h"
 #include "app/window/shake.h"
 
 #include <math.h>

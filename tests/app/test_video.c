@@ -178,10 +178,10 @@ static void the_name_says_what_to_write(void **state)
         assert_true(pictures_kind(folders[i], &kind, &error));
         assert_int_equal(kind, PICTURES_FOLDER);
     }
-    const char *const wrong[] = {"a.jpg", "a.gif", "a.png.", "", "a.mp4x"};
+    const char *const wrong[] = {"a.jpg", "a.webm", "a.png.", "", "a.mp4x"};
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
         assert_false(pictures_kind(wrong[i], &kind, &error));
-    assert_contains(error.message, "use .png, .mp4 or a folder name");
+    assert_contains(error.message, "use .png, .mp4, .gif or a folder name");
 }
 
 static void a_folder_gets_numbered_frames(void **state)

@@ -98,7 +98,7 @@ class Whole(CommandTest):
         pictures = {}
         for quality in ('auto', 'good', 'best'):
             code, said = self.slosh('render', 'dam_break', '-o', 'a.png', '--time', '0', '--view', 'volume', '--set',
-                                    'view.volume.look=water', '--set', f'view.quality={quality}', *SMALL)
+                                    'view.volume.look=water', '--set', f'view.quality={quality}', '--set', 'view.carries_scene=false', *SMALL)
             self.assertEqual(code, 0, said)
             pictures[quality] = self.read('a.png')
         self.assertEqual(pictures['auto'], pictures['best'])
@@ -364,8 +364,8 @@ class Usage(CommandTest):
         self.assertEqual(self.entries(), [])
 
     def test_extension(self):
-        for name in ('a.jpg', 'a.gif', 'a.h5part', 'b.c/a.tiff'):
-            self.refused('render', 'scene.yaml', '-o', name, reason='use .png, .mp4 or a folder name')
+        for name in ('a.jpg', 'a.webm', 'a.h5part', 'b.c/a.tiff'):
+            self.refused('render', 'scene.yaml', '-o', name, reason='use .png, .mp4, .gif or a folder name')
 
     def test_run_extension(self):
         self.refused('run', 'scene.yaml', '-o', 'a.mp4', reason='name a FILE.h5part')

@@ -118,7 +118,7 @@ static void check(const Golden *golden)
     const char *mode = getenv("SLOSH_GOLDEN");
     Image drawn = draw(golden), kept;
     snprintf(path, sizeof path, SLOSH_SOURCE_DIR "/tests/images/%s.png", golden->name);
-    if (mode && strcmp(mode, "write") == 0 && !image_write(&drawn, path, &error))
+    if (mode && strcmp(mode, "write") == 0 && !image_write(&drawn, NULL, path, &error))
         fail_msg("%s", error.message);
     if (!image_read(path, &kept, &error))
         fail_msg("%s", error.message);

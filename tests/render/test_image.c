@@ -24,7 +24,7 @@ static void test_round_trip(void **state)
     char path[] = "/tmp/slosh-image-XXXXXX";
     close(mkstemp(path));
     Image written = noise(37, 21), read;
-    assert_true(image_write(&written, path, &error));
+    assert_true(image_write(&written, NULL, path, &error));
     assert_true(image_read(path, &read, &error));
     assert_int_equal(read.width, 37);
     assert_int_equal(read.height, 21);
@@ -42,7 +42,7 @@ static void test_full_disk(void **state)
     for (int i = 0; i < 2; i++) {
         FILE *full = fopen("/dev/full", "wb");
         assert_non_null(full);
-        assert_false(image_write_stream(i ? &large : &small, full, "movie.png", &error));
+        assert_false(image_write_stream(i ? &large : &small, NULL, full, "movie.png", &error));
         assert_non_null(strstr(error.message, "movie.png"));
         assert_non_null(strstr(error.message, "No space left"));
         fclose(full);
@@ -56,7 +56,7 @@ static void test_nowhere_to_write(void **state)
     (void)state;
     Error error = {0};
     Image image = noise(4, 4);
-    assert_false(image_write(&image, "/nowhere/at/all.png", &error));
+    assert_false(image_write(&image, NULL, "/nowhere/at/all.png", &error));
     assert_non_null(strstr(error.message, "/nowhere/at/all.png"));
     image_destroy(&image);
 }

@@ -51,7 +51,7 @@ static const char everything[] =
     "  - {name: b, height: {at: [0, 0, 0]}}\n"
     "  - {name: c, line: {from: [0, 0, 0], to: [0, 1, 0]}}\n"
     "  - {name: d, plane: {at: [0, 1, 0], along: [1, 0, 0], across: [0, 0, 1]}}\n"
-    "view: {camera: {from: [3, 3, 3], to: [0, 0, 0]}, pbsr: {layers: [{}]}}\n";
+    "view: {camera: {from: [3, 3, 3], to: [0, 0, 0]}, camera_path: [{time: 1, from: [3, 3, 3], to: [0, 0, 0]}], pbsr: {layers: [{}]}}\n";
 
 static void replace(char *path, const char *pattern, const char *with)
 {
@@ -87,6 +87,7 @@ static void path_in_scene(const char *row, char path[128])
     replace(path, "probes[].plane", "probes[3].plane");
     replace(path, "probes[].", "probes[0].");
     replace(path, "layers[].", "layers[0].");
+    replace(path, "camera_path[].", "camera_path[0].");
     for (int kind = 0; kind < MOTION_KIND_COUNT; kind++) {
         char pattern[32], with[32];
         snprintf(pattern, sizeof pattern, "motion[].%s.", motion_name((MotionKind)kind));

@@ -131,7 +131,7 @@ static void the_table_says_which(void **state)
         if (keys[i].flags & KEY_LIVE) {
             const Key *list = key_list(&keys[i]);
             key_value_text(&keys[i], (char *)&scene + (list ? key_list_at(list, 1) : 0), value, sizeof value);
-            snprintf(setting, sizeof setting, "%s=%s", path, value);
+            snprintf(setting, sizeof setting, "%s=%s", path, *value ? value : "words");
             const bool drawn = strncmp(path, "view.", 5) == 0 || strcmp(path, "title") == 0 ||
                                strstr(path, ".color") || strcmp(path, "solver.step.realtime") == 0 ||
                                strcmp(path, "solver.acceleration") == 0 || strncmp(path, "touch.", 6) == 0;

@@ -60,7 +60,8 @@ APP = {
     "yaml": "base",
     "volume": "base yaml",
     "mesh_file": "base",
-    "scene": "base metric probe yaml volume mesh_file",
+    "recipe": "base yaml",
+    "scene": "base metric probe yaml volume mesh_file recipe",
     "term": "scene",
     "recording": "base yaml scene",
     "hand": "base scene",
@@ -68,6 +69,7 @@ APP = {
     "device": "base yaml scene recording hand",
     "held": "base scene hand device",
     "output": "base yaml scene",
+    "setting": "base yaml scene recording output",
     "session": "base metric probe outcome scene recording hand held output",
     "playback": "base yaml scene output session",
     "export": "base yaml scene output playback",
@@ -81,11 +83,13 @@ APP = {
     "ablate": "base metric outcome scene term lab",
     "gallery": "base scene session lab",
     "window": "",
-    "panel": "probe scene term hand held session shelf window",
-    "play": "base scene recording hand touch device held output session playback beside shelf lab window panel",
+    "watch": "base",
+    "meter": "base session lab",
+    "panel": "probe recipe scene term hand held session shelf window",
+    "play": "base yaml recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
     "manual": "base scene session",
-    "film": "base scene recording output session playback beside",
-    "command": "base metric probe outcome yaml scene recording hand device held output session playback export beside shelf trace case lab stability fit ablate gallery play manual film",
+    "film": "base scene recording output setting session playback beside",
+    "command": "base metric probe outcome yaml recipe scene recording hand device held output setting session playback export beside shelf trace case lab stability fit ablate gallery meter play manual film",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
           ("app", APP, ["sim", "sim/gl", "render"])]
@@ -93,7 +97,7 @@ DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "volume", "recording", "devi
 
 
 # What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
-METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/preset.c", "app/command/info.c"]
+METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/preset.c", "app/recipe/recipe_rows.c", "app/command/info.c"]
 
 # What names views beside their folders and app/case: lists.
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]

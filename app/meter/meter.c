@@ -1,4 +1,4 @@
-#include "app/play/meter.h"
+#include "app/meter/meter.h"
 
 #include <stdio.h>
 #include <stdlib.h>

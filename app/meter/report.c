@@ -1,4 +1,4 @@
-#include "app/play/report.h"
+#include "app/meter/report.h"
 
 #include "app/base/json_file.h"
 #include "app/lab/bench.h"

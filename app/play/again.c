@@ -1,0 +1,338 @@
+#include "app/play/again.h"
+
+#include "app/base/path.h"
+#include "app/output/file_name.h"
+#include "app/recipe/recipe.h"
+#include "app/scene/keys.h"
+#include "app/setting/save.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *again_text(const PlayScene *open, size_t *size)
+{
+    *size = open->renewed ? open->renewed_size : open->recording.size;
+    return open->renewed ? open->renewed : open->recording.text;
+}
+
+/* Entries of `views` hold all that is shown; `view`, which the window has as the chosen one, is the file's
+   again. */
+static void settle_views(const Scene *filed, Scene *now)
+{
+    if (now->view_count == 0 && filed->view_count == 1) {
+        now->view_count = 1;
+        now->views[0] = now->view;
+    }
+    if (now->view_count > 0)
+        now->view = filed->view;
+}
+
+static bool parse(const Model *model, const char *text, size_t size, SceneSettings *settings, Scene *out,
+                  Error *error)
+{
+    settings->purpose = SCENE_FOR_WINDOW;
+    return scene_parse(model->open.recording.path, text, size, settings, out, NULL, error);
+}
+
+bool again_look(const Model *model, Again *out, Error *error)
+{
+    SceneSettings settings = model->open.recording.settings;
+    size_t size;
+    const char *text = again_text(&model->open, &size);
+    out->mine = (Differ){.world = false};
+    if (!parse(model, text, size, &settings, &out->filed, error))
+        return false;
+    out->now = model->open.scene;
+    settle_views(&out->filed, &out->now);
+    scene_differ(&out->filed, &out->now, &out->mine);
+    return true;
+}
+
+/* What a user did in a scene that begins anew is not lost. */
+static bool keep_session(Model *model, Error *error)
+{
+    char path[1024];
+    if (!model->status.unsaved || model->record) /* with --record the scene that is left is saved anyway */
+        return true;
+    file_name_new(path, "recording");
+    return model_save_now(model, path, error);
+}
+
+/* Not of a session that is done again, whose settings are its own. */
+static bool may_begin(const Model *model, Error *error)
+{
+    if (!model->open.source->simulates)
+        return error_set(error, "a recorded run stays as it was simulated");
+    return !model->open.session ||
+           error_set(error, "a recorded session is done as it was; open its scene to change this");
+}
+
+static bool open_with(Model *model, const SettingList *settings, size_t particles, Error *error)
+{
+    SceneSettings given;
+    char path[SCENE_PATH_SIZE];
+    snprintf(path, sizeof path, "%s", model->open.scene.path);
+    if (!setting_list_settings(settings, &given, error))
+        return false;
+    given.particles = particles;
+    return keep_session(model, error) && model_open(model, path, &given, error);
+}
+
+/* A number of particles decides the spacing; a scene takes no more than one of them. */
+static void leave_spacing(SettingList *list)
+{
+    setting_list_remove_under(list, "particles.spacing=");
+}
+
+/* What was set before gives way to a preset that is chosen now. */
+static void give_way(SettingList *list, const SettingList *more)
+{
+    static const char PRESET[] = "preset=";
+    SettingList gone = {.count = 0};
+    for (int i = 0; i < more->count; i++)
+        for (int k = 0; k < list->count && strncmp(more->set[i], PRESET, strlen(PRESET)) == 0; k++)
+            if (recipe_concerns(more->set[i] + strlen(PRESET), list->set[k]))
+                setting_list_add(&gone, list->set[k]);
+    setting_list_remove(list, &gone);
+    setting_list_free(&gone);
+}
+
+bool again_open(Model *model, const SettingList *more, size_t particles, Error *error)
+{
+    Again *again = calloc(1, sizeof *again);
+    SettingList all = {.count = 0};
+    if (!again) {
+        error_set(error, "no memory to begin again");
+        return false;
+    }
+    bool ok = may_begin(model, error) && again_look(model, again, error);
+    if (ok) {
+        const SceneSettings *said = &model->open.recording.settings;
+        setting_list_join_scene(&all, said);
+        setting_list_join(&all, &again->mine.settings);
+        give_way(&all, more);
+        setting_list_join(&all, more);
+        if (particles > 0)
+            leave_spacing(&all);
+        ok = open_with(model, &all, particles > 0 ? particles : said->particles, error);
+    }
+    setting_list_free(&all);
+    setting_list_free(&again->mine.settings);
+    free(again);
+    return ok;
+}
+
+static bool save(Model *model, Again *again, Error *error)
+{
+    char words[512];
+    size_t size;
+    const char *text = again_text(&model->open, &size);
+    if (!again_look(model, again, error))
+        return false;
+    Saved saved = {.lost = false};
+    const Save what = {.scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
+    const bool ok = save_scene(&what, NULL, &saved, error);
+    saved_words(&saved, words, sizeof words);
+    if (ok)
+        notice_tell(model->notice, "%s", words);
+    setting_list_free(&saved.changed);
+    return ok;
+}
+
+void again_save(Model *model)
+{
+    Error error = {{0}};
+    Again *again = calloc(1, sizeof *again);
+    if (!again || !save(model, again, &error))
+        notice_error(model->notice, again ? error.message : "no memory to save the scene");
+    if (again)
+        setting_list_free(&again->mine.settings);
+    free(again);
+}
+
+bool again_carry(const Model *model, Carried *out, Error *error)
+{
+    size_t size;
+    const char *text = again_text(&model->open, &size);
+    Again *again = calloc(1, sizeof *again);
+    if (!again) {
+        error_set(error, "no memory for the scene of the picture");
+        return false;
+    }
+    bool ok = again_look(model, again, error);
+    const Save what = {.scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
+    ok = ok && carry_make(&what, out, error);
+    setting_list_free(&again->mine.settings);
+    free(again);
+    return ok;
+}
+
+/* ---- the file was written ---- */
+
+/* A file on its way into the scene that runs. */
+typedef struct Renewal {
+    Again again;
+    char *text;
+    size_t size;
+    Scene fresh;    /* as the file and the command line have it now */
+    Differ changed; /* of the file */
+    Scene wanted;   /* with what was changed in the window besides */
+    Differ due;     /* by which what runs becomes that */
+    SettingList settings;
+} Renewal;
+
+static void renewal_free(Renewal *renewal)
+{
+    setting_list_free(&renewal->again.mine.settings);
+    setting_list_free(&renewal->changed.settings);
+    setting_list_free(&renewal->due.settings);
+    setting_list_free(&renewal->settings);
+    free(renewal->text);
+    free(renewal);
+}
+
+/* What the window has changed stays where the file has not; all of it goes where the file does not bear it.
+ */
+static bool find_wanted(const Model *model, Renewal *renewal, Error *error)
+{
+    const Recording *recording = &model->open.recording;
+    SceneSettings settings;
+    Error none;
+    setting_list_join_scene(&renewal->settings, &recording->settings);
+    setting_list_join(&renewal->settings, &renewal->again.mine.settings);
+    setting_list_remove(&renewal->settings, &renewal->changed.settings);
+    if (!setting_list_settings(&renewal->settings, &settings, error))
+        return false;
+    settings.particles = recording->settings.particles;
+    if (parse(model, renewal->text, renewal->size, &settings, &renewal->wanted, &none))
+        return true;
+    setting_list_free(&renewal->settings);
+    setting_list_join_scene(&renewal->settings, &recording->settings);
+    renewal->wanted = renewal->fresh;
+    return true;
+}
+
+static bool read_file(const Model *model, Renewal *renewal, Error *error)
+{
+    const Recording *recording = &model->open.recording;
+    SceneSettings settings = recording->settings;
+    if (!again_look(model, &renewal->again, error))
+        return false;
+    renewal->text = scene_file_read(recording->path, &renewal->size, error);
+    if (!renewal->text || !parse(model, renewal->text, renewal->size, &settings, &renewal->fresh, error))
+        return false;
+    scene_differ(&renewal->again.filed, &renewal->fresh, &renewal->changed);
+    if (!find_wanted(model, renewal, error))
+        return false;
+    scene_differ(&renewal->again.now, &renewal->wanted, &renewal->due);
+    return true;
+}
+
+static bool is_of_view(const char *setting)
+{
+    return strncmp(setting, "view", strlen("view")) == 0;
+}
+
+static bool shows_others(const Scene *scene)
+{
+    for (int i = 0; i < scene->view_count; i++)
+        if (!scene_shows(scene, &scene->views[i]))
+            return true;
+    return false;
+}
+
+/* Whether what runs can become it: a command holds so much of a setting; runs beside the scene begin with it.
+ */
+static bool is_live(const Renewal *renewal)
+{
+    const SettingList *due = &renewal->due.settings;
+    bool views = is_of_view(renewal->due.built);
+    for (int i = 0; i < due->count; i++) {
+        views |= is_of_view(due->set[i]);
+        if (!is_of_view(due->set[i]) && strlen(due->set[i]) >= SIM_SETTING_SIZE)
+            return false;
+    }
+    return !renewal->due.dead && !due->lacks &&
+           !(views && (shows_others(&renewal->again.now) || shows_others(&renewal->wanted)));
+}
+
+/* Of keys that change nothing that runs, such as metrics, the value alone. */
+static void set(Model *model, const Scene *wanted, const char *setting)
+{
+    char path[DIFFER_PATH_SIZE];
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
+    const Key *key = scene_key_find(path);
+    if (key && key->flags & KEY_LIVE)
+        model_set(model, setting);
+    Scene *scene = &model->open.scene;
+    memcpy(scene->preset, wanted->preset, sizeof scene->preset);
+    scene->preset_filled = wanted->preset_filled;
+    scene->metric_count = wanted->metric_count;
+    memcpy(scene->metrics, wanted->metrics, sizeof scene->metrics);
+}
+
+/* The file's text is what is compared with from now on. Whether the picture is another one. */
+static bool renew(Model *model, Renewal *renewal)
+{
+    PlayScene *open = &model->open;
+    const SettingList *due = &renewal->due.settings;
+    bool views = is_of_view(renewal->due.built);
+    for (int i = 0; i < due->count; i++) {
+        views |= is_of_view(due->set[i]);
+        if (!is_of_view(due->set[i]))
+            set(model, &renewal->wanted, due->set[i]);
+    }
+    if (views) {
+        open->scene.view = renewal->wanted.view;
+        open->scene.view_count = renewal->wanted.view_count;
+        memcpy(open->scene.views, renewal->wanted.views, sizeof open->scene.views);
+        model->file_scene = renewal->fresh;
+    }
+    free(open->renewed);
+    open->renewed = renewal->text;
+    open->renewed_size = renewal->size;
+    renewal->text = NULL;
+    return views;
+}
+
+static AgainResult begin(Model *model, Renewal *renewal, Error *error)
+{
+    return open_with(model, &renewal->settings, model->open.recording.settings.particles, error)
+               ? AGAIN_BEGUN
+               : AGAIN_FAILED;
+}
+
+/* A list has no value to be named by. */
+static void tell(const Renewal *renewal, bool others, char words[320])
+{
+    const Differ *changed = &renewal->changed;
+    char of[240] = "";
+    differ_words(&changed->settings, of, sizeof of);
+    snprintf(words, 320, "%s%s%s", *changed->built ? changed->built : of, *changed->built && *of ? ", " : "",
+             *changed->built ? of : "");
+    if (!*words && others)
+        snprintf(words, 320, "a file that it names");
+}
+
+AgainResult again_read(Model *model, bool others, char words[320], Error *error)
+{
+    Renewal *renewal = calloc(1, sizeof *renewal);
+    AgainResult result = AGAIN_FAILED;
+    *words = 0;
+    if (!renewal) {
+        error_set(error, "no memory to read the scene again");
+        return AGAIN_FAILED;
+    }
+    if (read_file(model, renewal, error)) {
+        tell(renewal, others, words);
+        if (others || !is_live(renewal))
+            result = begin(model, renewal, error);
+        else if (renew(model, renewal))
+            result = AGAIN_VIEW;
+        else
+            result = *words ? AGAIN_LIVE : AGAIN_SAME;
+    }
+    renewal_free(renewal);
+    return result;
+}

@@ -1,0 +1,79 @@
+#include "app/setting/carry.h"
+
+#include "app/base/picture_text.h"
+#include "app/yaml/patch.h"
+#include "app/yaml/yaml.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Settings that leave of whole paths the last part. */
+static void find_paths(const Node *node, const char *path, SettingList *out)
+{
+    int place = 0;
+    for (const Node *child = node->first; child; child = child->next, place++) {
+        char inner[256], setting[1024];
+        if (node->kind == NODE_SEQUENCE)
+            snprintf(inner, sizeof inner, "%.180s[%d]", path, place);
+        else
+            snprintf(inner, sizeof inner, "%.180s%s%.60s", path, *path ? "." : "", child->key);
+        find_paths(child, inner, out);
+        if (!child->text || (*child->text != '/' && *child->text != '~'))
+            continue;
+        snprintf(setting, sizeof setting, "%s=\"%.500s\"", inner,
+                 strrchr(child->text, '/') ? strrchr(child->text, '/') + 1 : "");
+        setting_list_add(out, setting);
+    }
+}
+
+/* Replaces the text; false: such a path stays in it. */
+static bool leave_paths(char **text, Error *error)
+{
+    SettingList names = {.count = 0};
+    Tree tree;
+    bool ok = tree_read(&tree, "the scene", *text, strlen(*text), error);
+    if (ok)
+        find_paths(tree.root, "", &names);
+    for (int i = 0; ok && i < names.count; i++) {
+        char *next = yaml_patch("the scene", *text, strlen(*text), names.set[i], NULL, error);
+        ok = next != NULL;
+        if (ok)
+            free(*text);
+        *text = ok ? next : *text;
+    }
+    ok = ok && !names.lacks;
+    tree_free(&tree);
+    setting_list_free(&names);
+    return ok;
+}
+
+bool carry_make(const Save *save, Carried *out, Error *error)
+{
+    char beside[1100];
+    Saved saved;
+    const char *slash = strrchr(save->path, '/'), *name = slash ? slash + 1 : save->path;
+    *out = (Carried){.scene = NULL};
+    snprintf(beside, sizeof beside, "%.*spicture.png", (int)(name - save->path), save->path);
+    char *text = save_text(save, beside, &saved, error);
+    setting_list_free(&saved.changed);
+    if (!text || !leave_paths(&text, error) ||
+        (strlen(text) > PICTURE_TEXT_MAX && !error_set(error, "%s: more than 1 MiB of text", save->path))) {
+        free(text);
+        return false;
+    }
+    out->scene = text;
+    snprintf(out->name, sizeof out->name, "%s", name);
+    return true;
+}
+
+ImageText carry_text(const Carried *carried, double time)
+{
+    return (ImageText){carried->scene, carried->name, time};
+}
+
+void carry_free(Carried *carried)
+{
+    free(carried->scene);
+    *carried = (Carried){.scene = NULL};
+}

@@ -1,0 +1,109 @@
+/* In what two scenes differ: settings by which the one becomes the other, to the same bits. */
+#include "app/setting/differ.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const char TEXT[] = "box: {size: [0.4, 0.3, 0.4]}\n"
+                           "particles: {spacing: 0.02}\n"
+                           "fluids: [{fill: [{block: {min: [-0.2, 0, -0.2], max: [0, 0.1, 0.2]}}]}]\n"
+                           "solids: [{sphere: {centre: [0.1, 0.1, 0], radius: 0.05}}]\n"
+                           "views: [{kind: splat}, {kind: slice}]\n";
+
+static void parse(const char *text, SceneSettings *settings, Scene *out)
+{
+    Error error = {{0}};
+    if (!scene_parse("a.yaml", text, strlen(text), settings, out, NULL, &error))
+        fail_msg("%s", error.message);
+}
+
+static Scene *scenes(int count)
+{
+    Scene *scene = calloc((size_t)count, sizeof *scene);
+    assert_non_null(scene);
+    return scene;
+}
+
+/* What is set is what is found, and it makes the same scene again. */
+static void test_there_and_back(void **state)
+{
+    (void)state;
+    Scene *scene = scenes(3);
+    SceneSettings set = {.count = 0}, found;
+    Error error = {{0}};
+    Differ differ, rest;
+    static const char *const settings[] = {"title=\"one: two\"",
+                                           "fluids[0].viscosity=0.1",
+                                           "fluids[0].color=[0.2, 0.4, 0.6]",
+                                           "gravity=[0, -3.3, 0.1]",
+                                           "solver.step.dt=0.0033333333333333335",
+                                           "view.camera.from=[0.1, 0.2, 0.3]",
+                                           "view.camera.to=[0, 0.1234567890123, 0]",
+                                           "views[0].range=[0, 2]",
+                                           "views[2].kind=spheres"};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
+        set.set[set.count++] = settings[i];
+    parse(TEXT, NULL, &scene[0]);
+    parse(TEXT, &set, &scene[1]);
+    scene_differ(&scene[0], &scene[1], &differ);
+    assert_string_equal(differ.built, "");
+    assert_true(differ.world);
+    assert_true(setting_list_settings(&differ.settings, &found, &error));
+    assert_true(found.count >= set.count);
+    parse(TEXT, &found, &scene[2]);
+    scene_differ(&scene[1], &scene[2], &rest);
+    assert_int_equal(rest.settings.count, 0);
+    assert_memory_equal(&scene[1].world, &scene[2].world, sizeof scene[1].world);
+    setting_list_free(&differ.settings);
+    setting_list_free(&rest.settings);
+    free(scene);
+}
+
+static void differ_by(const char *setting, Differ *differ)
+{
+    Scene *scene = scenes(2);
+    SceneSettings set = {.count = 1, .set = {setting}};
+    parse(TEXT, NULL, &scene[0]);
+    parse(TEXT, &set, &scene[1]);
+    scene_differ(&scene[0], &scene[1], differ);
+    free(scene);
+}
+
+static void test_kinds(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *setting, *built;
+        bool world, dead;
+    } rows[] = {
+        {"gravity=[0, -1, 0]", "", true, false},
+        {"view.kind=splat", "", false, false},
+        {"particles.spacing=0.025", "", true, true},
+        {"solver.threads=2", "", false, true},
+        {"metrics=[front]", "", false, false},
+        {"solids=[]", "", true, true},
+        {"solids[0].slip=none", "", true, true},
+        {"views=[]", "", false, false},
+        {"solids[1].sphere={centre: [0, 0.1, 0], radius: 0.02}", "solids", true, true},
+        {"view.camera_path[0]={time: 1, from: [0, 1, 1], to: [0, 0, 0]}", "view.camera_path", false, false},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Differ differ;
+        differ_by(rows[i].setting, &differ);
+        assert_string_equal(differ.built, rows[i].built);
+        if (differ.world != rows[i].world || differ.dead != rows[i].dead)
+            fail_msg("%s: world %d, dead %d", rows[i].setting, differ.world, differ.dead);
+        setting_list_free(&differ.settings);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_there_and_back), cmocka_unit_test(test_kinds)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
