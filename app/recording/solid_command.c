@@ -72,6 +72,8 @@ static bool move(const SolidCommand *command, const WorldInfo *info, WorldDef *d
 {
     if (!has(def, command->solid, error))
         return false;
+    if (def->solids[command->solid].density > 0)
+        return error_set(error, "solid %d floats: the fluid moves it", command->solid);
     SolidDef *solid = &def->solids[command->solid];
     const double speed = speed_of(def, info);
     double centre[3], at[3];
@@ -101,6 +103,7 @@ static bool make(const SolidCommand *command, const WorldInfo *info, const World
         solid->color[k] = COLOR[k];
     }
     solid->motion_count = 0;
+    solid->density = 0; /* it stays where the hand has it */
     solid->hand = (SolidHand){.moved = false};
     memcpy(solid->centre, command->at, sizeof solid->centre);
     clamp_to_box(def, solid->centre);
@@ -163,6 +166,9 @@ static bool take(const SolidCommand *command, WorldDef *def, Error *error)
 {
     if (!has(def, command->solid, error))
         return false;
+    for (int k = command->solid; k < def->solid_count; k++)
+        if (def->solids[k].density > 0) /* its state goes by its number */
+            return error_set(error, "solid %d floats: neither it nor a solid before it is taken out", k);
     def->solid_count--;
     memmove(def->solids + command->solid, def->solids + command->solid + 1,
             (size_t)(def->solid_count - command->solid) * sizeof *def->solids);

@@ -32,7 +32,7 @@ int solid_act_find(const char *name);
    first time, one that is put and one that is taken make the world anew, which takes about as long as opening
    its scene did. A solid comes where it shall be within some 0.15 s, no faster than the fluid stands; its
    centre stays in the box. False with the reason: no such solid, too many, no room, the backend has no
-   solids; nothing has changed. */
+   solids, it or one behind it floats; nothing has changed. */
 bool solid_command_apply(const SolidCommand *command, struct World **world, struct WorldDef *def,
                          Error *error);
 

@@ -79,10 +79,16 @@ typedef struct SolidDef {
 
 const char *solid_name(SolidKind kind);
 
-/* Whether it may ever move: by a motion of its own, or since a hand has moved it. */
+/* Whether fluid moves it. */
+static inline bool solid_floats(const SolidDef *solid)
+{
+    return solid->density > 0;
+}
+
+/* Whether it may ever move: by a motion of its own, by fluid, or since a hand has moved it. */
 static inline bool solid_moves(const SolidDef *solid)
 {
-    return solid->motion_count > 0 || solid->hand.moved;
+    return solid->motion_count > 0 || solid->hand.moved || solid_floats(solid);
 }
 
 /* The hand's part of the pose at `time` (s): what its centre is off, m, the turn about it, and their rates.
@@ -101,16 +107,6 @@ void solid_turn(const double axis[3], double angle_deg, double q[4]);
 /* Where the solid's frame is at `time` (s), in the box's frame, and how it moves there; of one that is free
    to move, where it began. */
 void solid_pose(const SolidDef *solid, double time, BoxState *pose);
-
-/* Whether fluid moves it; whether anything does. */
-static inline bool solid_floats(const SolidDef *solid)
-{
-    return solid->density > 0;
-}
-static inline bool solid_moves(const SolidDef *solid)
-{
-    return solid->motion_count > 0 || solid_floats(solid);
-}
 
 /* The same as solid_pose, of a state that has `floating` as the pose of this solid if it floats; all 0: the
    state does not say, and it is where it began. */
