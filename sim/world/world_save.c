@@ -290,7 +290,8 @@ static bool same_solid(const SolidDef *a, const SolidDef *b)
     bool same = a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
                 a->thickness == b->thickness && a->angle_deg == b->angle_deg && a->slip == b->slip &&
                 a->mesh.shape == b->mesh.shape && a->mesh.scale == b->mesh.scale &&
-                a->motion_count == b->motion_count && a->hand.moved == b->hand.moved && a->density == b->density;
+                a->motion_count == b->motion_count && a->hand.moved == b->hand.moved &&
+                a->density == b->density;
     for (int k = 0; k < 3; k++)
         same &= a->centre[k] == b->centre[k] && a->size[k] == b->size[k] && a->axis[k] == b->axis[k] &&
                 a->hinge_at[k] == b->hinge_at[k] && a->hinge_axis[k] == b->hinge_axis[k];

@@ -140,7 +140,7 @@ class BadInput(CommandTest):
         self.refused('--backend=cuda', '--backend cuda: ', 'cuda', '--table', 'paper003-spheres', commands=[['bench']])
         for command_ in COMMANDS[:4]:
             self.refused('scene.yaml', '', '--time', '--time', '-1', commands=[command_])
-        self.refused('scene.yaml', "cannot tell the format from 'x.gif'; use .png, .mp4", '.', '-o', 'x.gif', commands=[['render']])
+        self.refused('scene.yaml', "cannot tell the format from 'x.webm'; use .png, .mp4", '.', '-o', 'x.webm', commands=[['render']])
         code, said = self.slosh('rnder', 'scene.yaml')
         self.assertEqual(code, 2)
         self.assertIn('render', said)
