@@ -1,16 +1,10 @@
 #include "app/held/hand_mark.h"
 
+#include "sim/base/hash.h"
+
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* FNV-1a, 64 bits. */
-static uint64_t add(uint64_t hash, const void *bytes, size_t size)
-{
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const uint8_t *)bytes)[i]) * 0x100000001b3U;
-    return hash;
-}
 
 static uint64_t add_log(uint64_t hash, const ReportLog *log)
 {
@@ -19,10 +13,10 @@ static uint64_t add_log(uint64_t hash, const ReportLog *log)
         const ReportLogDevice *device = &log->devices[entry->device];
         const uint16_t what[] = {entry->kind,         entry->device,        entry->size,
                                  device->row->vendor, device->row->product, device->bluetooth};
-        hash = add(hash, &entry->time, sizeof entry->time);
-        hash = add(hash, what, sizeof what);
+        hash = hash_add(hash, &entry->time, sizeof entry->time);
+        hash = hash_add(hash, what, sizeof what);
         if (entry->size > 0) /* a log of reports without a byte has no bytes at all */
-            hash = add(hash, log->bytes + entry->offset, entry->size);
+            hash = hash_add(hash, log->bytes + entry->offset, entry->size);
     }
     return hash;
 }
@@ -34,7 +28,7 @@ static uint64_t add_yaml(uint64_t hash, const char *text)
     while (*text) {
         const size_t length = strcspn(text, "\n");
         if (text[strspn(text, " ")] != '#')
-            hash = add(hash, text, length);
+            hash = hash_add(hash, text, length);
         text += length + (text[length] != 0);
     }
     return hash;
@@ -57,10 +51,10 @@ static bool add_mapping(uint64_t *hash, const Mapping *mapping)
 
 bool hand_mark(const ReportLog *log, const Mapping *mapping, const HandInput *axes, char mark[HAND_MARK_SIZE])
 {
-    uint64_t hash = add_log(0xcbf29ce484222325U, log);
-    hash = add(hash, axes->right, sizeof axes->right);
-    hash = add(hash, axes->up, sizeof axes->up);
-    hash = add(hash, axes->away, sizeof axes->away);
+    uint64_t hash = add_log(HASH_NONE, log);
+    hash = hash_add(hash, axes->right, sizeof axes->right);
+    hash = hash_add(hash, axes->up, sizeof axes->up);
+    hash = hash_add(hash, axes->away, sizeof axes->away);
     const bool ok = add_mapping(&hash, mapping);
     snprintf(mark, HAND_MARK_SIZE, "%016" PRIx64, hash);
     return ok;

@@ -2,6 +2,7 @@
 #include "app/lab/run_key.h"
 
 #include "app/scene/keys.h"
+#include "sim/base/hash.h"
 #include "sim/mesh/mesh_shape.h"
 
 #include <elf.h>
@@ -11,9 +12,8 @@
 
 static uint64_t hash(uint64_t h, const char *text, size_t size)
 {
-    for (size_t i = 0; i < size; i++) /* FNV-1a */
-        h = (h ^ (uint8_t)text[i]) * 0x100000001b3ULL;
-    return (h ^ 0xff) * 0x100000001b3ULL;
+    static const uint8_t end = 0xff;
+    return hash_add(hash_add(h, text, size), &end, 1);
 }
 
 static uint64_t hash_numbers(uint64_t h, const double numbers[], size_t count)

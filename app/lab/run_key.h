@@ -3,11 +3,12 @@
 #define SLOSH_RUN_KEY_H
 
 #include "app/scene/scene.h"
+#include "sim/base/hash.h"
 
 #include <stdint.h>
 
 /* Of nothing. */
-#define RUN_KEY 0xcbf29ce484222325ULL
+#define RUN_KEY HASH_NONE
 
 /* `key` with a text. */
 uint64_t run_key_text(uint64_t key, const char *text);

@@ -2,6 +2,7 @@
 
 #include "app/base/read_file.h"
 #include "app/mesh_file/mesh_count.h"
+#include "sim/base/hash.h"
 #include "sim/base/parallel.h"
 
 #include <assimp/cimport.h>
@@ -137,14 +138,6 @@ typedef struct Kept {
 /* Scenes are read on the main thread. */
 static Kept *all_kept;
 
-static uint64_t hash(const char *bytes, size_t size)
-{
-    uint64_t h = 0xcbf29ce484222325ULL;
-    for (size_t i = 0; i < size; i++) /* FNV-1a */
-        h = (h ^ (uint8_t)bytes[i]) * 0x100000001b3ULL;
-    return h;
-}
-
 static const Kept *find_kept(uint64_t of, size_t size)
 {
     const Kept *kept = all_kept;
@@ -177,7 +170,7 @@ static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t 
     if (!bytes)
         return false;
     const double count = mesh_count(format, bytes, *size, *size);
-    *of = hash(bytes, *size);
+    *of = hash_add(HASH_NONE, bytes, *size);
     free(bytes);
     return count <= TRIANGLES_MAX || too_many(count, error);
 }
@@ -194,7 +187,7 @@ static const Kept *look_up(const char *path, MeshFormat format, Error *error)
     if (kept || !mesh_file_read(path, &triangles, error))
         return kept;
     if (format == MESH_GLTF) {
-        of = hash((const char *)triangles.vertex, triangles.vertex_count * sizeof *triangles.vertex);
+        of = hash_add(HASH_NONE, triangles.vertex, triangles.vertex_count * sizeof *triangles.vertex);
         size = triangles.triangle_count;
         kept = find_kept(of, size);
     }

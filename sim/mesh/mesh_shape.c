@@ -1,5 +1,7 @@
 #include "sim/mesh/mesh_shape.h"
 
+#include "sim/base/hash.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -35,14 +37,6 @@ static void measure(MeshShape *shape)
     shape->depth = distance_deepest(&shape->distance);
 }
 
-static uint64_t hash(uint64_t h, const void *bytes, size_t size)
-{
-    const uint8_t *at = bytes;
-    for (size_t i = 0; i < size; i++) /* FNV-1a */
-        h = (h ^ at[i]) * 0x100000001b3ULL;
-    return h;
-}
-
 static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
 {
     TriangleTree tree;
@@ -58,10 +52,10 @@ static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
     if (!ok)
         return error_set(error, "no memory for its %zu triangles", shape->triangles.triangle_count);
     measure(shape);
-    shape->hash = hash(0xcbf29ce484222325ULL, shape->triangles.vertex,
-                       shape->triangles.vertex_count * sizeof *shape->triangles.vertex);
-    shape->hash = hash(shape->hash, shape->triangles.triangle,
-                       shape->triangles.triangle_count * sizeof *shape->triangles.triangle);
+    shape->hash = hash_add(HASH_NONE, shape->triangles.vertex,
+                           shape->triangles.vertex_count * sizeof *shape->triangles.vertex);
+    shape->hash = hash_add(shape->hash, shape->triangles.triangle,
+                           shape->triangles.triangle_count * sizeof *shape->triangles.triangle);
     return shape->depth > 0 ||
            error_set(error, "the mesh is thinner than a %d-th of its length everywhere; give it a body",
                      (int)lround(2 * fmax(fmax(shape->half[0], shape->half[1]), shape->half[2]) /

@@ -1,14 +1,8 @@
 #include "sim/world/world_struct.h"
 
-#include <stdlib.h>
+#include "sim/base/hash.h"
 
-/* FNV-1a, 64 bits. */
-static uint64_t hash_bytes(uint64_t hash, const void *bytes, size_t size)
-{
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ ((const unsigned char *)bytes)[i]) * 0x100000001b3u;
-    return hash;
-}
+#include <stdlib.h>
 
 static int ascending(const void *a, const void *b)
 {
@@ -32,15 +26,15 @@ uint64_t world_hash(World *world)
         for (size_t i = 0; i < n; i++)
             order[i] = (uint64_t)out.id[i] << 32 | i;
         qsort(order, n, sizeof *order, ascending);
-        hash = 0xcbf29ce484222325u;
+        hash = HASH_NONE;
         for (size_t k = 0; k < n; k++) {
             const size_t i = order[k] & 0xffffffffu;
-            hash = hash_bytes(hash, &out.position[4 * i], 3 * sizeof(float));
-            hash = hash_bytes(hash, &out.velocity[4 * i], 3 * sizeof(float));
+            hash = hash_add(hash, &out.position[4 * i], 3 * sizeof(float));
+            hash = hash_add(hash, &out.velocity[4 * i], 3 * sizeof(float));
         }
         for (int k = 0; k < world->def.solid_count; k++)
             if (solid_floats(&world->def.solids[k]))
-                hash = hash_bytes(hash, &info.floating[k], sizeof info.floating[k]);
+                hash = hash_add(hash, &info.floating[k], sizeof info.floating[k]);
     }
     free(out.position);
     free(out.velocity);

@@ -14,6 +14,7 @@
 #include "render/renderer.h"
 #include "render/slice/slice_def.h"
 #include "render/trails/trails_def.h"
+#include "sim/base/hash.h"
 #include "sim/gl/limits.h"
 #include "sim/gl/program.h"
 #include "sim/matter/tension.h"
@@ -95,14 +96,6 @@ static const char *ending_of(GLuint shader)
     }
 }
 
-static uint64_t hash_of(const char *text)
-{
-    uint64_t hash = 14695981039346656037U;
-    for (; *text; text++)
-        hash = (hash ^ (unsigned char)*text) * 1099511628211U;
-    return hash;
-}
-
 /* The validator knows the same functions by their newer name only. */
 static void write_source(FILE *file, const char *text)
 {
@@ -117,7 +110,8 @@ static void write_source(FILE *file, const char *text)
 static void APIENTRY keep_source(GLuint shader, GLsizei count, const GLchar *const *text, const GLint *length)
 {
     char name[128];
-    snprintf(name, sizeof name, "%s/%016lx.%s", folder, (unsigned long)hash_of(text[0]), ending_of(shader));
+    snprintf(name, sizeof name, "%s/%016lx.%s", folder,
+             (unsigned long)hash_add(HASH_NONE, text[0], strlen(text[0])), ending_of(shader));
     FILE *file = fopen(name, "wx"); /* the same source is kept once */
     if (file) {
         sources++;
