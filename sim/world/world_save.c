@@ -227,17 +227,16 @@ static bool as_initial(const WorldState *state, InitialState *initial)
     return position;
 }
 
-/* Into a box that has become smaller. */
-static void bring_in(WorldState *state, const WorldDef *def)
+/* Into a box that has become smaller along an axis. */
+static void bring_in(WorldState *state, const WorldDef *def, int axis)
 {
     const ParticleColumns *p = &state->particles;
     float *const along[] = {p->x, p->y, p->z};
     const float slack = 1e-3F * (float)def->spacing;
-    for (int k = 0; k < def->dimensions; k++) {
-        const float low = k == 1 ? 0 : -0.5F * (float)def->box_size[k], high = low + (float)def->box_size[k];
-        for (size_t i = 0; i < state->count && !def->periodic[k]; i++)
-            along[k][i] = fmaxf(low + slack, fminf(along[k][i], high - slack));
-    }
+    const float low = axis == 1 ? 0 : -0.5F * (float)def->box_size[axis],
+                high = low + (float)def->box_size[axis];
+    for (size_t i = 0; i < state->count; i++)
+        along[axis][i] = fmaxf(low + slack, fminf(along[axis][i], high - slack));
 }
 
 /* What is in no state. */
@@ -262,8 +261,9 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
     WorldDef own = *def;
     own.initial = &initial;
     bool ok = world_save(from, &state, error);
-    if (ok && memcmp(own.box_size, from->def.box_size, sizeof own.box_size) != 0)
-        bring_in(&state, &own);
+    for (int k = 0; ok && k < own.dimensions; k++)
+        if (own.box_size[k] < from->def.box_size[k])
+            bring_in(&state, &own, k);
     if (ok && !as_initial(&state, &initial))
         ok = error_set(error, "no memory for %zu particles", state.count);
     initial.room = from->capacity;

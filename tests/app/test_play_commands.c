@@ -112,7 +112,7 @@ static void keys_find_their_commands(void **state)
     assert_int_equal(play_command_of_key(0, 0), PLAY_NONE);
     assert_int_equal(play_command_of_gamepad(GLFW_GAMEPAD_BUTTON_START), PLAY_PAUSE);
     assert_int_equal(play_command_of_gamepad(GLFW_GAMEPAD_BUTTON_CROSS), PLAY_BOX_HOME);
-    assert_int_equal(play_command_of_gamepad(GLFW_GAMEPAD_BUTTON_B), PLAY_NONE);
+    assert_int_equal(play_command_of_gamepad(GLFW_GAMEPAD_BUTTON_BACK), PLAY_NONE);
 }
 
 static void a_button_of_the_gamepad_is_one_that_is_found(void **state)
