@@ -127,7 +127,18 @@ static const char *taken_by(const char *bytes, size_t size)
     return NULL;
 }
 
-/* At most one byte more than is allowed, whatever the file claims to be. */
+/* The scene that a picture carries. */
+static char *read_picture(const char *path, size_t *size, Error *error)
+{
+    PictureText text;
+    if (!picture_text_read(path, &text, error))
+        return NULL;
+    *size = text.size;
+    return text.scene;
+}
+
+/* At most one byte more than is allowed, whatever the file claims to be; of a picture the scene that it
+ * carries. */
 static char *read_bytes(FILE *file, const char *path, size_t *size, Error *error)
 {
     char *bytes = malloc(SCENE_BYTES_MAX + 1);
@@ -137,6 +148,10 @@ static char *read_bytes(FILE *file, const char *path, size_t *size, Error *error
     }
     *size = fread(bytes, 1, SCENE_BYTES_MAX + 1, file);
     const bool failed = ferror(file);
+    if (!failed && picture_text_is_png(bytes, *size)) {
+        free(bytes);
+        return read_picture(path, size, error);
+    }
     const char *other = failed ? NULL : taken_by(bytes, *size);
     if (other)
         error_set(error, "%s: %s", path, other);
@@ -148,25 +163,6 @@ static char *read_bytes(FILE *file, const char *path, size_t *size, Error *error
         return bytes;
     free(bytes);
     return NULL;
-}
-
-static bool is_picture(FILE *file)
-{
-    char begin[8];
-    const bool is =
-        fread(begin, 1, sizeof begin, file) == sizeof begin && picture_text_is_png(begin, sizeof begin);
-    rewind(file);
-    return is;
-}
-
-/* The scene that a picture carries. */
-static char *read_picture(const char *path, size_t *size, Error *error)
-{
-    PictureText text;
-    if (!picture_text_read(path, &text, error))
-        return NULL;
-    *size = text.size;
-    return text.scene;
 }
 
 char *scene_file_read(const char *path, size_t *size, Error *error)
@@ -181,7 +177,7 @@ char *scene_file_read(const char *path, size_t *size, Error *error)
         error_set(error, "%s: cannot be opened (%s)", path, strerror(errno));
         return NULL;
     }
-    char *bytes = is_picture(file) ? read_picture(path, size, error) : read_bytes(file, path, size, error);
+    char *bytes = read_bytes(file, path, size, error);
     fclose(file);
     return bytes;
 }

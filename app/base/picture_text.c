@@ -82,12 +82,21 @@ static const png_text *find(const png_text *texts, int count, const char *key)
     return found;
 }
 
+/* A file's name that a terminal may be told: ASCII without control characters. */
+static bool is_plain(const char *name)
+{
+    for (const char *c = name; *c; c++)
+        if (*c < ' ' || *c > '~' || *c == '/')
+            return false;
+    return strlen(name) < PICTURE_NAME_SIZE;
+}
+
 static void take_rest(const png_text *texts, int count, PictureText *out)
 {
     const png_text *name = find(texts, count, PICTURE_NAME), *time = find(texts, count, PICTURE_TIME);
     char *end;
-    if (name)
-        snprintf(out->name, sizeof out->name, "%.*s", (int)strcspn(name->text, "/\n\r"), name->text);
+    if (name && is_plain(name->text))
+        snprintf(out->name, sizeof out->name, "%s", name->text);
     out->time = time ? strtod(time->text, &end) : NAN;
     if (time && (*end || end == time->text || !isfinite(out->time)))
         out->time = NAN;

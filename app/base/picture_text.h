@@ -13,13 +13,13 @@
 #define PICTURE_NAME  "slosh name"
 #define PICTURE_TIME  "slosh time"
 
-enum { PICTURE_TEXT_MAX = 1 << 20, PICTURE_FILE_MAX = 256 << 20 };
+enum { PICTURE_TEXT_MAX = 1 << 20, PICTURE_FILE_MAX = 256 << 20, PICTURE_NAME_SIZE = 128 };
 
 typedef struct PictureText {
-    char *scene; /* ended by a 0, which the caller frees */
-    size_t size; /* without that, at most PICTURE_TEXT_MAX */
-    char name[128];
-    double time; /* NaN: it does not say */
+    char *scene;                  /* ended by a 0, which the caller frees */
+    size_t size;                  /* without that, at most PICTURE_TEXT_MAX */
+    char name[PICTURE_NAME_SIZE]; /* "": none, or not of plain letters */
+    double time;                  /* NaN: it does not say */
 } PictureText;
 
 /* Whether the path ends in ".png". */

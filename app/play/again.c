@@ -180,6 +180,7 @@ typedef struct Renewal {
     Scene wanted;   /* with what was changed in the window besides */
     Differ due;     /* by which what runs becomes that */
     SettingList settings;
+    Error dropped; /* why what was changed in the window goes; "": it stays */
 } Renewal;
 
 static void renewal_free(Renewal *renewal)
@@ -198,15 +199,16 @@ static bool find_wanted(const Model *model, Renewal *renewal, Error *error)
 {
     const Recording *recording = &model->open.recording;
     SceneSettings settings;
-    Error none;
     setting_list_join_scene(&renewal->settings, &recording->settings);
     setting_list_join(&renewal->settings, &renewal->again.mine.settings);
     setting_list_remove(&renewal->settings, &renewal->changed.settings);
     if (!setting_list_settings(&renewal->settings, &settings, error))
         return false;
     settings.particles = recording->settings.particles;
-    if (parse(model, renewal->text, renewal->size, &settings, &renewal->wanted, &none))
+    if (parse(model, renewal->text, renewal->size, &settings, &renewal->wanted, &renewal->dropped)) {
+        *renewal->dropped.message = 0;
         return true;
+    }
     setting_list_free(&renewal->settings);
     setting_list_join_scene(&renewal->settings, &recording->settings);
     renewal->wanted = renewal->fresh;
@@ -242,27 +244,46 @@ static bool shows_others(const Scene *scene)
     return false;
 }
 
-/* Whether what runs can become it: a command holds so much of a setting; runs beside the scene begin with it.
- */
+/* Keys that change nothing that runs, and that the window has as values of the scene alone. */
+static bool is_of_scene(const char *setting)
+{
+    return strncmp(setting, "metrics", strlen("metrics")) == 0 || strncmp(setting, "solver.preset=", 14) == 0;
+}
+
+static const Key *key_of(const char *setting)
+{
+    char path[DIFFER_PATH_SIZE];
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
+    return scene_key_find(path);
+}
+
+/* A command holds so much of a setting. */
+static bool takes(const char *setting)
+{
+    const Key *key = key_of(setting);
+    return is_of_view(setting) || is_of_scene(setting) ||
+           (key && key->flags & KEY_LIVE && strlen(setting) < SIM_SETTING_SIZE);
+}
+
+/* Whether what runs can become it; runs beside the scene begin with it. */
 static bool is_live(const Renewal *renewal)
 {
     const SettingList *due = &renewal->due.settings;
-    bool views = is_of_view(renewal->due.built);
+    const char *built = renewal->due.built;
+    bool views = is_of_view(built);
     for (int i = 0; i < due->count; i++) {
         views |= is_of_view(due->set[i]);
-        if (!is_of_view(due->set[i]) && strlen(due->set[i]) >= SIM_SETTING_SIZE)
+        if (!takes(due->set[i]))
             return false;
     }
-    return !renewal->due.dead && !due->lacks &&
+    return !renewal->due.dead && !due->lacks && (!*built || is_of_view(built) || is_of_scene(built)) &&
            !(views && (shows_others(&renewal->again.now) || shows_others(&renewal->wanted)));
 }
 
 /* Of keys that change nothing that runs, such as metrics, the value alone. */
 static void set(Model *model, const Scene *wanted, const char *setting)
 {
-    char path[DIFFER_PATH_SIZE];
-    snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
-    const Key *key = scene_key_find(path);
+    const Key *key = key_of(setting);
     if (key && key->flags & KEY_LIVE)
         model_set(model, setting);
     Scene *scene = &model->open.scene;
@@ -272,7 +293,17 @@ static void set(Model *model, const Scene *wanted, const char *setting)
     memcpy(scene->metrics, wanted->metrics, sizeof scene->metrics);
 }
 
-/* The file's text is what is compared with from now on. Whether the picture is another one. */
+/* The file's text is what is compared with from now on. */
+static AgainResult keep_text(Model *model, Renewal *renewal)
+{
+    free(model->open.renewed);
+    model->open.renewed = renewal->text;
+    model->open.renewed_size = renewal->size;
+    renewal->text = NULL;
+    return AGAIN_SAME;
+}
+
+/* Whether the picture is another one. */
 static bool renew(Model *model, Renewal *renewal)
 {
     PlayScene *open = &model->open;
@@ -287,12 +318,9 @@ static bool renew(Model *model, Renewal *renewal)
         open->scene.view = renewal->wanted.view;
         open->scene.view_count = renewal->wanted.view_count;
         memcpy(open->scene.views, renewal->wanted.views, sizeof open->scene.views);
-        model->file_scene = renewal->fresh;
     }
-    free(open->renewed);
-    open->renewed = renewal->text;
-    open->renewed_size = renewal->size;
-    renewal->text = NULL;
+    model->file_scene = renewal->fresh;
+    keep_text(model, renewal);
     return views;
 }
 
@@ -313,6 +341,12 @@ static void tell(const Renewal *renewal, bool others, char words[320])
              *changed->built ? of : "");
     if (!*words && others)
         snprintf(words, 320, "a file that it names");
+    const size_t used = strlen(words);
+    if (*renewal->dropped.message)
+        snprintf(words + used, 320 - used, "; what was changed in the window is gone: %.160s",
+                 renewal->dropped.message);
+    else if (*renewal->again.mine.built && !is_of_view(renewal->again.mine.built))
+        snprintf(words + used, 320 - used, "; %s of the hand are gone", renewal->again.mine.built);
 }
 
 AgainResult again_read(Model *model, bool others, char words[320], Error *error)
@@ -324,9 +358,14 @@ AgainResult again_read(Model *model, bool others, char words[320], Error *error)
         error_set(error, "no memory to read the scene again");
         return AGAIN_FAILED;
     }
-    if (read_file(model, renewal, error)) {
+    if (!model_leave(model, 0)) { /* the scene before this one ends still */
+        result = AGAIN_LATER;
+    } else if (read_file(model, renewal, error)) {
         tell(renewal, others, words);
-        if (others || !is_live(renewal))
+        const Differ *changed = &renewal->changed;
+        if (!others && changed->settings.count == 0 && !*changed->built) /* whatever hands did besides */
+            result = keep_text(model, renewal);
+        else if (others || !is_live(renewal))
             result = begin(model, renewal, error);
         else if (renew(model, renewal))
             result = AGAIN_VIEW;

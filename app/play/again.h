@@ -30,6 +30,7 @@ bool again_carry(const Model *model, Carried *out, Error *error);
 
 typedef enum AgainResult {
     AGAIN_FAILED, /* it cannot be read; all stays */
+    AGAIN_LATER,  /* the scene before this one is still ending: ask again in a moment */
     AGAIN_SAME,   /* nothing that counts has changed */
     AGAIN_LIVE,   /* what has changed is in the scene that runs */
     AGAIN_VIEW,   /* the same, and the picture is another one */

@@ -75,10 +75,12 @@ static void draw_hold(const Play *play, const Look *look, const SightRay *ray, c
     TouchTool at = {.on = true};
     BoxState pose;
     double there[3];
-    const int solid = hold->holds ? hold->solid : hold_under(def, look->particles->time, ray, there);
+    const int solid = hold->holds
+                          ? hold->solid
+                          : hold_under(def, look->particles->time, look->particles->floating, ray, there);
     if (solid < 0 || solid >= def->solid_count)
         return;
-    solid_pose(&def->solids[solid], look->particles->time, &pose);
+    solid_pose_in(&def->solids[solid], look->particles->time, &look->particles->floating[solid], &pose);
     memcpy(at.at, pose.position, sizeof at.at);
     as_wide.radius = solid_reach(&def->solids[solid]) / def->spacing;
     const Handle ring = touch_ring(&at, &as_wide, def->spacing, forward);

@@ -105,7 +105,8 @@ static void hold(Play *play, const SightRay *ray, const double forward[3])
     SolidCommand command;
     const WorldDef *def = &play->model.open.scene.world;
     const double time = play->model.particles.time;
-    if (!held->pressed && !hold_press(held, def, time, ray, forward, play->input.drag == PLAY_TOUCH_OTHER))
+    if (!held->pressed && !hold_press(held, def, time, play->model.particles.floating, ray, forward,
+                                      play->input.drag == PLAY_TOUCH_OTHER))
         notice_tell(&play->notice, "there is no solid under the mouse; 1 puts a ball there, 2 a box");
     if (!hold_move(held, ray, &command))
         return;
@@ -178,7 +179,8 @@ void hands_put(Play *play, int like)
     double there[3];
     if (!looks(play, &ray))
         return;
-    const int solid = hold_under(&scene->world, play->model.particles.time, &ray, there);
+    const int solid =
+        hold_under(&scene->world, play->model.particles.time, play->model.particles.floating, &ray, there);
     if (like == SOLID_LIKE && solid < 0) {
         notice_tell(&play->notice, "there is no solid under the mouse to be put once more");
         return;
@@ -200,12 +202,15 @@ void hands_take(Play *play)
     double there[3];
     if (!looks(play, &ray))
         return;
-    const SolidCommand command = {.act = SOLID_ACT_TAKE,
-                                  .solid = hold_under(def, play->model.particles.time, &ray, there)};
-    if (command.solid < 0)
+    const SolidCommand command = {
+        .act = SOLID_ACT_TAKE,
+        .solid = hold_under(def, play->model.particles.time, play->model.particles.floating, &ray, there)};
+    if (command.solid < 0) {
         notice_tell(&play->notice, "there is no solid under the mouse");
-    else if (model_solid(&play->model, &command))
+    } else if (model_solid(&play->model, &command)) {
+        play->touch.hold.holds = false; /* numbers are others then */
         notice_tell(&play->notice, "the %s is taken out", solid_name(def->solids[command.solid].kind));
+    }
 }
 
 void hands_set_gravity(Play *play, const double gravity[3])

@@ -20,11 +20,13 @@ static void begin(Reload *reload, const Model *model)
     const PlayScene *open = &model->open;
     size_t size;
     const char *text = again_text(open, &size);
+    const Watch before = reload->watch;
     *reload = (Reload){.opened = model->scenes_opened};
     if (!open->source->simulates || open->session || picture_text_name(open->scene.path))
         return;
     watch_add(&reload->watch, open->scene.path);
     scene_find_tables(open->scene.path, text, size, &open->recording.settings, found, &reload->watch);
+    watch_keep(&reload->watch, &before);
 }
 
 static void tell_broken(Play *play, const Error *error)
@@ -62,6 +64,10 @@ void reload_look(Play *play)
         return;
     const bool others = reload->watch.others;
     const AgainResult result = again_read(model, others, words, &error);
+    if (result == AGAIN_LATER) {
+        reload->watch.pending = true;
+        return;
+    }
     if (result == AGAIN_FAILED) {
         tell_broken(play, &error);
         return;

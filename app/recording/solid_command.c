@@ -112,26 +112,45 @@ static bool make(const SolidCommand *command, const WorldInfo *info, const World
            solid_hand_move(&solid->hand, none, upright, info->time, 1, 1, def->dimensions);
 }
 
-/* Whether the solid keeps clear of all particles. */
-static bool is_clear(const SolidDef *solid, const WorldDef *def, const float *position, size_t count,
-                     double time)
+/* By the balls about both. */
+static bool meets_floating(const SolidDef *solid, const SolidPose *pose, const WorldDef *def,
+                           const WorldInfo *info)
+{
+    for (int k = 0; k < def->solid_count; k++) {
+        const SolidDef *other = &def->solids[k];
+        const double most = solid_reach(solid) + solid_reach(other);
+        BoxState at;
+        double off2 = 0;
+        solid_pose_in(other, info->time, &info->floating[k], &at);
+        for (int a = 0; a < 3; a++)
+            off2 += (at.position[a] - (double)pose->x[a]) * (at.position[a] - (double)pose->x[a]);
+        if (solid_floats(other) && off2 < most * most)
+            return true;
+    }
+    return false;
+}
+
+/* Whether the solid keeps clear of all particles, and of what floats. */
+static bool is_clear(const SolidDef *solid, const WorldDef *def, const WorldInfo *info, const float *position)
 {
     const float half = 0.5F * (float)def->spacing;
     SolidPose pose;
-    solid_pose_at(solid, time, &pose);
-    for (size_t i = 0; i < count; i++)
+    solid_pose_at(solid, info->time, &pose);
+    if (meets_floating(solid, &pose, def, info))
+        return false;
+    for (size_t i = 0; i < info->count; i++)
         if (solid_clearance(solid, &pose, def->dimensions, position + 4 * i, half) < half)
             return false;
     return true;
 }
 
-/* Straight up from where it is asked for, to the first place that no fluid is in. */
+/* Straight up from where it is asked for, to the first place that no fluid is in, and nothing that floats. */
 static bool lift(SolidDef *solid, const WorldDef *def, const WorldInfo *info, const float *position)
 {
     const double *g = info->gravity, norm = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     for (;;) {
         double before[3], way = 0;
-        if (is_clear(solid, def, position, info->count, info->time))
+        if (is_clear(solid, def, info, position))
             return true;
         memcpy(before, solid->centre, sizeof before);
         for (int k = 0; k < 3; k++)

@@ -111,10 +111,14 @@ static bool check_sources(const Check *check)
 /* The keyframes of a camera, one after another. */
 static bool check_path(const Check *check, const char *path, const ViewDef *view)
 {
-    for (int i = 1; i < view->camera_path_count; i++) {
+    for (int i = 0; i < view->camera_path_count; i++) {
         char key[64];
+        snprintf(key, sizeof key, "%s.camera_path[%d].to", path, i);
+        const double *from = view->camera_path[i].at.from, *to = view->camera_path[i].at.to;
+        if (from[0] == to[0] && from[1] == to[1] && from[2] == to[2])
+            return FAIL(check, key, "the camera stands where it looks; move `from` or `to`");
         snprintf(key, sizeof key, "%s.camera_path[%d].time", path, i);
-        if (view->camera_path[i].time <= view->camera_path[i - 1].time)
+        if (i > 0 && view->camera_path[i].time <= view->camera_path[i - 1].time)
             return FAIL(check, key, "%s must be later than that of the keyframe before, %g s", key,
                         view->camera_path[i - 1].time);
     }

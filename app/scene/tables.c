@@ -249,10 +249,9 @@ typedef struct Mover {
     void *user;
 } Mover;
 
-static bool names_file(const Node *node)
+bool scene_names_file(const Node *node)
 {
-    return node->text && *node->text != '/' &&
-           (scene_names_table(node->text) || (node->key && strcmp(node->key, "file") == 0));
+    return node->text && (scene_names_table(node->text) || (node->key && strcmp(node->key, "file") == 0));
 }
 
 /* The file that a scene at `scene` means; false: there is none. */
@@ -276,7 +275,7 @@ static void move_below(const Mover *mover, Node *node, const char *path)
         else
             snprintf(inner, sizeof inner, "%.180s%s%.60s", path, *path ? "." : "", child->key);
         move_below(mover, child, inner);
-        if (names_file(child) && whole_name(mover->from, child->text, own) &&
+        if (scene_names_file(child) && *child->text != '/' && whole_name(mover->from, child->text, own) &&
             !(whole_name(mover->to, child->text, other) && strcmp(own, other) == 0))
             mover->moved(mover->user, child, inner, own);
     }

@@ -18,6 +18,9 @@ bool scene_read_meshes(const Tree *tree, Scene *scene, bool lenient, Notes *note
 /* Whether the value of a key is the name of a table: it ends in ".csv". */
 bool scene_names_table(const char *text);
 
+/* Whether the node is the name of a file: of a table, or what a key `file` has. */
+bool scene_names_file(const Node *node);
+
 /* The same of a mesh, by the endings of their formats. */
 bool scene_names_mesh(const char *text);
 

@@ -1,6 +1,7 @@
 #include "app/setting/carry.h"
 
 #include "app/base/picture_text.h"
+#include "app/scene/tables.h"
 #include "app/yaml/patch.h"
 #include "app/yaml/yaml.h"
 
@@ -13,17 +14,15 @@ static void find_paths(const Node *node, const char *path, SettingList *out)
 {
     int place = 0;
     for (const Node *child = node->first; child; child = child->next, place++) {
-        char inner[256], setting[1024];
+        char inner[256];
         if (node->kind == NODE_SEQUENCE)
             snprintf(inner, sizeof inner, "%.180s[%d]", path, place);
         else
             snprintf(inner, sizeof inner, "%.180s%s%.60s", path, *path ? "." : "", child->key);
         find_paths(child, inner, out);
-        if (!child->text || (*child->text != '/' && *child->text != '~'))
-            continue;
-        snprintf(setting, sizeof setting, "%s=\"%.500s\"", inner,
-                 strrchr(child->text, '/') ? strrchr(child->text, '/') + 1 : "");
-        setting_list_add(out, setting);
+        const char *slash = child->text ? strrchr(child->text, '/') : NULL;
+        if (slash && (*child->text == '/' || *child->text == '~') && scene_names_file(child))
+            setting_list_add_text(out, inner, slash + 1);
     }
 }
 

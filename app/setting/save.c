@@ -18,10 +18,8 @@ enum { ROUNDS = 4, NAMES_MOST = 10000 };
 /* A FileMoved. */
 static void add_file(void *user, Node *node, const char *path, const char *whole)
 {
-    char setting[4200];
     (void)node;
-    snprintf(setting, sizeof setting, "%s=\"%s\"", path, whole);
-    setting_list_add(user, setting);
+    setting_list_add_text(user, path, whole);
 }
 
 /* Puts the settings in, one after another; the text before is freed. */
@@ -82,10 +80,10 @@ static bool make(const Save *save, const char *output, const SettingList *files,
         ok = ok && (!*left.built ||
                     error_set(error, "%s: %s differs in what no setting can say", save->path, left.built));
         const bool whole = ok && left.settings.count == 0;
-        if (ok && round == ROUNDS)
+        if (ok && round == ROUNDS && !whole)
             snprintf(out->lacks, sizeof out->lacks, "%.*s", (int)strcspn(left.settings.set[0], "="),
                      left.settings.set[0]);
-        else
+        else if (!whole)
             ok = ok && put_in(save, &left.settings, text, &out->lost, error);
         setting_list_join(&out->changed, &left.settings);
         setting_list_free(&left.settings);

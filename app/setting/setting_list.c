@@ -1,5 +1,8 @@
 #include "app/setting/setting_list.h"
 
+#include "app/yaml/print.h"
+
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,6 +29,25 @@ void setting_list_add(SettingList *list, const char *setting)
         list->set[list->count++] = own;
     else
         list->lacks = true;
+}
+
+void setting_list_add_text(SettingList *list, const char *path, const char *text)
+{
+    const Node node = {.kind = NODE_SCALAR, .text = text};
+    char *setting = NULL;
+    size_t size;
+    FILE *file = open_memstream(&setting, &size);
+    if (!file) {
+        list->lacks = true;
+        return;
+    }
+    fprintf(file, "%s=", path);
+    node_print(&node, file);
+    if (fclose(file) == 0 && setting)
+        setting_list_add(list, setting);
+    else
+        list->lacks = true;
+    free(setting);
 }
 
 void setting_list_join(SettingList *list, const SettingList *more)

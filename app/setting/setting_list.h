@@ -17,6 +17,9 @@ typedef struct SettingList {
 /* Adds one at the end; one of the same path that is there goes. */
 void setting_list_add(SettingList *list, const char *setting);
 
+/* The same of a key whose value is that text, whatever letters it has. */
+void setting_list_add_text(SettingList *list, const char *path, const char *text);
+
 /* Adds all of `more`, or all of those settings. */
 void setting_list_join(SettingList *list, const SettingList *more);
 void setting_list_join_scene(SettingList *list, const SceneSettings *settings);

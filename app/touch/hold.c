@@ -6,20 +6,18 @@
 #include <string.h>
 
 /* How far along the ray it meets the solid, m; INFINITY: nowhere. Goes on by the distance to the surface. */
-static double meets(const SolidDef *solid, double time, int dimensions, const SightRay *ray)
+static double meets(const SolidDef *solid, const BoxState *pose, int dimensions, const SightRay *ray)
 {
     enum { GOES = 256 };
-    BoxState pose;
     double way = 0, close = 1e-4 * solid_reach(solid), far = 0;
-    solid_pose(solid, time, &pose);
     for (int k = 0; k < 3; k++)
-        far += (pose.position[k] - ray->from[k]) * ray->along[k];
+        far += (pose->position[k] - ray->from[k]) * ray->along[k];
     far += solid_reach(solid);
     for (int i = 0; i < GOES && way <= far; i++) {
         double in_box[3], at[3];
         for (int k = 0; k < 3; k++)
-            in_box[k] = ray->from[k] + way * ray->along[k] - pose.position[k];
-        quat_rotate_inverse(pose.orientation, in_box, at);
+            in_box[k] = ray->from[k] + way * ray->along[k] - pose->position[k];
+        quat_rotate_inverse(pose->orientation, in_box, at);
         const double distance = solid_distance(solid, dimensions, at);
         if (distance < close)
             return way;
@@ -29,27 +27,30 @@ static double meets(const SolidDef *solid, double time, int dimensions, const Si
 }
 
 /* In two dimensions the ray is where it meets the plane of the fluid. */
-static double meets_flat(const SolidDef *solid, double time, const SightRay *ray)
+static double meets_flat(const SolidDef *solid, const BoxState *pose, const SightRay *ray)
 {
     static const double across[3] = {0, 0, 1}, origin[3] = {0};
-    double at[3], way = 0;
-    SolidPose pose;
+    double at[3], in[3], way = 0;
     if (!sight_ray_plane(ray, origin, across, at))
         return INFINITY;
-    solid_pose_at(solid, time, &pose);
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
         way += (at[k] - ray->from[k]) * ray->along[k];
-    return solid_clearance(solid, &pose, 2, (float[]){(float)at[0], (float)at[1], 0}, 0) <= 0 ? way
-                                                                                              : INFINITY;
+        in[k] = at[k] - pose->position[k];
+    }
+    quat_rotate_inverse(pose->orientation, in, in);
+    in[2] = 0;
+    return solid_distance(solid, 2, in) <= 0 ? way : INFINITY;
 }
 
-int hold_under(const WorldDef *def, double time, const SightRay *ray, double at[3])
+int hold_under(const WorldDef *def, double time, const BoxState *floating, const SightRay *ray, double at[3])
 {
     double nearest = INFINITY;
     int found = -1;
     for (int i = 0; i < def->solid_count; i++) {
-        const double way = def->dimensions == 2 ? meets_flat(&def->solids[i], time, ray)
-                                                : meets(&def->solids[i], time, 3, ray);
+        BoxState pose;
+        solid_pose_in(&def->solids[i], time, &floating[i], &pose);
+        const double way = def->dimensions == 2 ? meets_flat(&def->solids[i], &pose, ray)
+                                                : meets(&def->solids[i], &pose, 3, ray);
         if (way < nearest) {
             nearest = way;
             found = i;
@@ -60,12 +61,12 @@ int hold_under(const WorldDef *def, double time, const SightRay *ray, double at[
     return found;
 }
 
-bool hold_press(Hold *hold, const WorldDef *def, double time, const SightRay *ray, const double forward[3],
-                bool turns)
+bool hold_press(Hold *hold, const WorldDef *def, double time, const BoxState *floating, const SightRay *ray,
+                const double forward[3], bool turns)
 {
     BoxState part;
     *hold = (Hold){.pressed = true, .turns = turns, .dimensions = def->dimensions};
-    hold->solid = hold_under(def, time, ray, hold->from);
+    hold->solid = hold_under(def, time, floating, ray, hold->from);
     if (hold->solid < 0)
         return false;
     const SolidDef *solid = &def->solids[hold->solid];

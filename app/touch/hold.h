@@ -23,12 +23,13 @@ typedef struct Hold {
     double told[3], spun[4]; /* as it was last sent */
 } Hold;
 
-/* The solid that the ray meets first, as it is at `time` (s), and where; -1: none. */
-int hold_under(const WorldDef *def, double time, const SightRay *ray, double at[3]);
+/* The solid that the ray meets first, as it is at `time` (s), and where; -1: none. `floating`: poses of those
+   that float (WorldInfo), by the def's solids. */
+int hold_under(const WorldDef *def, double time, const BoxState *floating, const SightRay *ray, double at[3]);
 
 /* A drag begins, and takes the solid that the ray meets; false: there is none. */
-bool hold_press(Hold *hold, const WorldDef *def, double time, const SightRay *ray, const double forward[3],
-                bool turns);
+bool hold_press(Hold *hold, const WorldDef *def, double time, const BoxState *floating, const SightRay *ray,
+                const double forward[3], bool turns);
 
 /* The mouse is there now; true: `command` is to be sent. */
 bool hold_move(Hold *hold, const SightRay *ray, SolidCommand *command);

@@ -33,6 +33,14 @@ bool watch_add(Watch *watch, const char *path)
     return true;
 }
 
+void watch_keep(Watch *watch, const Watch *before)
+{
+    for (int i = 0; i < watch->count; i++)
+        for (int k = 0; k < before->count; k++)
+            if (strcmp(watch->files[i].path, before->files[k].path) == 0)
+                watch->files[i].mark = before->files[k].mark;
+}
+
 bool watch_look(Watch *watch, double now_ms)
 {
     if (watch->count == 0 || now_ms < watch->looked_ms + LOOK_MS)

@@ -30,6 +30,9 @@ typedef struct Watch {
  * is what the others belong to. */
 bool watch_add(Watch *watch, const char *path);
 
+/* Files that `before` has too are as they were seen there: what was written in between counts. */
+void watch_keep(Watch *watch, const Watch *before);
+
 /* Once a picture or more often, with the wall time: true once after a change, when the files have been at
    rest for a moment. A first file that is missing or empty is waited for, up to two seconds. */
 bool watch_look(Watch *watch, double now_ms);

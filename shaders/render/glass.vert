@@ -16,7 +16,8 @@ void main()
     at[(axis + 2) % 3] = float(corner >> 1) - 0.5;
     place = (box_to_eye * vec4((at + vec3(0.0, 0.5, 0.0)) * box_size, 1.0)).xyz;
     normal = mat3(box_to_eye) * outward;
-    bool away = dot(normal, place) > 0.0;
+    vec3 middle = (box_to_eye * vec4((0.5 * outward + vec3(0.0, 0.5, 0.0)) * box_size, 1.0)).xyz;
+    bool away = dot(normal, middle) > 0.0; // of all corners alike, also where the eye is in the pane's plane
     normal = away ? -normal : normal;
     gl_Position = away == (behind != 0u) ? vec4(clip_of_eye(place).xy, 1.002 * near_plane, -place.z) : vec4(2.0, 2.0, 0.0, 1.0);
 }

@@ -80,8 +80,9 @@ float thickness_in_box(vec3 ray, float depth)
 // Of a pixel of a pane: whether what is above it on the screen is none, and is no speck in it. The fluid's lower ends are at the box's.
 float line_share(ivec2 pixel)
 {
-    ivec2 up = ivec2(0, int(water_line_width() + 0.5));
-    bool ends = texelFetch(nearest_map, pixel + up, 0).x >= 0.0 && texelFetch(nearest_map, pixel + 5 * up, 0).x >= 0.0;
+    ivec2 up = ivec2(0, int(water_line_width() + 0.5)), last = textureSize(nearest_map, 0) - 1;
+    bool ends = texelFetch(nearest_map, min(pixel + up, last), 0).x >= 0.0 &&
+                texelFetch(nearest_map, min(pixel + 5 * up, last), 0).x >= 0.0;
     return ends ? 0.7 : 0.0;
 }
 #endif

@@ -123,7 +123,7 @@ static void find_at_solid(const BodyWorld *world, const BodyStates *states, int 
             continue;
         quat_rotate_inverse(to->orientation, in, in);
         contact.gap = solid_distance(&world->solids[other], world->dimensions, in) - hull->radius;
-        if (contact.gap >= within)
+        if (!(contact.gap < within)) /* nor what is no number: the sentinel goes back from that */
             continue;
         solid_normal(&world->solids[other], world->dimensions, in, contact.n);
         quat_rotate(to->orientation, contact.n, contact.n);
@@ -264,8 +264,8 @@ void body_contacts_part(const BodyWorld *world, BodyStates *states)
             const Contact *c = &contacts.of[i];
             const int body = c->body, other = c->other;
             const double *n = c->n;
-            for (end = i; end < contacts.count && contacts.of[end].body == body &&
-                          contacts.of[end].other == other && dot(contacts.of[end].n, n) > 0.5;
+            for (end = i + 1; end < contacts.count && contacts.of[end].body == body &&
+                              contacts.of[end].other == other && dot(contacts.of[end].n, n) > 0.5;
                  end++)
                 c = contacts.of[end].gap < c->gap ? &contacts.of[end] : c;
             const double own = share_of(world, body), its = share_of(world, other);

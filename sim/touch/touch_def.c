@@ -25,7 +25,7 @@ const Key touch_keys[] = {
     MAPPING("touch", "how a user touches the fluid in the window"),
     CHOICE_OF("touch.way", L | I | KEY_INDEX, touch_ways, AT(way), "what the left button does"),
     NUMBER("touch.radius", L | I, "spacings", 1, 100, AT(radius), "of the ball about the pointer in which the fluid feels it"),
-    NUMBER("touch.strength", L | I, "", 0.01, 100, AT(strength), "1: stirred fluid follows within 25 ms, pull and push reach 40 m/s2, poured fluid is as fast as what falls over 4 spacings"),
+    NUMBER("touch.strength", L | I, "", 0.01, 100, AT(strength), "1: stirred fluid follows within 25 ms, pull and push reach 40 m/s2, poured fluid is as fast as what falls over 4 spacings, at most 0.3 of sound"),
     INTEGER("touch.fluid", L | I, 0, FINGER_FLUIDS - 1, AT(fluid), "which fluid is poured: 0 is fluids[0]; beyond the last one that"),
     KEYS_END,
 };

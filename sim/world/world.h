@@ -68,7 +68,8 @@ void world_carry(World *world, const BoxTarget *target);
 bool world_make_room(World **world, Error *error);
 
 /* A finger in the fluid from the next step on, or none; what is no finger is not taken, nor one that pours
-   where there is no room. */
+   where there is no room. What is poured is held to 0.3 of sound and a quarter of the support radius a step.
+ */
 void world_touch(World *world, const Finger *finger);
 
 /* Which gates of emitters and drains are shut from the next step on: bits of sim/matter/flow.h; what has no

@@ -245,7 +245,7 @@ static bool inherit(World *to, const World *from, Error *error)
     if (from->feels && !world_feel(to, error))
         return false;
     to->felt = from->felt;
-    to->felt_before = from->felt_before;
+    to->felt_before = from->felt; /* the present state is the one to go back to */
     to->trouble = from->trouble;
     to->tally = from->tally;
     to->stop = from->stop;
@@ -272,6 +272,10 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
         to->initial = from->initial;
         to->mass = from->mass;
         ok = world_load(to, &state, error) && inherit(to, from, error);
+        if (ok && own.box_size[1] != from->def.box_size[1]) { /* about whose half it turns */
+            world_pose(to);
+            ok = sentinel_mark(to, error);
+        }
     }
     free((float *)initial.position);
     world_state_free(&state);

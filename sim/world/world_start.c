@@ -276,7 +276,7 @@ static bool seeds_make(const Constants *constants, const WorldDef *def, Seeds *s
 
 static bool initial_check(const WorldDef *def, const InitialState *initial, Error *error)
 {
-    if ((initial->count == 0 && !flow_emits(def)) || initial->count > INT32_MAX)
+    if ((initial->count == 0 && initial->room == 0 && !flow_emits(def)) || initial->count > INT32_MAX)
         return error_set(error, "an initial state needs 1 to 2^31 - 1 particles");
     for (size_t i = 0; i < initial->count; i++) {
         const float *x = initial->position + 3 * i;

@@ -41,6 +41,11 @@ static void box_at(const World *world, const BoxFilter *filter, double time, Box
     box_filter_apply(filter, world->def.box_size[1], box);
 }
 
+void world_pose(World *world)
+{
+    box_at(world, &world->filter, world_time_at(world, (double)world->step), &world->box);
+}
+
 void world_settle(World *world)
 {
     SolidPose pose[SOLIDS_MAX];
@@ -376,14 +381,27 @@ void world_set_target(World *world, const BoxTarget *target)
     target_take(world, target);
 }
 
+/* Poured fluid is no faster than sound and the step bear. */
+static double pour_speed_most(const World *world)
+{
+    const WorldDef *def = &world->def;
+    const double sound = world->method->incompressible ? INFINITY : 0.3 * def->sound_speed;
+    return fmin(sound, 0.25 * def->support * def->spacing * def->substeps / def->dt);
+}
+
 void world_touch(World *world, const Finger *finger)
 {
+    static const double WIDEST = 1000; /* spacings, of what pours */
     const Finger before = world->finger.wanted;
     const int fluid = finger_fluid(finger);
-    if (fluid >= world->def.fluid_count || (fluid >= 0 && !world->constants.emits) ||
-        !finger_take(&world->finger, finger, world->def.dimensions))
+    Finger taken = *finger;
+    if (fluid >= 0 && taken.strength > pour_speed_most(world))
+        taken.strength = pour_speed_most(world);
+    if (fluid >= world->def.fluid_count ||
+        (fluid >= 0 && (!world->constants.emits || taken.radius > WIDEST * world->def.spacing)) ||
+        !finger_take(&world->finger, &taken, world->def.dimensions))
         return;
-    if (before.way != finger->way || before.strength != finger->strength) /* another row of layers */
+    if (before.way != finger->way || before.strength != taken.strength) /* another row of layers */
         world->pours = world_time_at(world, (double)world->step);
     energy_forget(world);
 }

@@ -61,6 +61,9 @@ bool world_flow(World *world, Error *error);
    them still. */
 void world_thin_births(World *world);
 
+/* The box as its motions and the hand's filter have it now. */
+void world_pose(World *world);
+
 /* What follows from the particles alone: the solids' places, grid, densities. */
 void world_settle(World *world);
 

@@ -220,4 +220,5 @@ if __name__ == '__main__':
     command.main('Motion.test_the_box_turns_by_the_angle_recorded Motion.test_two_devices Mapping',
                  'Motion.test_unplugged_the_box_stays Motion.test_buttons_sticks_and_the_neutral_pose '
                  'Motion.test_nothing_is_lost_before_the_first_picture '
-                 'Motion.test_a_mapping_of_ones_own_and_the_neutral_key Motion.test_what_is_wrong_is_refused_before_the_window')
+                 'Motion.test_a_mapping_of_ones_own_and_the_neutral_key Motion.test_a_stick_and_a_trigger_touch_the_fluid '
+                 'Motion.test_what_is_wrong_is_refused_before_the_window')

@@ -40,7 +40,7 @@ class Whole(CommandTest):
         code, said = self.slosh('run', 'jet.yaml', '-o', 'a.h5part', '--time', '0.3', '--set', 'particles.most=520',
                                 '--json', 'a.json')
         self.assertEqual(code, 0, said)
-        self.assertEqual(said.count('there are 520 particles, as many as particles.most allows: emitters pause'), 1, said)
+        self.assertEqual(said.count('there are 520 particles, as many as particles.most allows: no more come until some drain'), 1, said)
         summary = json.loads(self.read('a.json'))
         self.assertEqual((summary['particles'], summary['emitted'], summary['drained']), (520, 20, 0))
 

@@ -334,7 +334,7 @@ class Resume(CommandTest):
 
     MARK = 33  # doubles of EnergyMark (sim/world/world_state.h)
     BODIES = 16 * 25  # of the solids that float (sim/body/body_state.h)
-    LAST = MARK + 10 + BODIES  # with what stands behind it, the last of the restart's numbers
+    LAST = MARK + 11 + BODIES  # with what stands behind it, the last of the restart's numbers
 
     def test_a_file_whose_energy_was_watched_in_another_way(self):
         """Four of the mark's numbers are in it: they are left out, and the watch begins anew."""
