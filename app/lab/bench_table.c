@@ -18,7 +18,7 @@ static const Table tables[] = {
      .help =
          "points a second: sampling of surfaces, and rendering by the view pbsr (Tanaka et al. 2012, section "
          "5); give it --size 1024x1024; --particles N: so many points of each field",
-     .scene = "scenes/surfaces.yaml",
+     .scene = "scenes/papers/surfaces.yaml",
      .settings = {"view.pbsr.moving=8", "view.pbsr.repeat=64"},
      .reference = "scenes/reference/paper001-points.csv",
      .view = "pbsr",
