@@ -4,6 +4,8 @@
 
 #include "sim/body/body_contact.h"
 
+#include <unistd.h>
+
 static void near(double value, double expected, double within, const char *what)
 {
     if (!(fabs(value - expected) <= within))
@@ -241,12 +243,36 @@ static void blocks_come_to_rest(void **state)
     near(fastest, 0, 0.02, "the last speed");
 }
 
+/* The sentinel goes back from numbers that are none; until it looks nothing may wait for them. */
+static void what_is_no_number_ends(void **state)
+{
+    (void)state;
+    const SolidDef ball = {.kind = SOLID_SPHERE, .radius = 0.1, .axis = {0, 1, 0}, .density = 500};
+    const SolidDef solids[2] = {ball, ball};
+    Walls walls;
+    Body bodies[2];
+    BodyStates now = {0};
+    BoxState fixed[2] = {0};
+    walls_place(&walls, 3, (double[3]){1, 2, 1}, (bool[3]){false}, 0.05);
+    const BodyWorld world = {3, 2, &walls, solids, bodies, fixed, 9.81, 0.05};
+    for (int b = 0; b < 2; b++) {
+        body_make(&bodies[b], &solids[b], 3);
+        body_start(&bodies[b], (double[3]){0, 1, 0}, &now.of[b]);
+    }
+    now.of[1].pose.orientation[0] = (double)NAN;
+    alarm(5);
+    body_contacts_hit(&world, 1e-3, &now);
+    body_contacts_part(&world, &now);
+    alarm(0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(mesh_weighs_what_its_box_does), cmocka_unit_test(shapes_weigh_what_books_say),
         cmocka_unit_test(tumbling_keeps_momentum),       cmocka_unit_test(rod_swings),
         cmocka_unit_test(pushes_move_and_turn),          cmocka_unit_test(blocks_come_to_rest),
+        cmocka_unit_test(what_is_no_number_ends),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
