@@ -51,7 +51,7 @@ static void fill(World *world)
 {
     WorldInfo info;
     world_info(world, &info);
-    for (int i = 0; i < 20 && info.count == 0; i++) {
+    for (int i = 0; i < 60 && info.count < 30; i++) {
         fixture_step(world, 1);
         world_info(world, &info);
     }
