@@ -97,6 +97,30 @@ static int finish(Replay *replay, Error *error)
     return write_json(replay, error) ? code : fail(EXIT_FAILED, error);
 }
 
+/* The file has the scene as it began. */
+static void tell_what_lacks(const Replay *replay)
+{
+    static const char *const words[] = {"what was done to solids", "the box's new size",
+                                        "when poured fluid came"};
+    bool lacks[3] = {false};
+    int told = 0;
+    for (size_t i = 0; i < replay->recording.count; i++) {
+        const SimCommand *command = &replay->recording.commands[i];
+        lacks[0] |= command->kind == SIM_SOLID;
+        lacks[1] |= command->kind == SIM_SIZE;
+        lacks[2] |= command->kind == SIM_TOUCH && finger_fluid(&command->finger) >= 0;
+    }
+    for (int k = 0; k < 3; k++) {
+        if (!lacks[k])
+            continue;
+        if (told == 0)
+            fprintf(stderr, "%s: warning: only the recording has ", replay->args->output);
+        fprintf(stderr, "%s%s", told++ > 0 ? ", " : "", words[k]);
+    }
+    if (told > 0)
+        fputc('\n', stderr);
+}
+
 static int run(Replay *replay, Error *error)
 {
     const Args *args = replay->args;
@@ -108,6 +132,7 @@ static int run(Replay *replay, Error *error)
         if (!file)
             return fail_run(args, EXIT_FAILED, error);
         replay->series = (SnapshotSeries){.file = file, .every = args->every};
+        tell_what_lacks(replay);
     }
     progress_begin(&progress, stderr, "replay", args->quiet);
     const int code = simulate(replay, &progress, error);

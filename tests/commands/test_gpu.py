@@ -43,7 +43,8 @@ class Gpu(CommandTest):
         self.assertEqual({s['name']: s['clock'] for s in result['stages']},
                          dict.fromkeys(['grid', 'density', 'force', 'integrate'], 'finish'))
         self.assertGreater(result['sim_ms'], 0)
-        self.assertLess(abs(result['sim_ms'] / result['frame_ms'] - 1), 0.25)
+        if 'LSAN_OPTIONS' not in os.environ:  # a sanitizer makes what is between the stages slow
+            self.assertLess(abs(result['sim_ms'] / result['frame_ms'] - 1), 0.25)
 
     def refused(self, code, words, *arguments):
         """Before anything starts: nothing is created."""

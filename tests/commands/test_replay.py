@@ -96,6 +96,11 @@ class Replay(CommandTest):
             self.assertEqual(code, 2)
             self.assertRegex(said, f'^{option}.* makes no sense for a.rec: .*\n$')
 
+    def test_what_only_the_recording_has(self):
+        self.recording(['5 size 1.2 1 1'], ['end 10 0000000000000000'])
+        said = self.slosh('replay', 'a.rec', '-o', 'a.h5part', '--quiet')[1]
+        self.assertIn("a.h5part: warning: only the recording has the box's new size\n", said)
+
     def test_different(self):
         value = self.record()
         for k in range(len(COMMANDS)):
