@@ -249,7 +249,7 @@ typedef struct Mover {
     void *user;
 } Mover;
 
-bool scene_names_file(const Node *node)
+static bool names_file(const Node *node)
 {
     return node->text && (scene_names_table(node->text) || (node->key && strcmp(node->key, "file") == 0));
 }
@@ -264,9 +264,8 @@ static bool whole_name(const char *scene, const char *name, char whole[PATH_MAX]
            S_ISREG(is.st_mode);
 }
 
-static void move_below(const Mover *mover, Node *node, const char *path)
+static void each_below(Node *node, const char *path, FileNamed *named, void *user)
 {
-    char own[PATH_MAX], other[PATH_MAX];
     int place = 0;
     for (Node *child = node->first; child; child = child->next, place++) {
         char inner[256];
@@ -274,14 +273,28 @@ static void move_below(const Mover *mover, Node *node, const char *path)
             snprintf(inner, sizeof inner, "%.180s[%d]", path, place);
         else
             snprintf(inner, sizeof inner, "%.180s%s%.60s", path, *path ? "." : "", child->key);
-        move_below(mover, child, inner);
-        if (scene_names_file(child) && *child->text != '/' && whole_name(mover->from, child->text, own) &&
-            !(whole_name(mover->to, child->text, other) && strcmp(own, other) == 0))
-            mover->moved(mover->user, child, inner, own);
+        each_below(child, inner, named, user);
+        if (names_file(child))
+            named(user, child, inner);
     }
+}
+
+void scene_each_file(Tree *tree, FileNamed *named, void *user)
+{
+    each_below(tree->root, "", named, user);
+}
+
+/* A FileNamed. */
+static void move_file(void *user, Node *node, const char *path)
+{
+    const Mover *mover = user;
+    char own[PATH_MAX], other[PATH_MAX];
+    if (*node->text != '/' && whole_name(mover->from, node->text, own) &&
+        !(whole_name(mover->to, node->text, other) && strcmp(own, other) == 0))
+        mover->moved(mover->user, node, path, own);
 }
 
 void scene_move_files(Tree *tree, const char *output, FileMoved *moved, void *user)
 {
-    move_below(&(Mover){tree->path, output, moved, user}, tree->root, "");
+    scene_each_file(tree, move_file, &(Mover){tree->path, output, moved, user});
 }

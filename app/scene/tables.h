@@ -18,8 +18,10 @@ bool scene_read_meshes(const Tree *tree, Scene *scene, bool lenient, Notes *note
 /* Whether the value of a key is the name of a table: it ends in ".csv". */
 bool scene_names_table(const char *text);
 
-/* Whether the node is the name of a file: of a table, or what a key `file` has. */
-bool scene_names_file(const Node *node);
+/* Calls `named` with each node that is the name of a file, of a table or what a key `file` has, and with the
+   path of its key. */
+typedef void FileNamed(void *user, Node *node, const char *path);
+void scene_each_file(Tree *tree, FileNamed *named, void *user);
 
 /* The same of a mesh, by the endings of their formats. */
 bool scene_names_mesh(const char *text);

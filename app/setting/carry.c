@@ -9,21 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Settings that leave of whole paths the last part. */
-static void find_paths(const Node *node, const char *path, SettingList *out)
+/* A setting that leaves of a whole path the last part; a FileNamed. */
+static void leave_folder(void *user, Node *node, const char *path)
 {
-    int place = 0;
-    for (const Node *child = node->first; child; child = child->next, place++) {
-        char inner[256];
-        if (node->kind == NODE_SEQUENCE)
-            snprintf(inner, sizeof inner, "%.180s[%d]", path, place);
-        else
-            snprintf(inner, sizeof inner, "%.180s%s%.60s", path, *path ? "." : "", child->key);
-        find_paths(child, inner, out);
-        const char *slash = child->text ? strrchr(child->text, '/') : NULL;
-        if (slash && (*child->text == '/' || *child->text == '~') && scene_names_file(child))
-            setting_list_add_text(out, inner, slash + 1);
-    }
+    const char *slash = strrchr(node->text, '/');
+    if (slash && (*node->text == '/' || *node->text == '~'))
+        setting_list_add_text(user, path, slash + 1);
 }
 
 /* Replaces the text; false: such a path stays in it. */
@@ -33,7 +24,7 @@ static bool leave_paths(char **text, Error *error)
     Tree tree;
     bool ok = tree_read(&tree, "the scene", *text, strlen(*text), error);
     if (ok)
-        find_paths(tree.root, "", &names);
+        scene_each_file(&tree, leave_folder, &names);
     for (int i = 0; ok && i < names.count; i++) {
         char *next = yaml_patch("the scene", *text, strlen(*text), names.set[i], NULL, error);
         ok = next != NULL;
