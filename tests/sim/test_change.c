@@ -1,6 +1,8 @@
 /* What may change while a world lives. */
 #include "fixture.h"
 
+#include "sim/world/world_state.h"
+
 static WorldDef two_fluids(void)
 {
     WorldDef def = fixture_def(1, 1, 1);
@@ -86,9 +88,36 @@ static void nonsense_changes_nothing(void **state)
     world_destroy(left);
 }
 
+/* It turns about half its height: fluid at rest in a tilted box without gravity stays in its place there. */
+static void a_tilted_box_grows_without_a_jerk(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    Error error;
+    WorldInfo info;
+    memset(def.gravity, 0, sizeof def.gravity);
+    fixture_block(&def, 0, -0.3, 0.3, -0.3, 0.3, 0.7, 0.3);
+    World *world = fixture_world(&def);
+    world_carry(world, &(BoxTarget){.orientation = {0, 0, sin(0.25), cos(0.25)}});
+    fixture_step(world, 2);
+    def.box_size[1] = 2;
+    assert_true(world_set_shapes(&world, &def, &error));
+    world_info(world, &info);
+    float *before = malloc(8 * info.count * sizeof *before), *after = before + 4 * info.count;
+    assert_true(before && world_read(world, &(ParticleArrays){.position = before}));
+    fixture_step(world, 1);
+    assert_true(world_read(world, &(ParticleArrays){.position = after}));
+    for (size_t i = 0; i < 4 * info.count; i++)
+        if (i % 4 != 3 && fabsf(before[i] - after[i]) > 0.02F * (float)def.spacing)
+            fail_msg("particle %zu goes %g m along axis %zu", i / 4, (double)(after[i] - before[i]), i % 4);
+    free(before);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tilted_box_grows_without_a_jerk),
         cmocka_unit_test(changed_at_the_start_is_made_so),
         cmocka_unit_test(time_goes_on),
         cmocka_unit_test(nonsense_changes_nothing),
