@@ -335,10 +335,9 @@ static AgainResult begin(Model *model, Renewal *renewal, Error *error)
 static void tell(const Renewal *renewal, bool others, char words[320])
 {
     const Differ *changed = &renewal->changed;
-    char of[240] = "";
+    char of[190] = "";
     differ_words(&changed->settings, of, sizeof of);
-    snprintf(words, 320, "%s%s%s", *changed->built ? changed->built : of, *changed->built && *of ? ", " : "",
-             *changed->built ? of : "");
+    snprintf(words, 320, "%s%s%s", changed->built, *changed->built && *of ? ", " : "", of);
     if (!*words && others)
         snprintf(words, 320, "a file that it names");
     const size_t used = strlen(words);
