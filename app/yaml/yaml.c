@@ -35,11 +35,20 @@ static bool mark_is_behind(const Reader *reader)
     return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
 }
 
+/* `key:` with nothing behind: libfyaml 0.8 gives it a place, 0.7 none. */
+static bool is_nothing(const Reader *reader)
+{
+    if (reader->event->type != FYET_SCALAR)
+        return false;
+    struct fy_token *token = fy_event_get_token(reader->event);
+    return !token || (fy_token_scalar_style(token) == FYSS_PLAIN && fy_token_get_text_length(token) == 0);
+}
+
 /* Where the present event starts, counted from 1; as they were when it has no place. */
 static void event_place(const Reader *reader, int *line, int *column)
 {
     const struct fy_mark *mark = fy_event_start_mark(reader->event);
-    if (!mark)
+    if (!mark || is_nothing(reader))
         return;
     *line = mark->line + 1;
     *column = mark->column + 1 - mark_is_behind(reader);

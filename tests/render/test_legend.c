@@ -163,7 +163,7 @@ static void test_legend_is_drawn(void **state)
         for (int y = em; y < 3 * em; y++) /* the title's line */
             for (int x = width - 9 * em; x < width - em; x++)
                 dark += rgb[3 * (y * width + x)] < 100;
-        assert_true(dark > em * em / 2);
+        assert_true(dark > em * em / 3);
         renderer_destroy(renderer);
         free(rgb);
     }
