@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include "render/clear/caustics.h"
+#include "render/clear/foam.h"
 #include "render/clear/glass.h"
 #include "render/derived/derived.h"
 #include "render/derived/ranges.h"
@@ -51,6 +52,7 @@ struct Renderer {
     Edges edges;
     Glass glass;       /* nothing before the first def that wants it */
     Caustics caustics; /* the same */
+    Foam foam;         /* the same */
     Text *text;        /* NULL before the first legend */
     Solids *solids;    /* NULL without */
     View *view;        /* NULL for "none" */
@@ -173,6 +175,8 @@ static ParticleWants wants_of(const ViewDef *def)
     ParticleWants wants = {.scalars = SCALAR_BIT(view_color_by(def))};
     overlays_want(def, &wants);
     view_want(def, &wants);
+    if (view_has_foam(def))
+        foam_want(&wants);
     want_curve(&wants, &def->opacity);
     want_curve(&wants, &def->size);
     if (def->opacity.by != 0)
@@ -209,7 +213,8 @@ static bool follow_clear(Renderer *renderer, const ViewDef *def, Error *error)
     const bool caustics =
         def->caustics && view_shows_clear_fluid(def) && def->drawn_quality != VIEW_DRAFT && def->floor;
     return (!view_has_glass(def) || glass_create(&renderer->glass, error)) &&
-           (!caustics || caustics_create(&renderer->caustics, error));
+           (!caustics || caustics_create(&renderer->caustics, error)) &&
+           (!view_has_foam(def) || foam_create(&renderer->foam, error));
 }
 
 static bool create_parts(Renderer *renderer, int width, int height, Error *error)
@@ -270,6 +275,7 @@ void renderer_destroy(Renderer *renderer)
     edges_destroy(&renderer->edges);
     glass_destroy(&renderer->glass);
     caustics_destroy(&renderer->caustics);
+    foam_destroy(&renderer->foam);
     solids_destroy(renderer->solids);
     backdrop_destroy(&renderer->backdrop);
     shadow_destroy(&renderer->shadow);
@@ -538,6 +544,30 @@ static void draw_panes(const Renderer *renderer, const Frame *frame, bool behind
         }
 }
 
+/* What shows no fluid as it is, a stage of the way to it, has none. */
+static bool has_foam(const Renderer *renderer, const Frame *frame)
+{
+    return view_has_foam(&renderer->def) && frame->clear > 0 && !(frame->slab > 0);
+}
+
+static void draw_view(Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
+{
+    const bool foam = has_foam(renderer, frame);
+    if (foam)
+        GL_STAGE(frame->timer, STAGE_FOAM)
+        {
+            foam_begin(&renderer->foam, frame);
+        }
+    view_draw(renderer->view, particles, frame);
+    if (foam)
+        GL_STAGE(frame->timer, STAGE_FOAM)
+        {
+            foam_draw(&renderer->foam, particles, frame);
+        }
+    if (renderer->def.legend) /* which waits for what it tells */
+        frame->note = view_note(renderer->view, frame->behind);
+}
+
 static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
 {
     Frame frame;
@@ -582,11 +612,8 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
         }
     draw_panes(renderer, &frame, true);
     draw_over_depth(renderer, particles, &frame);
-    if (renderer->view) {
-        view_draw(renderer->view, particles, &frame);
-        if (renderer->def.legend) /* which waits for what it tells */
-            frame.note = view_note(renderer->view, frame.behind);
-    }
+    if (renderer->view)
+        draw_view(renderer, particles, &frame);
     const char *own = note_of(renderer, particles);
     frame.note = frame.note ? frame.note : own;
     draw_panes(renderer, &frame, false);

@@ -15,8 +15,8 @@ _Static_assert(SCALAR_COUNT <= 64 && VECTOR_COUNT <= 32, "a bit for each in Part
 
 /* A formula of shaders/derived/derived.comp, over: `place` and `velocity` of the particle; `carried`, its
    scalar `carries`; `three`, its scalars from `threes` on; with `near_too` and the velocity or the scalar
-   read, `gradient` and `slope` of them; `near`, how many others are within the support radius; frame_velocity
-   and frame_turn, of the box, in its axes. */
+   read, `gradient` and `slope` of them; `near`, how many others are within the support radius; `trapped`, how
+   fast they come towards it; frame_velocity and frame_turn, of the box, in its axes. */
 typedef struct Recipe {
     const char *value;   /* NULL: the state has it */
     unsigned attributes; /* PARTICLE_VELOCITY, or 0 */
@@ -24,6 +24,7 @@ typedef struct Recipe {
     bool near_too;       /* needs neighbours; then without `threes` */
     int threes;          /* the first of three Scalars of the state, or 0 */
     bool births;         /* id and births */
+    bool meets;          /* `trapped` is there, with `near_too` and the velocity */
 } Recipe;
 
 enum { NOTHING = -1 };
@@ -45,6 +46,7 @@ static const Recipe scalar_recipes[SCALAR_COUNT] = {
     [SCALAR_VORTICITY_Y] = {"curl(gradient).y", PARTICLE_VELOCITY, NOTHING, true},
     [SCALAR_VORTICITY_Z] = {"curl(gradient).z", PARTICLE_VELOCITY, NOTHING, true},
     [SCALAR_DIVERGENCE] = {"gradient[0].x + gradient[1].y + gradient[2].z", PARTICLE_VELOCITY, NOTHING, true},
+    [SCALAR_TRAPPED_AIR] = {"trapped", PARTICLE_VELOCITY, NOTHING, true, .meets = true},
     [SCALAR_PRESSURE_GRADIENT] = {"length(slope)", 0, SCALAR_PRESSURE, true},
     [SCALAR_PRESSURE_GRADIENT_X] = {"slope.x", 0, SCALAR_PRESSURE, true},
     [SCALAR_PRESSURE_GRADIENT_Y] = {"slope.y", 0, SCALAR_PRESSURE, true},
@@ -152,7 +154,10 @@ static bool follow(Derived *derived, unsigned *program, const Recipe *recipe, co
     if (!recipe->value)
         return true;
     snprintf(defines, sizeof defines, "#define VALUE_TYPE %s\n#define VALUE %s\n%s%s", type, recipe->value,
-             recipe->near_too ? "#define NEAR 1\n" : "", reads_defines(recipe));
+             recipe->meets      ? "#define NEAR 1\n#define MEETS 1\n"
+             : recipe->near_too ? "#define NEAR 1\n"
+                                : "",
+             reads_defines(recipe));
     return follow_near(derived, recipe, error) &&
            compile(program, "derived/derived.comp", name, defines, error);
 }

@@ -198,6 +198,11 @@ Scalar view_color_by(const ViewDef *def)
     return view_shows_clear_fluid(def) ? SCALAR_FLUID : SCALAR_SPEED;
 }
 
+bool view_has_foam(const ViewDef *def)
+{
+    return def->foam > 0 && view_shows_clear_fluid(def) && def->drawn_quality != VIEW_DRAFT;
+}
+
 bool view_has_glass(const ViewDef *def)
 {
     return def->box &&

@@ -12,6 +12,7 @@ ViewDef view_def_shared(void)
                      .legend = true,
                      .box = true,
                      .caustics = true,
+                     .foam = 1,
                      .floor = true,
                      .camera_auto = true,
                      .camera = {.fov_deg = 32},

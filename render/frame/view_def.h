@@ -81,6 +81,7 @@ typedef struct ViewDef {
     bool box;                        /* draw the box's edges */
     int walls;                       /* a ViewWalls */
     bool caustics;                   /* light patterns below clear fluid */
+    double foam;                     /* how easily clear fluid foams: 1 as in the docs, 0 never */
     bool floor;                      /* draw the floor below the box */
     bool camera_auto;                /* the camera shows the whole box; else `camera` */
     CameraDef camera;
@@ -130,6 +131,9 @@ ViewDef view_at_quality(const ViewDef *def, bool moving);
 
 /* Whether the view's own colours are a clear fluid's: looks and shadings water and jelly. */
 bool view_shows_clear_fluid(const ViewDef *def);
+
+/* Whether foam is drawn: on clear fluid in three dimensions, and not in a draft. */
+bool view_has_foam(const ViewDef *def);
 
 /* Whether the box is drawn as glass: not in two dimensions, and with `auto` where the view's own colours are
    a clear fluid's. Panes and what else costs time: not in a draft. */

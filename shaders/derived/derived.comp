@@ -24,6 +24,7 @@ struct Sums {
     mat3 moment;   // sum w d d
     mat3 velocity; // sum w (v_j - v) d: a column an axis of d
     vec3 carried;  // sum w (s_j - s) d
+    float trapped; // sum V_j (1 - r / h) (|v_ij| - v_ij . d_ij), d_ij the unit vector from j to i
 };
 
 void add_neighbour(inout Sums sums, vec4 own, int k, vec3 d)
@@ -32,7 +33,11 @@ void add_neighbour(inout Sums sums, vec4 own, int k, vec3 d)
     if (t <= 0.0)
         return;
     sums.count += 1.0;
-#if defined VELOCITIES || defined CARRIED
+#if defined MEETS
+    vec4 met = texelFetch(other_texels, k);
+    vec3 faster = own.xyz - met.xyz;
+    sums.trapped += met.w * t * (length(faster) + dot(faster, d) * inversesqrt(max(dot(d, d), 1e-30)));
+#elif defined VELOCITIES || defined CARRIED
     vec4 other = texelFetch(other_texels, k);
     vec3 wd = moment_scale * other.w * t * t * t * d;
     sums.moment += outerProduct(wd, d);
@@ -60,7 +65,7 @@ void add_neighbours(inout Sums sums, uint i, vec4 own, vec3 x, bool image)
 // Across periodic sides they are near the particle's images.
 Sums sums_of(uint i, vec3 x)
 {
-    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0));
+    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0);
     vec4 own = vec4(velocity_of(i) + vec3(carried_of(i), 0.0, 0.0), 0.0);
     vec3 from_low = x - grid_corner;
     ivec3 first = -ivec3(greaterThan(from_low, period - reach)) * ivec3(greaterThan(period, vec3(0.0)));
@@ -115,12 +120,13 @@ void main()
 #ifdef NEAR
     uint i = number_of(at);
     vec3 place = place_of(at);
-    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0));
+    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0);
     if (in_grid(at))
         sums = sums_of(i, place);
     float near = sums.count;
     mat3 correct = correction(sums.moment), gradient = sums.velocity * correct;
     vec3 slope = correct * sums.carried;
+    float trapped = 3.0 / 3.14159265 * sums.trapped / (reach * reach * (two_dimensions != 0u ? 1.0 : reach));
 #else
     uint i = at;
     vec3 place = particle_position(i);

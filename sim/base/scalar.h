@@ -42,6 +42,7 @@
     X(VORTICITY_Y, "vorticity_y", "1/s")                                                                     \
     X(VORTICITY_Z, "vorticity_z", "1/s")                                                                     \
     X(DIVERGENCE, "divergence", "1/s")                                                                       \
+    X(TRAPPED_AIR, "trapped_air", "m/s")                                                                     \
     X(PRESSURE_GRADIENT, "pressure_gradient", "Pa/m")                                                        \
     X(PRESSURE_GRADIENT_X, "pressure_gradient_x", "Pa/m")                                                    \
     X(PRESSURE_GRADIENT_Y, "pressure_gradient_y", "Pa/m")                                                    \

@@ -29,6 +29,7 @@
     X(FILTER, "filter", PART_RENDER)                                                                         \
     X(SHADE, "shade", PART_RENDER)                                                                           \
     X(ANTIALIAS, "antialias", PART_RENDER)                                                                   \
+    X(FOAM, "foam", PART_RENDER)                                                                             \
     X(BACKDROP, "backdrop", PART_RENDER)                                                                     \
     X(OVERLAY, "overlay", PART_RENDER)
 

@@ -46,7 +46,7 @@ RENDER = {
     "plane": "particles",
     "probe": "frame particles plane",
     "ui": "frame",
-    "clear": "frame",
+    "clear": "frame particles",
 }
 VIEWS = own_folders("render", "ViewKind view")
 OVERLAYS = own_folders("render", "OverlayKind overlay")

@@ -1,0 +1,3 @@
+// What the shaders of foam share.
+#include "common/nan.glsl"
+#include "shaders/clear/foam_bindings.h"
