@@ -100,16 +100,22 @@ Panels *panels_create(const Subject subjects[], int count, int width, int height
     return NULL;
 }
 
+Renderer *panels_renderer(const Panels *panels, int index)
+{
+    return panels->panels[index].renderer;
+}
+
+void panels_set_presents(Panels *panels, bool presents)
+{
+    for (int i = 0; i < panels->count; i++)
+        renderer_set_presents(panels_renderer(panels, i), presents && panels->count == 1);
+}
+
 void panels_destroy(Panels *panels)
 {
     for (int i = 0; panels && i < panels->count; i++)
         renderer_destroy(panels->panels[i].renderer);
     free(panels);
-}
-
-Renderer *panels_renderer(const Panels *panels, int index)
-{
-    return panels->panels[index].renderer;
 }
 
 void panels_mark(Panels *panels, int index)

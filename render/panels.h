@@ -74,6 +74,9 @@ void panels_range(const Panels *panels, int index, double range[2]);
 /* Those of its opacity and its size, as of renderer_curve_ranges. */
 void panels_curve_ranges(const Panels *panels, int index, double opacity[2], double size[2]);
 
+/* As renderer_set_presents, where there is one panel. */
+void panels_set_presents(Panels *panels, bool presents);
+
 /* The whole picture as renderer_read and renderer_present have one, with a thin line between panels. */
 bool panels_read(const Panels *panels, uint8_t *rgb, Error *error);
 void panels_present(const Panels *panels);

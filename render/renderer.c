@@ -3,6 +3,7 @@
 #include "render/clear/caustics.h"
 #include "render/clear/foam.h"
 #include "render/clear/glass.h"
+#include "render/coarse/coarse.h"
 #include "render/derived/derived.h"
 #include "render/derived/ranges.h"
 #include "render/frame/backdrop.h"
@@ -27,6 +28,13 @@
 
 static const WorldDef unknown;
 
+/* Of the last picture: what lies over it needs no more. */
+typedef struct Drawn {
+    Frame frame;
+    double time, box_size[3], spacing;
+    bool whole; /* the renderer's target has all of it */
+} Drawn;
+
 struct Renderer {
     ViewDef said; /* by who asked for the picture */
     ViewDef def;  /* the same at its quality */
@@ -41,8 +49,9 @@ struct Renderer {
     char note[96];
     double range[2], opacity_range[2], size_range[2]; /* of the last picture */
     Target target;
-    Target coarse;  /* what is drawn before it is made as large as the target; zeroed where the def wants all
-                       pixels */
+    Coarse coarse;
+    Drawn drawn;
+    bool presents;  /* a coarse picture becomes whole where it is presented */
     OverDepth over; /* nothing before the first picture of a view with parts before overlays */
     unsigned uniforms;
     Derived derived;
@@ -73,45 +82,15 @@ static Subject subject_of(const Renderer *renderer)
     return (Subject){&renderer->def, &renderer->world};
 }
 
-static int part_of(int pixels, double resolution)
+static bool is_coarse(const Renderer *renderer)
 {
-    return (int)fmax(round(resolution * pixels), 1);
-}
-
-/* A coarse target for a picture of that size, or none: on failure all stays as it was. */
-static bool follow_resolution(Renderer *renderer, const ViewDef *def, int width, int height, Error *error)
-{
-    Target coarse = {0};
-    const int across = part_of(width, def->resolution), down = part_of(height, def->resolution);
-    const bool wanted = def->resolution < 1;
-    if (wanted && renderer->coarse.width == across && renderer->coarse.height == down)
-        return true;
-    if (wanted && !target_create(&coarse, across, down, error))
-        return false;
-    if (renderer->coarse.framebuffer)
-        target_destroy(&renderer->coarse);
-    renderer->coarse = coarse;
-    return true;
+    return renderer->coarse.target.framebuffer != 0;
 }
 
 /* What is drawn into. */
 static const Target *drawn_target(const Renderer *renderer)
 {
-    return renderer->coarse.framebuffer ? &renderer->coarse : &renderer->target;
-}
-
-/* From the coarse target, smoothly; its depth as it is. */
-static void enlarge(const Renderer *renderer)
-{
-    const Target *from = &renderer->coarse, *to = &renderer->target;
-    if (!from->framebuffer)
-        return;
-    glDisable(GL_SCISSOR_TEST);
-    glBlitNamedFramebuffer(from->framebuffer, to->framebuffer, 0, 0, from->width, from->height, 0, 0,
-                           to->width, to->height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
-    glBlitNamedFramebuffer(from->framebuffer, to->framebuffer, 0, 0, from->width, from->height, 0, 0,
-                           to->width, to->height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
-    glViewport(0, 0, to->width, to->height);
+    return is_coarse(renderer) ? &renderer->coarse.target : &renderer->target;
 }
 
 static bool has_letters(const ViewDef *def, const Title *title)
@@ -222,8 +201,9 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
     const ViewDef *def = &renderer->def;
     const Subject subject = subject_of(renderer);
     if (!target_create(&renderer->target, width, height, error) ||
-        !follow_resolution(renderer, def, width, height, error) || !shadow_create(&renderer->shadow, error) ||
-        !backdrop_create(&renderer->backdrop, error) || !edges_create(&renderer->edges, error))
+        !coarse_follow(&renderer->coarse, def->resolution, width, height, error) ||
+        !shadow_create(&renderer->shadow, error) || !backdrop_create(&renderer->backdrop, error) ||
+        !edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
     return follow_derived(renderer, def, error) &&
@@ -284,7 +264,7 @@ void renderer_destroy(Renderer *renderer)
     glDeleteBuffers(1, &renderer->uniforms);
     over_depth_destroy(&renderer->over);
     target_destroy(&renderer->target);
-    target_destroy(&renderer->coarse);
+    coarse_destroy(&renderer->coarse);
     free(renderer);
 }
 
@@ -319,12 +299,12 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
     const ViewDef drawn = view_at_quality(said, renderer->more), *def = &drawn;
     const Subject subject = {def, world ? world : &unknown};
     const bool letters = has_letters(def, &renderer->title);
-    const bool followed =
-        follow_derived(renderer, def, error) && follow_clear(renderer, def, error) &&
-        follow_letters(renderer, letters, renderer->target.height, error) &&
-        follow_solids(renderer, subject.world, error) &&
-        follow_resolution(renderer, def, renderer->target.width, renderer->target.height, error) &&
-        follow_view(renderer, &subject, error);
+    const bool followed = follow_derived(renderer, def, error) && follow_clear(renderer, def, error) &&
+                          follow_letters(renderer, letters, renderer->target.height, error) &&
+                          follow_solids(renderer, subject.world, error) &&
+                          coarse_follow(&renderer->coarse, def->resolution, renderer->target.width,
+                                        renderer->target.height, error) &&
+                          follow_view(renderer, &subject, error);
     if (followed) {
         const ParticleWants wants = wants_of(def);
         renderer->said = *said;
@@ -345,7 +325,7 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
     if (!target_create(&target, width, height, error))
         return false;
     if (!follow_letters(renderer, has_letters(&renderer->def, &renderer->title), height, error) ||
-        !follow_resolution(renderer, &renderer->def, width, height, error)) {
+        !coarse_follow(&renderer->coarse, renderer->def.resolution, width, height, error)) {
         target_destroy(&target);
         return false;
     }
@@ -426,16 +406,14 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
         overlays_draw(&renderer->overlays, particles, frame);
 }
 
-static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+/* Into the framebuffer that is bound. */
+static void draw_words(Renderer *renderer, const Frame *frame, double time)
 {
-    glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
-    if (has_edges(renderer, frame) && !draws_front(renderer))
-        edges_draw(&renderer->edges, frame);
     if (!has_letters(&renderer->def, &renderer->title))
         return;
     text_begin(renderer->text, frame->width, frame->height);
     if (renderer->def.legend) {
-        legend_draw(renderer->text, frame, particles->time);
+        legend_draw(renderer->text, frame, time);
         overlays_legend(&renderer->overlays, renderer->text, frame);
     }
     title_draw(renderer->text, &renderer->title, frame);
@@ -443,22 +421,40 @@ static void draw_edges_and_text(Renderer *renderer, const ParticleBuffers *parti
     text_end(renderer->text);
 }
 
-/* What has all pixels, whatever the rest has. */
-static void draw_over(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+/* The last coarse picture, as large as it is shown, and what has all pixels whatever the rest has. */
+static void make_whole(Renderer *renderer, GLuint framebuffer)
 {
-    if (!renderer->coarse.framebuffer) {
-        draw_edges_and_text(renderer, particles, frame);
-        return;
-    }
-    Frame shown = *frame;
-    shown.target = &renderer->target;
+    const Drawn *drawn = &renderer->drawn;
+    const Coarse *coarse = &renderer->coarse;
+    Frame shown = drawn->frame;
     shown.width = renderer->target.width;
     shown.height = renderer->target.height;
-    enlarge(renderer);
-    frame_uniforms_update(renderer->uniforms, &shown, particles->box_size, particles->spacing);
-    draw_edges_and_text(renderer, particles, &shown);
-    frame_uniforms_update(renderer->uniforms, frame, particles->box_size,
-                          particles->spacing); /* for probes */
+    coarse_enlarge(coarse, framebuffer, shown.width, shown.height);
+    frame_uniforms_update(renderer->uniforms, &shown, drawn->box_size, drawn->spacing);
+    if (has_edges(renderer, &shown) && !draws_front(renderer))
+        edges_draw_enlarged(&renderer->edges, coarse->edges, &shown, coarse->target.depth);
+    draw_words(renderer, &shown, drawn->time);
+    frame_uniforms_update(renderer->uniforms, &drawn->frame, drawn->box_size,
+                          drawn->spacing); /* for probes */
+    glEnable(GL_FRAMEBUFFER_SRGB);
+}
+
+/* What lies over all. */
+static void draw_over(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    Drawn *drawn = &renderer->drawn;
+    *drawn = (Drawn){.frame = *frame, .time = particles->time, .spacing = particles->spacing};
+    memcpy(drawn->box_size, particles->box_size, sizeof drawn->box_size);
+    drawn->whole = !is_coarse(renderer) || !renderer->presents;
+    if (is_coarse(renderer)) {
+        if (drawn->whole)
+            make_whole(renderer, renderer->target.framebuffer);
+        return;
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
+    if (has_edges(renderer, frame) && !draws_front(renderer))
+        edges_draw(&renderer->edges, frame);
+    draw_words(renderer, frame, particles->time);
 }
 
 /* Whether a picture by that def needs more than the state has. */
@@ -653,19 +649,38 @@ void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCo
     draw(renderer, particles, NULL, counts);
 }
 
-void renderer_read(const Renderer *renderer, uint8_t *rgb)
+/* A def or a size that is new has no picture yet. */
+static bool lacks_pixels(const Renderer *renderer)
 {
+    return is_coarse(renderer) && !renderer->drawn.whole;
+}
+
+void renderer_read(Renderer *renderer, uint8_t *rgb)
+{
+    if (lacks_pixels(renderer))
+        make_whole(renderer, renderer->target.framebuffer);
+    renderer->drawn.whole = true;
     target_read(&renderer->target, rgb);
 }
 
-void renderer_present(const Renderer *renderer, int x, int y)
+void renderer_present(Renderer *renderer, int x, int y)
 {
-    target_present(&renderer->target, x, y);
+    if (lacks_pixels(renderer))
+        make_whole(renderer, 0);
+    else
+        target_present(&renderer->target, x, y);
 }
 
 void renderer_read_depth(const Renderer *renderer, float *depth)
 {
+    if (is_coarse(renderer))
+        coarse_enlarge_depth(&renderer->coarse, &renderer->target);
     target_read_depth(&renderer->target, depth);
+}
+
+void renderer_set_presents(Renderer *renderer, bool presents)
+{
+    renderer->presents = presents;
 }
 
 void renderer_set_covered(Renderer *renderer, Covered covered)

@@ -54,11 +54,15 @@ void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *ti
 void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts);
 
 /* The picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the drawing. */
-void renderer_read(const Renderer *renderer, uint8_t *rgb);
+void renderer_read(Renderer *renderer, uint8_t *rgb);
 
 /* Copies the picture into the default framebuffer, its lower left corner at x, y (pixels from the left and
    from below); leaves that one bound, its viewport where the picture is. */
-void renderer_present(const Renderer *renderer, int x, int y);
+void renderer_present(Renderer *renderer, int x, int y);
+
+/* From the next picture on one that is drawn with fewer pixels gets the others where it is read or presented,
+   and not before: for a window whose one picture lies at 0, 0. */
+void renderer_set_presents(Renderer *renderer, bool presents);
 
 /* width * height reversed depths (1 at the near plane, 0 where nothing is), rows from the bottom up. */
 void renderer_read_depth(const Renderer *renderer, float *depth);

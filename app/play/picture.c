@@ -52,6 +52,7 @@ static bool replace_panels(Picture *picture, const PlayScene *open, int width, i
     picture->panels = panels;
     panels_set_late(panels, !gl_renderer_is_software()); /* which has done all that was asked of it */
     panels_set_more(panels, true);
+    panels_set_presents(panels, true);
     picture->chosen = picture->chosen < count ? picture->chosen : 0;
     panels_mark(panels, picture->chosen);
     return true;

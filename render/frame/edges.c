@@ -39,31 +39,44 @@ void edges_destroy(Edges *edges)
     *edges = (Edges){0};
 }
 
-static void draw(const Edges *edges, const Frame *frame, unsigned framebuffer, bool behind)
+static void draw(const Edges *edges, GLuint program, const Frame *frame, bool behind)
 {
     const float part = (float)frame->height / 720; /* what is a pixel there */
     const float width = frame->glass ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glEnable(GL_DEPTH_TEST);
-    glDepthFunc(GL_GEQUAL);
-    glDepthMask(frame->depths);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, behind ? GL_ONE : GL_ZERO,
                         behind ? GL_ONE_MINUS_SRC_ALPHA : GL_ONE);
-    glUseProgram(edges->program);
-    glProgramUniform1f(edges->program, HALF_WIDTH_AT, width / 2);
-    glProgramUniform1ui(edges->program, EDGES_BEHIND_AT, behind);
+    glUseProgram(program);
+    glProgramUniform1f(program, HALF_WIDTH_AT, width / 2);
+    glProgramUniform1ui(program, EDGES_BEHIND_AT, behind);
     glBindVertexArray(edges->vertex_array);
     glDrawElements(GL_TRIANGLES, 6 * EDGE_COUNT, GL_UNSIGNED_SHORT, NULL);
     glDisable(GL_BLEND);
 }
 
+static void begin(const Frame *frame, GLuint framebuffer)
+{
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(frame->depths);
+}
+
 void edges_draw(const Edges *edges, const Frame *frame)
 {
-    draw(edges, frame, frame->target->framebuffer, false);
+    begin(frame, frame->target->framebuffer);
+    draw(edges, edges->program, frame, false);
 }
 
 void edges_draw_behind(const Edges *edges, const Frame *frame, unsigned framebuffer)
 {
-    draw(edges, frame, framebuffer, true);
+    begin(frame, framebuffer);
+    draw(edges, edges->program, frame, true);
+}
+
+void edges_draw_enlarged(const Edges *edges, unsigned program, const Frame *frame, unsigned depth)
+{
+    glBindTextureUnit(COARSE_DEPTH_UNIT, depth);
+    glDisable(GL_DEPTH_TEST);
+    draw(edges, program, frame, false);
 }

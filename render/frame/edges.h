@@ -18,4 +18,8 @@ void edges_draw(const Edges *edges, const Frame *frame);
 /* Those that are seen through the box only, between two sides that face away from the eye. */
 void edges_draw_behind(const Edges *edges, const Frame *frame, unsigned framebuffer);
 
+/* Into the framebuffer that is bound, whose colours are encoded, with `program`: that of the shaders for
+   COARSE; behind a texture of depths of another size. */
+void edges_draw_enlarged(const Edges *edges, unsigned program, const Frame *frame, unsigned depth);
+
 #endif

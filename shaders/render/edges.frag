@@ -1,7 +1,9 @@
 // Plain lines, or the edges of panes of glass: ground to a bevel that mirrors the sky on the side of the light, and through which one
-// looks along the glass, green by its iron, on the other.
+// looks along the glass, green by its iron, on the other. COARSE: over a picture of fewer pixels that
+// has been enlarged, behind its depth.
 #include "common/frame.glsl"
 #include "common/environment.glsl"
+#include "common/encoded.glsl"
 
 layout(location = 0) noperspective in float across;
 layout(location = 1) in vec3 place;       // in the eye's frame
@@ -21,8 +23,26 @@ vec4 glass_edge(float cover)
     return vec4(mix(along_glass * (0.5 + 0.5 * background), bright, side), cover * mix(0.62, 0.8, side));
 }
 
+#ifdef COARSE
+layout(binding = COARSE_DEPTH_UNIT) uniform sampler2D coarse_depth;
+
+// How much of the four texels about the pixel is not nearer, by their weights.
+float before()
+{
+    vec2 at = gl_FragCoord.xy * pixel_size, weight = fract(at * vec2(textureSize(coarse_depth, 0)) - 0.5);
+    vec4 behind = step(textureGather(coarse_depth, at), vec4(gl_FragCoord.z));
+    return mix(mix(behind.w, behind.z, weight.x), mix(behind.x, behind.y, weight.x), weight.y);
+}
+#endif
+
 void main()
 {
     float cover = clamp(half_width + 0.5 - abs(across), 0.0, 1.0);
+#ifdef COARSE
+    cover *= before();
+#endif
     color = glass != 0u ? glass_edge(cover) : vec4(edge_color.rgb, edge_color.a * cover);
+#ifdef COARSE
+    color.rgb = encoded(max(color.rgb, 0.0));
+#endif
 }

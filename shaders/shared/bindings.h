@@ -36,6 +36,8 @@
 #define SOLID_SHADOW_UNIT 4
 #define CAST_UNIT         5
 #define CAUSTIC_UNIT      6 /* before a view draws */
+#define ENLARGED_UNIT     6 /* behind it */
+#define COARSE_DEPTH_UNIT 7
 #define BEHIND_COLOR_UNIT 14
 #define BEHIND_DEPTH_UNIT 15
 

@@ -1,5 +1,6 @@
 // Blends each pixel of a finished picture beside an outline with those across it. DISCS and ROWS: see render/splat/silhouette.h.
 #include "common/frame.glsl"
+#include "common/encoded.glsl"
 #include "splat/silhouette.glsl"
 #include "shaders/splat/splat_bindings.h"
 
@@ -18,11 +19,6 @@ vec3 color_of(ivec2 pixel)
 #ifdef ROWS
 #include "splat/silhouette_rows.glsl"
 #endif
-
-vec3 encoded(vec3 linear)
-{
-    return mix(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 12.92 * linear, lessThan(linear, vec3(0.0031308)));
-}
 
 void main()
 {

@@ -156,7 +156,7 @@ static void a_state_is_derived_once(void **state)
     stand_destroy(&stand);
 }
 
-/* Twice as large, between pixels in proportion to light. */
+/* Twice as large, between pixels in proportion to the encoded colours. */
 static double enlarged(const uint8_t *rgb, int width, int height, int x, int y, int k)
 {
     double sum = 0;
@@ -164,9 +164,9 @@ static double enlarged(const uint8_t *rgb, int width, int height, int x, int y, 
         const int dx = corner & 1 ? (x & 1 ? 1 : -1) : 0, dy = corner & 2 ? (y & 1 ? 1 : -1) : 0;
         const int i = (int)fmin(fmax(x / 2 + dx, 0), width - 1),
                   j = (int)fmin(fmax(y / 2 + dy, 0), height - 1);
-        sum += (dx ? 0.25 : 0.75) * (dy ? 0.25 : 0.75) * srgb_to_linear(rgb[3 * (j * width + i) + k] / 255.0);
+        sum += (dx ? 0.25 : 0.75) * (dy ? 0.25 : 0.75) * rgb[3 * (j * width + i) + k];
     }
-    return 255 * linear_to_srgb(sum);
+    return sum;
 }
 
 /* A view of half the resolution is the picture of half the size, enlarged. */

@@ -47,11 +47,12 @@ RENDER = {
     "probe": "frame particles plane",
     "ui": "frame",
     "clear": "frame particles",
+    "coarse": "frame",
 }
 VIEWS = own_folders("render", "ViewKind view")
 OVERLAYS = own_folders("render", "OverlayKind overlay")
 RENDER |= {name: "frame particles plane" for name in [*VIEWS, *OVERLAYS]}
-RENDER[""] = " ".join(["frame particles derived plane probe ui clear", *VIEWS, *OVERLAYS])
+RENDER[""] = " ".join(["frame particles derived plane probe ui clear coarse", *VIEWS, *OVERLAYS])
 APP = {
     "base": "",
     "metric": "base",
