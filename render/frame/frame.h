@@ -69,7 +69,7 @@ typedef struct Frame {
         size_range[2]; /* the same as range of the def's opacity and size; 0 where they have none */
     unsigned curves;   /* which of the two the view draws: VIEW_OPACITY, VIEW_SIZE */
     const char *shown, *shown_unit; /* what that range is of, for the legend */
-    bool no_solids;                 /* the view draws the solids: none is opaque */
+    bool no_solids;                 /* the view draws the solids in its own way */
     bool no_colors;                 /* nothing is coloured by that range: the legend does not show it */
     int part_count;
     FramePart parts[FRAME_PARTS_MAX];

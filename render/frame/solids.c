@@ -116,17 +116,23 @@ static void follow_shapes(Solids *solids, const WorldDef *world, double slab)
     solid_mesh_destroy(&mesh);
 }
 
+void solid_to_world(const SolidDef *solid, int number, const ParticleBuffers *particles, const Frame *frame,
+                    float to_world[16])
+{
+    BoxState pose;
+    solid_pose_in(solid, particles->time, &particles->floating[number], &pose);
+    camera_box_matrix(&pose, to_world);
+    matrix_multiply(frame->box_to_world, to_world, to_world);
+}
+
 void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
 {
     const WorldDef *world = frame->world;
     SolidBlock block = {0};
     follow_shapes(solids, world, frame->slab);
     for (int i = 0; i < world->solid_count; i++) {
-        BoxState pose;
         float to_world[16];
-        solid_pose_in(&world->solids[i], particles->time, &particles->floating[i], &pose);
-        camera_box_matrix(&pose, to_world);
-        matrix_multiply(frame->box_to_world, to_world, to_world);
+        solid_to_world(&world->solids[i], i, particles, frame, to_world);
         matrix_multiply(frame->camera.view, to_world, block.solids[i].to_eye);
         matrix_multiply(frame->world_to_light, to_world, block.solids[i].to_light);
         for (int k = 0; k < 3; k++)

@@ -13,6 +13,10 @@ typedef struct Solids Solids;
 Solids *solids_create(Error *error); /* NULL on failure */
 void solids_destroy(Solids *solids); /* NULL is allowed */
 
+/* From the frame of the scene's solid of that number to the world, at the state's time. */
+void solid_to_world(const SolidDef *solid, int number, const ParticleBuffers *particles, const Frame *frame,
+                    float to_world[16]);
+
 /* Takes the poses of the state's time, before the other two. Makes the meshes only where shapes, or the depth
    of a flat box, are not those of the last picture; when memory is short there are none. */
 void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame *frame);

@@ -11,6 +11,8 @@ const char *const volume_show_names[] = {[VOLUME_SHADED] = "shaded",   [VOLUME_S
                                          [VOLUME_ENTRY] = "entry",     [VOLUME_EXIT] = "exit",
                                          [VOLUME_LENGTH] = "length",   [VOLUME_STEPS] = "steps",
                                          [VOLUME_NORMALS] = "normals", NULL};
+const char *const volume_solids_names[] = {
+    [VOLUME_SOLIDS_SURFACE] = "surface", [VOLUME_SOLIDS_VOXELS] = "voxels", NULL};
 const char *const volume_axis_names[] = {"x", "y", "z", NULL};
 const char *const raycast_look_names[] = {
     [RAYCAST_OPAQUE] = "opaque", [RAYCAST_WATER] = "water", [RAYCAST_TRANSLUCENT] = "translucent", NULL};
@@ -50,6 +52,8 @@ const Key volume_keys[] = {
     CHOICE_OF("view.volume.method", L | KEY_INDEX | KEY_REBUILD, volume_method_names, AT(method),
            "how the volume is made: see docs/views/volume.md; direct: none, the field is summed where it is sampled"),
     CHOICE_OF("view.volume.show", L | KEY_INDEX | KEY_REBUILD, volume_show_names, AT(show), "a stage of the way to the picture"),
+    CHOICE_OF("view.volume.solids", L | KEY_INDEX | KEY_REBUILD, volume_solids_names, AT(solids),
+           "how solids are drawn: their surfaces as in other views, or voxels as the fluid's, by raycasting"),
     CHOICE_OF("view.volume.slice_axis", L | KEY_INDEX, volume_axis_names, AT(slice_axis),
            "what the slice shown lies across"),
     NUMBER("view.volume.slice", L, "", 0, 1, AT(slice), "where the slice is along that axis of the box"),

@@ -27,6 +27,9 @@ typedef enum VolumeShow {
     VOLUME_NORMALS
 } VolumeShow;
 
+/* How it draws the scene's solids. */
+typedef enum VolumeSolids { VOLUME_SOLIDS_SURFACE, VOLUME_SOLIDS_VOXELS } VolumeSolids;
+
 /* How the view volume casts its rays. */
 typedef enum RaycastLook { RAYCAST_OPAQUE, RAYCAST_WATER, RAYCAST_TRANSLUCENT } RaycastLook;
 
@@ -56,6 +59,7 @@ typedef struct IN_A_ROOM VolumeDef {
     VolumeBounds bounds;
     VolumeMethod method;
     VolumeShow show;
+    VolumeSolids solids;
     int slice_axis; /* 0 to 2: x y z; which the slice shown lies across */
     double slice;   /* where along it, 0 .. 1 of the box */
     RaycastDef raycast;
@@ -79,7 +83,8 @@ extern const ViewGrade volume_grades[];
 
 /* By their enums, ended by NULL. */
 extern const char *const volume_bounds_names[],
-    *const volume_method_names[], *const volume_show_names[], *const volume_axis_names[],
-                                                                  *const raycast_look_names[];
+    *const volume_method_names[], *const volume_show_names[], *const volume_solids_names[],
+                                                                  *const volume_axis_names[],
+                                                                      *const raycast_look_names[];
 
 #endif

@@ -3,6 +3,7 @@
 #include "render/particles/casting.h"
 #include "render/volume/fluid_numbers.h"
 #include "render/volume/raycast.h"
+#include "render/volume/solid_voxels.h"
 #include "render/volume/volume_slice.h"
 #include "render/volume/walls.h"
 #include "sim/gl/program.h"
@@ -19,6 +20,7 @@ typedef struct VolumeView {
     Raycast *raycast;  /* NULL: the slice */
     Casting casting;
     Voxelizer *opacity;   /* of the scalar by which opacity goes, where that is another; else NULL */
+    SolidVoxels *solids;  /* NULL: the scene has none, or they are drawn as surfaces */
     FluidNumbers numbers; /* where the volume carries fluids; else zero */
 } VolumeView;
 
@@ -28,6 +30,7 @@ static void destroy(void *state)
     volume_walls_destroy(&view->walls);
     volume_slice_destroy(&view->slice);
     raycast_destroy(view->raycast);
+    solid_voxels_destroy(view->solids);
     fluid_numbers_destroy(&view->numbers);
     casting_destroy(&view->casting);
     voxelizer_destroy(view->voxelizer);
@@ -105,6 +108,14 @@ static bool create_opacity(VolumeView *view, const ViewDef *def, Error *error)
     return view->opacity != NULL;
 }
 
+static bool create_solids(VolumeView *view, const Subject *subject, Error *error)
+{
+    if (volume_def(subject->def)->solids != VOLUME_SOLIDS_VOXELS || subject->world->solid_count == 0)
+        return true;
+    view->solids = solid_voxels_create(error);
+    return view->solids != NULL;
+}
+
 static void *create(const Subject *subject, Error *error)
 {
     const ViewDef *def = subject->def;
@@ -115,7 +126,8 @@ static void *create(const Subject *subject, Error *error)
     }
     view->voxelizer = voxelizer_create(volume_def(def)->method, carries(subject), error);
     const bool slice = volume_def(def)->show == VOLUME_SLICE;
-    if (view->voxelizer && create_opacity(view, def, error) && accepts(view, subject, error) &&
+    if (view->voxelizer && create_opacity(view, def, error) && create_solids(view, subject, error) &&
+        accepts(view, subject, error) &&
         (!carries_fluids(subject) || fluid_numbers_create(&view->numbers, error)) &&
         (slice ? volume_slice_create(&view->slice, def, view->voxelizer, error)
                : create_raycast(view, subject, error)))
@@ -153,11 +165,29 @@ static bool make_volume(VolumeView *view, const ParticleBuffers *particles, cons
     return true;
 }
 
+/* With the cells that the box's volume has, whatever part of it the fluid's covers. */
+static void draw_solids(VolumeView *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    VolumeGrid grid;
+    Error error;
+    if (view->solids && volume_grid_for(volume_def(frame->def), particles, &grid, &error))
+        GL_STAGE(frame->timer, STAGE_SOLIDS)
+        {
+            solid_voxels_draw(view->solids, grid.cell, particles, frame);
+        }
+}
+
+static const char *lacks(const void *state)
+{
+    return solid_voxels_lacks(((const VolumeView *)state)->solids);
+}
+
 static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     VolumeView *view = state;
     Volume volume;
     bool made = false;
+    draw_solids(view, particles, frame);
     GL_STAGE(frame->timer, STAGE_VOXELIZE)
     {
         made = make_volume(view, particles, frame, &volume);
@@ -186,6 +216,7 @@ static void show(const ViewDef *def, Frame *frame)
 {
     const bool steps = volume_def(def)->show == VOLUME_STEPS;
     frame->clear = volume_def(def)->show == VOLUME_SHADED && own_colors(def) ? CLEAR_FLUID_LIGHT : 0;
+    frame->no_solids = volume_def(def)->solids == VOLUME_SOLIDS_VOXELS;
     frame->refraction = (float)volume_def(def)->raycast.ior;
     if (volume_opacity(def) == VOLUME_EVEN)
         frame->curves = 0;
@@ -255,5 +286,6 @@ const ViewKind view_volume = {
     .show = show,
     .cast = cast,
     .draw = draw,
+    .lacks = lacks,
     .probing = probing,
 };

@@ -1,33 +1,15 @@
-// A matt surface under the light of all else, with the shadows of fluid and solids.
+// A matt surface under the light of all else.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/solid_light.glsl"
+#include "common/matt.glsl"
 
 layout(location = 0) in vec3 in_eye;
 layout(location = 1) in vec3 normal_in_eye;
 layout(location = 2) flat in vec3 albedo;
 layout(location = 0) out vec4 color;
 
-const float exposure = 0.8; // white that faces sky and key light just reaches the screen's
-
-// Fluid's shadow has a rim of one texel, which shows on what is smooth: the mean over a few of them.
-float soft_fluid_light(vec3 in_eye)
-{
-    const int taps = 4;
-    vec3 at = (eye_to_light * vec4(in_eye, 1.0)).xyz;
-    float sum = 0.0;
-    for (int i = 0; i < taps; i++) { // a sunflower's seeds: even over the disc
-        float angle = 2.39996 * float(i), reach = 2.0 * shadow_texel() * sqrt((float(i) + 0.5) / float(taps));
-        sum += fluid_light_at(at + vec3(reach * cos(angle), reach * sin(angle), 0.0));
-    }
-    return sum / float(taps);
-}
-
 void main()
 {
-    vec3 normal = normalize(normal_in_eye);
-    vec3 off = in_eye + shadow_texel() * light_depth * normal; // a texel off the surface, which shades itself less
-    float lit = mix(soft_fluid_light(off), 1.0, fluid_clear), key = lit * solid_light(off) * max(dot(normal, light_in_eye), 0.0);
-    vec3 light = ambient_light(normal) * (0.6 + 0.4 * lit) + light_color * key;
-    color = vec4(albedo * mix(vec3(1.0), exposure * light, shading), 1.0);
+    color = vec4(matt(in_eye, normalize(normal_in_eye), albedo), 1.0);
 }

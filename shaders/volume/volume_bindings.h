@@ -53,5 +53,10 @@
 #define DROPS_LOW_AT      27
 #define DROPS_HIGH_AT     28
 #define DROPS_LEVEL_AT    29
+#define SOLID_TO_EYE_AT   30
+#define SOLID_LOW_AT      31
+#define SOLID_HIGH_AT     32
+#define SOLID_COLOR_AT    33
+#define SOLID_CELL_AT     34
 
 #endif

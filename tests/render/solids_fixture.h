@@ -2,6 +2,7 @@
 #ifndef SLOSH_SOLIDS_FIXTURE_H
 #define SLOSH_SOLIDS_FIXTURE_H
 
+#include "render/frame/camera.h"
 #include "tests/mesh_models.h"
 #include "tests/render/fixture.h"
 
@@ -86,6 +87,84 @@ static inline void draw_rgb(Scene *scene, bool plain, uint8_t rgb[3 * PIXELS])
     draw(scene, renderer);
     renderer_read(renderer, rgb);
     renderer_destroy(renderer);
+}
+
+/* ---- the picture against rays in double ---- */
+
+static inline void make_camera(const Scene *scene, Camera *camera)
+{
+    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT, (Covered){0},
+                camera);
+}
+
+/* From the world to the frame of the first solid. */
+static inline void into_solid(const Scene *scene, const double world[3], bool is_point, double out[3])
+{
+    BoxState pose;
+    solid_pose(&scene->world.solids[0], scene->state.time, &pose);
+    for (int k = 0; k < 3; k++)
+        out[k] = world[k] - (is_point ? scene->state.box.position[k] : 0);
+    quat_rotate_inverse(scene->state.box.orientation, out, out);
+    for (int k = 0; k < 3; k++)
+        out[k] -= is_point ? pose.position[k] : 0;
+    quat_rotate_inverse(pose.orientation, out, out);
+}
+
+/* The middle of a pixel, -1 .. 1 from the left and from below. */
+static inline void pixel_place(int pixel, double at[2])
+{
+    const int row = pixel / WIDTH, column = pixel % WIDTH;
+    at[0] = 2 * (column + 0.5) / WIDTH - 1;
+    at[1] = 2 * (row + 0.5) / HEIGHT - 1;
+}
+
+/* Of a place in the picture: the eye, and the ray's direction at depth 1 below the eye, in the frame of the
+   first solid. */
+static inline void make_ray(const Scene *scene, const Camera *camera, const double place[2], double eye[3],
+                            double ray[3])
+{
+    const double x = place[0] * camera->tangent[0], y = place[1] * camera->tangent[1];
+    double at[3], along[3];
+    for (int k = 0; k < 3; k++) {
+        at[k] = camera->eye[k];
+        along[k] = x * camera->view[4 * k] + y * camera->view[4 * k + 1] - camera->view[4 * k + 2];
+    }
+    into_solid(scene, at, true, eye);
+    into_solid(scene, along, false, ray);
+}
+
+/* The first place along a ray where a solid's distance is 0: 0 when there is none. Distances outside are
+   exact, so steps of that length never pass the surface. */
+static inline double trace(const Scene *scene, const double eye[3], const double ray[3])
+{
+    const SolidDef *solid = &scene->world.solids[0];
+    const double length = sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
+    double t = 0;
+    while (t < 10) {
+        const double x[3] = {eye[0] + t * ray[0], eye[1] + t * ray[1], eye[2] + t * ray[2]};
+        const double distance = solid_distance(solid, 3, x);
+        if (distance < 1e-7)
+            return t;
+        t += distance / length;
+    }
+    return 0;
+}
+
+/* Whether a ray half a pixel off meets nothing, or is `far` (m) longer or shorter: an outline or a steep
+ * place.
+ */
+static inline bool is_rough(const Scene *scene, const Camera *camera, const double place[2], double distance)
+{
+    const double far = 0.02;
+    bool rough = false;
+    for (int k = 0; k < 4; k++) {
+        const double beside[2] = {place[0] + ((k & 1) ? 1.0 : -1.0) / WIDTH,
+                                  place[1] + ((k & 2) ? 1.0 : -1.0) / HEIGHT};
+        double eye[3], ray[3];
+        make_ray(scene, camera, beside, eye, ray);
+        rough = rough || fabs(trace(scene, eye, ray) - distance) > far;
+    }
+    return rough;
 }
 
 #endif
