@@ -74,6 +74,7 @@ APP = {
     "session": "base metric probe outcome scene recording hand held output",
     "playback": "base yaml scene output session",
     "export": "base yaml scene output playback",
+    "scaling": "base",
     "trace": "base yaml scene output",
     "beside": "base scene recording output session playback",
     "shelf": "base yaml scene output session beside",

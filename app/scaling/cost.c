@@ -1,0 +1,120 @@
+#include "app/scaling/cost.h"
+
+#include <math.h>
+
+typedef struct Lattice {
+    double faces, neighbours; /* means over ranks */
+} Lattice;
+
+/* Prime factors of the ranks, the greatest first, each along the side that has the fewest ranks. */
+static Lattice lattice(int ranks, int dimensions)
+{
+    int along[3] = {1, 1, 1}, prime = ranks;
+    Lattice result = {0, 1};
+    while (ranks > 1) {
+        while (prime > 2 && ranks % prime != 0)
+            prime--;
+        for (int i = 2; i * i <= prime; i++)
+            if (prime % i == 0) {
+                prime /= i;
+                i = 1;
+            }
+        int least = 0;
+        for (int d = 1; d < dimensions; d++)
+            if (along[d] < along[least])
+                least = d;
+        along[least] *= prime;
+        ranks /= prime;
+        prime = ranks;
+    }
+    for (int d = 0; d < dimensions; d++) {
+        result.faces += 2 - 2.0 / along[d];
+        result.neighbours *= 3 - 2.0 / along[d];
+    }
+    result.neighbours -= 1;
+    return result;
+}
+
+static double surface(double particles, int ranks, int dimensions)
+{
+    return pow(particles / ranks, 1 - 1.0 / dimensions);
+}
+
+/* Least squares of (exchange - latency messages - slowness bytes) / exchange; neither is less than 0. */
+static void fit_exchange(const CostSample *samples, int count, CostModel *model)
+{
+    double mm = 0, mb = 0, bb = 0, m = 0, b = 0;
+    for (int i = 0; i < count; i++) {
+        if (samples[i].ranks < 2 || !(samples[i].exchange > 0))
+            continue;
+        const double messages = samples[i].messages / samples[i].exchange;
+        const double bytes = samples[i].bytes / samples[i].exchange;
+        mm += messages * messages;
+        mb += messages * bytes;
+        bb += bytes * bytes;
+        m += messages;
+        b += bytes;
+    }
+    const double determinant = mm * bb - mb * mb;
+    const bool told_apart = determinant > 1e-9 * mm * bb;
+    double latency = told_apart ? (m * bb - b * mb) / determinant : 0;
+    double slowness = told_apart ? (b * mm - m * mb) / determinant : bb > 0 ? b / bb : 0;
+    if (latency < 0) {
+        latency = 0;
+        slowness = b / bb;
+    } else if (slowness < 0) {
+        slowness = 0;
+        latency = m / mm;
+    }
+    model->latency = latency;
+    model->bandwidth = 1 / slowness;
+}
+
+bool cost_fit(const CostSample *samples, int count, int dimensions, CostModel *model, Error *error)
+{
+    int shared = 0;
+    *model = (CostModel){.dimensions = dimensions};
+    for (int i = 0; i < count; i++) {
+        const CostSample *of = &samples[i];
+        if (!(of->particles >= 1 && of->ranks >= 1 && of->cores >= 1))
+            return error_set(error, "a sample without particles, ranks or processors says nothing");
+        model->compute += of->compute * of->cores / of->particles / count;
+        if (of->ranks < 2)
+            continue;
+        const Lattice ranks = lattice(of->ranks, dimensions);
+        shared++;
+        model->surface += of->ghosts / ranks.faces / surface(of->particles, of->ranks, dimensions);
+        model->bytes += of->ghosts > 0 ? of->bytes / of->ghosts : 0;
+        model->messages += of->messages / ranks.neighbours;
+        model->balance += of->balance * of->ranks / of->particles;
+        model->wait += of->compute > 0 ? of->wait / of->compute : 0;
+    }
+    if (!shared)
+        return error_set(error, "no sample has more than one rank: nothing tells what an exchange costs");
+    model->surface /= shared;
+    model->bytes /= shared;
+    model->messages /= shared;
+    model->balance /= shared;
+    model->wait /= shared;
+    fit_exchange(samples, count, model);
+    return true;
+}
+
+CostSample cost_predict(const CostModel *model, double particles, int ranks, int cores)
+{
+    const Lattice all = lattice(ranks, model->dimensions);
+    CostSample step = {.particles = particles, .ranks = ranks, .cores = cores};
+    step.compute = model->compute * particles / cores;
+    step.ghosts = model->surface * all.faces * surface(particles, ranks, model->dimensions);
+    step.bytes = model->bytes * step.ghosts;
+    step.messages = model->messages * all.neighbours;
+    step.exchange = model->latency * step.messages + step.bytes / model->bandwidth;
+    step.balance = ranks > 1 ? model->balance * particles / ranks : 0;
+    step.wait = ranks > 1 ? model->wait * step.compute : 0;
+    return step;
+}
+
+double cost_step(const CostSample *sample)
+{
+    return sample->compute + sample->exchange + sample->balance + sample->wait;
+}
