@@ -11,7 +11,7 @@
 /* m/s, at ViewDef.foam 1: where foam begins, and where there is no more of it. Turbulence of about a metre a
    second breaks a surface of water against its weight and tension: Brocchini and Peregrine, The dynamics of
    strong turbulence at free surfaces, 2001. */
-static const double AIR_FROM = 0.2, AIR_TO = 0.7, SPEED_FROM = 0.25, SPEED_TO = 1;
+static const double AIR_FROM = 0.15, AIR_TO = 0.55, SPEED_FROM = 0.2, SPEED_TO = 0.8;
 
 bool foam_create(Foam *foam, Error *error)
 {

@@ -38,6 +38,42 @@ float thickness_here()
     return textureLod(thickness_map, gl_FragCoord.xy * pixel_size, 0.0).x;
 }
 
+#ifdef PANES
+const float longest = 4.0; // times the straight chord: what is left of that at a rim is blurred
+
+float round_there = 1.0;   // 0 where the ray enters by a pane, which is flat
+
+// How much of the straight ray leaves the fluid into air within the box, and not by a wall.
+float leaves_inside(vec3 end)
+{
+    vec3 at = (end - box_to_eye[3].xyz) * mat3(box_to_eye), far = vec3(0.5, 0.5, 0.5) * box_size - abs(at - vec3(0.0, 0.5 * box_size.y, 0.0));
+    float least = min(min(far.x, far.y), far.z);
+#ifdef SOLIDS // what stands in the fluid is seen by one bend
+    least = min(least, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30) + end.z);
+#endif
+    return smoothstep(0.75, 2.5, least / particle_spacing);
+}
+
+// There the ray is bent again: as by a ball, which it leaves under the angle by which it came. That makes the rim of a small body: it shows
+// what is beside it, and not what is behind, and the bent ray has a longer way through it than the straight one, whose chord ends there.
+// Software drivers skip loops only.
+vec3 through(inout Surface s)
+{
+    vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
+    float inside = round_there * leaves_inside(s.place + s.thickness * s.view), longer = dot(inner, s.normal) / min(dot(s.view, s.normal), -1.0 / longest);
+    s.thickness *= mix(1.0, clamp(longer, 1.0, longest), inside);
+    vec3 end = s.place + s.thickness * inner;
+    for (int i = 0, rounds = inside > 0.0 ? 1 : 0; i < rounds; i++) {
+        vec3 outward = s.normal - 2.0 * dot(inner, s.normal) * inner, outer = refract(inner, -outward, refraction_index);
+        outer = normalize(mix(inner, dot(outer, outer) > 0.0 ? outer : inner, inside));
+        end += inside * way_in_box(end, outer) * outer;
+    }
+    return behind_at(end, near_plane / -s.place.z, gl_FragCoord.xy) * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation));
+}
+#elif SHADING > 0
+vec3 through(inout Surface s) { return transmitted(s); }
+#endif
+
 #if SHADING == 0
 vec3 shaded(Surface s)
 {
@@ -46,7 +82,7 @@ vec3 shaded(Surface s)
 #elif SHADING == 1
 vec3 shaded(Surface s)
 {
-    vec3 inside = transmitted(s);
+    vec3 inside = through(s);
     return mix(inside, with_surface(s, inside + scattered(s)), shading);
 }
 #else
@@ -54,7 +90,7 @@ vec3 shaded(Surface s)
 vec3 shaded(Surface s)
 {
     float clear = 0.8 * exp2(-2.0 * s.thickness / attenuation);
-    vec3 inside = mix(mix(s.albedo, phong(s), shading), transmitted(s), clear);
+    vec3 inside = mix(mix(s.albedo, phong(s), shading), through(s), clear);
     return mix(inside, with_surface(s, inside), shading);
 }
 #endif
@@ -119,6 +155,7 @@ void main()
 #ifdef PANES
     bool pane = depth < 0.0;
     normal = pane ? within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).normal : normal;
+    round_there = pane ? 0.0 : 1.0;
     depth = abs(depth);
 #endif
 #if SHOW == 1

@@ -240,20 +240,85 @@ static void bend(const double ray[3], const double normal[3], double ior, double
         out[k] = -cos(b) * normal[k] + (length > 1e-9 ? sin(b) / length * side[k] : 0);
 }
 
-/* Where a pixel's ray leaves the fluid, on the picture, in pixels. */
-static void exit_of(const SplatScene *scene, const SplatPixel *pixel, const Map *map, int x, int y,
-                    double at[2])
+/* From the eye's frame; the box's is the world's here. */
+static void in_world(const SplatScene *scene, const double at[3], double out[3])
 {
-    double ray[3], unit[3], normal[3], inner[3], place[3];
+    float to_world[16], place[3] = {(float)at[0], (float)at[1], (float)at[2]};
+    matrix_invert_rigid(scene->frame.camera.view, to_world);
+    matrix_transform(to_world, place, place);
+    for (int k = 0; k < 3; k++)
+        out[k] = (double)place[k];
+}
+
+/* How much of the straight ray leaves the fluid beside the walls: all of it 2.5 spacings from them, nothing
+ * at 0.75. */
+static double leaves_inside(const SplatScene *scene, const double place[3], const double unit[3],
+                            double thick)
+{
+    double end[3], least = 1e9;
+    for (int k = 0; k < 3; k++)
+        end[k] = place[k] + thick * unit[k];
+    in_world(scene, end, end);
+    for (int k = 0; k < 3; k++) {
+        const double half = scene->state.box_size[k] / 2;
+        least = fmin(least, half - fabs(end[k] - (k == 1 ? half : 0)));
+    }
+    const double share = fmin(fmax((least / scene->state.spacing - 0.75) / 1.75, 0), 1);
+    return share * share * (3 - 2 * share);
+}
+
+/* How far on it meets a wall. */
+static double way_in_box(const SplatScene *scene, const double from[3], const double to[3])
+{
+    double start[3], next[3], least = 1e9;
+    for (int k = 0; k < 3; k++)
+        next[k] = from[k] + to[k];
+    in_world(scene, from, start);
+    in_world(scene, next, next);
+    for (int k = 0; k < 3; k++) {
+        const double way = next[k] - start[k], size = scene->state.box_size[k], low = k == 1 ? 0 : -size / 2;
+        if (fabs(way) > 1e-9)
+            least = fmin(least, (low + (way > 0 ? size : 0) - start[k]) / way);
+    }
+    return fmax(least, 0);
+}
+
+/* A pixel's ray through the fluid: bent where it enters and, beside the walls, where it leaves, as through a
+ * ball. */
+typedef struct Way {
+    double thick; /* of fluid on it, m */
+    double at[2]; /* where it leaves the box, on the picture, in pixels */
+} Way;
+
+static Way way_of(const SplatScene *scene, const SplatPixel *pixel, const Map *map, int x, int y)
+{
+    Way way = {.thick = thickness_at(map, (x + 0.5) / SIDE, (y + 0.5) / SIDE)};
+    double ray[3], unit[3], normal[3], inner[3], outer[3], outward[3], place[3];
     ray_at(scene, (x + 0.5) / SIDE, (y + 0.5) / SIDE, ray);
     const double length = sqrt(dot3(ray, ray)), of_normal = sqrt(dot3(pixel->normal, pixel->normal));
+    const double ior = splat_def(&scene->def)->ior;
     for (int k = 0; k < 3; k++)
-        unit[k] = ray[k] / length, normal[k] = pixel->normal[k] / of_normal;
-    bend(unit, normal, splat_def(&scene->def)->ior, inner);
+        unit[k] = ray[k] / length, normal[k] = pixel->normal[k] / of_normal, place[k] = pixel->depth * ray[k];
+    bend(unit, normal, ior, inner);
+    const double inside = leaves_inside(scene, place, unit, way.thick), into = dot3(inner, normal);
+    way.thick *= 1 + inside * (fmin(fmax(into / fmin(dot3(unit, normal), -0.25), 1), 4) - 1);
     for (int k = 0; k < 3; k++)
-        place[k] = pixel->depth * ray[k] + thickness_at(map, (x + 0.5) / SIDE, (y + 0.5) / SIDE) * inner[k];
+        place[k] += way.thick * inner[k], outward[k] = 2 * into * inner[k] - normal[k];
+    if (inside > 0) {
+        bend(inner, outward, 1 / ior, outer);
+        for (int k = 0; k < 3; k++)
+            outer[k] = inside * outer[k] + (1 - inside) * inner[k];
+        const double size = sqrt(dot3(outer, outer));
+        for (int k = 0; k < 3; k++)
+            outer[k] /= size;
+        const double on = inside * way_in_box(scene, place, outer);
+        for (int k = 0; k < 3; k++)
+            place[k] += on * outer[k];
+    }
+    double *at = way.at;
     for (int k = 0; k < 2; k++)
         at[k] = SIDE * (0.5 + 0.5 * place[k] / (-place[2] * scene->frame.camera.tangent[k]));
+    return way;
 }
 
 /* A white fluid absorbs nothing: its colour is that of the place which the bent ray comes to. Returns the
@@ -273,12 +338,15 @@ static double compare_bending(double ior)
     uint8_t *rgba = read_rgba(&drawing.target);
     for (int i = 0; i < SIDE * SIDE; i++) {
         const int x = i % SIDE, y = i / SIDE;
-        double at[2], ray[3];
+        double ray[3];
         ray_at(&scene, (x + 0.5) / SIDE, (y + 0.5) / SIDE, ray);
         if (pixels[i].weight <= 0 ||
             dot3(ray, pixels[i].normal) > -0.05 * sqrt(dot3(pixels[i].normal, pixels[i].normal)))
             continue;
-        exit_of(&scene, &pixels[i], &map, x, y, at);
+        const Way way = way_of(&scene, &pixels[i], &map, x, y);
+        const double *at = way.at;
+        if (fmin(at[0], at[1]) < 1 || fmax(at[0], at[1]) > SIDE - 1) /* beside the picture */
+            continue;
         compared++;
         shift += hypot(at[0] - x - 0.5, at[1] - y - 0.5);
         for (int k = 0; k < 2; k++)
@@ -332,8 +400,14 @@ static void absorption_by_beer_and_lambert(void **state)
     int compared = 0;
     const double most = gl_renderer_is_software() ? 0.006 : 0.009; /* colours are sums of halves */
     for (int i = 0; i < SIDE * SIDE; i++) {
-        const double thick = thickness_at(&map, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE);
-        if (pixels[i].weight <= 0)
+        double ray[3];
+        ray_at(&scene, (i % SIDE + 0.5) / SIDE, (i / SIDE + 0.5) / SIDE, ray);
+        if (pixels[i].weight <= 0 ||
+            dot3(ray, pixels[i].normal) > -0.05 * sqrt(dot3(pixels[i].normal, pixels[i].normal)))
+            continue;
+        const Way way = way_of(&scene, &pixels[i], &map, i % SIDE, i / SIDE);
+        const double thick = way.thick;
+        if (fmin(way.at[0], way.at[1]) < 1 || fmax(way.at[0], way.at[1]) > SIDE - 1) /* beside the picture */
             continue;
         compared++;
         for (int k = 0; k < 3; k++) {
