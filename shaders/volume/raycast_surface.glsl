@@ -31,12 +31,27 @@ float find_surface(Ray ray)
     return t > before ? refined(ray, before, below, t, f) : t; // behind the loop: a software driver runs all of each turn
 }
 
+#ifdef WHOLE
+// As slope_at, from differences across a spacing: those of particles in rows, as they lie at rest, cancel out in them, and no dots of
+// the lattice are on a flat top.
+vec3 slope_across(vec3 at)
+{
+    float reach = max(0.5 * particle_spacing / cell_size, 0.6); // cells
+    vec3 cell = reach / volume_cells;
+    vec3 x = vec3(cell.x, 0.0, 0.0), y = vec3(0.0, cell.y, 0.0), z = vec3(0.0, 0.0, cell.z);
+    vec3 slope = vec3(field_at(at + x) - field_at(at - x), field_at(at + y) - field_at(at - y), field_at(at + z) - field_at(at - z));
+    return mat3(box_to_eye) * slope / (2.0 * reach);
+}
+#else
+vec3 slope_across(vec3 at) { return slope_at(at); }
+#endif
+
 // Out of the fluid, unit; towards the eye where the field is even.
 vec3 normal_at(Ray ray, float t)
 {
     if (t <= ray.wall)
         return wall_normal(ray);
-    vec3 outward = -slope_at(ray_at(ray, t));
+    vec3 outward = -slope_across(ray_at(ray, t));
     float length2 = dot(outward, outward);
     return length2 > 1e-12 ? outward * inversesqrt(length2) : -ray.to / ray.slant;
 }
