@@ -46,7 +46,7 @@ const Case case_bucket = {
                 {.name = "dfsph", .left_out = "400 Pa s set its steps, so that it takes as long as wcsph"},
                 {.name = "pbf",
                  .left_out = "a step of 1/60 s stands a tenth of 400 Pa s, so that it spins another fluid"}},
-    .spacing = {0.1, 0.04, 0.032},
+    .spacing = {1.6 / 14, 0.04, 0.032},
     .time = 3.5,
     .every = 0.05,
     .metrics = {{"curvature", "1/m", .tolerance = 0.03, .coarse = 0.2}},

@@ -177,7 +177,7 @@ const Case case_heaving = {
                 {.name = "mueller", .coarse = {0.1, 0.35}},
                 {.name = "dfsph", .tolerance = {0.1, 0.3}, .coarse = {0.15, 0.5}},
                 {.name = "pbf", .left_out = PBF_OUT}},
-    .spacing = {0.2 / 8, 0.2 / 10, 0.2 / 16},
+    .spacing = {0.2 / 6.5, 0.2 / 10, 0.2 / 16},
     .time = 1.4,
     .every = 0.01,
     .metrics = {{"period of heave", "s", .tolerance = 0.1, .coarse = 0.1, .without = "does not swing"},

@@ -49,7 +49,7 @@ class Ablate(command.CommandTest):
         self.assertLess(abs(by_name['box.slip']['saves_instructions']), 0.01)
 
     def test_what_is_counted_is_what_is_timed(self):
-        self.write('tank.yaml', SCENE)
+        self.write('tank.yaml', SCENE.replace(', slip: none', '').replace('delta_sph: 0.1, ', ''))  # one term is enough
         counted = {}
         for words in ((), ('--particles', '30')):
             done = self.run_it('tank.yaml', '--time', '0.02', '--threads', '1', '--quiet', *words)

@@ -18,7 +18,7 @@ class Validate(command.CommandTest):
                               text=True, timeout=250, check=False, **how)
 
     def test_coarse_set_keeps_its_tolerances(self):
-        done = self.run_it('--coarse', '--json', 'out.json', '-o', 'plots')
+        done = self.run_it('--coarse', '--threads', '1', '--json', 'out.json', '-o', 'plots')
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         with open(os.path.join(self.folder, 'out.json'), encoding='utf-8') as file:
             cases = json.load(file)['cases']
@@ -51,7 +51,7 @@ class Validate(command.CommandTest):
 
     def test_the_same_on_compute(self):
         # on a software renderer too, and the same figures each time
-        words = ['--coarse', '--quiet', '--json', 'out.json', '--method', 'wcsph']
+        words = ['--coarse', '--quiet', '--threads', '1', '--json', 'out.json', '--method', 'wcsph']
         few, figures = ['poiseuille', 'growth'], []
         for cases, backend in ([*few, 'taylor_green'], 'cpu'), ([*few, 'taylor_green'], 'compute'), (few, 'compute'):
             done = self.run_it(*cases, *words, '--backend', backend)

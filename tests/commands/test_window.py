@@ -818,7 +818,7 @@ class Shaders(Window):
 
 class Panel(Window):
     # Under the thread sanitizer not tried: a picture takes half a second there.
-    def pictures(self, count, still=3):
+    def pictures(self, count, still=0.6):
         """Until so many have followed what was done, or none for that many seconds, where nothing moves: a press is taken by one
         picture and answered by the next."""
         last, since = self.display.picture(self.window), time.monotonic()
