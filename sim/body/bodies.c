@@ -41,6 +41,8 @@ bool bodies_create(Bodies **bodies, const BodiesIn *in, Error *error)
         if (floats(*bodies, k)) {
             body_make(&(*bodies)->body[k], &def->solids[k], def->dimensions);
             body_start(&(*bodies)->body[k], gravity, &(*bodies)->now.of[k]);
+        } else {
+            body_hull(&def->solids[k], def->dimensions, &(*bodies)->body[k].hull);
         }
     return true;
 }

@@ -18,10 +18,10 @@ typedef struct Contacts {
     Contact of[CONTACTS];
 } Contacts;
 
-/* Of one body and one other: the OF_PAIR that are deepest. */
+/* Of one body and one other: all points within reach. */
 typedef struct Nearest {
     int count;
-    Contact of[OF_PAIR];
+    Contact of[BODY_POINTS];
 } Nearest;
 
 static double dot(const double a[3], const double b[3])
@@ -41,21 +41,39 @@ static const BoxState *pose_of(const BodyWorld *world, const BodyStates *states,
 
 static void keep(Nearest *nearest, const Contact *contact)
 {
-    int least = 0;
-    if (nearest->count < OF_PAIR) {
+    if (nearest->count < BODY_POINTS)
         nearest->of[nearest->count++] = *contact;
-        return;
-    }
-    for (int i = 1; i < OF_PAIR; i++)
-        least = nearest->of[i].gap > nearest->of[least].gap ? i : least;
-    if (contact->gap < nearest->of[least].gap)
-        nearest->of[least] = *contact;
 }
 
+static double apart(const Contact *a, const Contact *b)
+{
+    double d[3];
+    for (int k = 0; k < 3; k++)
+        d[k] = a->x[k] - b->x[k];
+    return sqrt(dot(d, d));
+}
+
+/* OF_PAIR at most: the deepest, and then the one that is furthest from those taken, less by how much higher
+   it is than the deepest. What lies flat is held at its ends: contacts on one side alone would let it creep.
+ */
 static void add(Contacts *contacts, const Nearest *nearest)
 {
-    for (int i = 0; i < nearest->count && contacts->count < CONTACTS; i++)
-        contacts->of[contacts->count++] = nearest->of[i];
+    double merit[BODY_POINTS]; /* m */
+    int best = 0;
+    for (int i = 1; i < nearest->count; i++)
+        best = nearest->of[i].gap < nearest->of[best].gap ? i : best;
+    const Contact *deepest = &nearest->of[best];
+    for (int i = 0; i < nearest->count; i++)
+        merit[i] = INFINITY;
+    for (int taken = 0; taken < OF_PAIR && taken < nearest->count && contacts->count < CONTACTS; taken++) {
+        const Contact *last = &nearest->of[best];
+        contacts->of[contacts->count++] = *last;
+        merit[best] = -INFINITY;
+        for (int i = 0; i < nearest->count; i++)
+            merit[i] = fmin(merit[i], apart(&nearest->of[i], last) - (nearest->of[i].gap - deepest->gap));
+        for (int i = 0; i < nearest->count; i++)
+            best = merit[i] > merit[best] ? i : best;
+    }
 }
 
 static void hull_point(const BodyWorld *world, const BoxState *pose, int body, int i, double x[3])
@@ -105,30 +123,33 @@ static bool far_apart(const BodyWorld *world, const BodyStates *states, int a, i
     return dot(d, d) > most * most;
 }
 
-/* Points of `body` at the surface of `other`. */
-static void find_at_solid(const BodyWorld *world, const BodyStates *states, int body, int other,
-                          double within, Contacts *contacts)
+/* Points of `solid` at the surface of `at`; one of them is free. */
+static void find_at_solid(const BodyWorld *world, const BodyStates *states, int solid, int at, double within,
+                          Contacts *contacts)
 {
-    const BodyHull *hull = &world->bodies[body].hull;
-    const BoxState *pose = &states->of[body].pose, *to = pose_of(world, states, other);
-    const double reach = solid_reach(&world->solids[other]) + hull->radius + within;
+    const BodyHull *hull = &world->bodies[solid].hull;
+    const BoxState *pose = pose_of(world, states, solid), *to = pose_of(world, states, at);
+    const double reach = solid_reach(&world->solids[at]) + hull->radius + within;
+    const bool own = is_free(world, solid);
     Nearest nearest = {0};
     for (int i = 0; i < hull->count; i++) {
-        Contact contact = {.body = body, .other = other};
+        Contact contact = {.body = own ? solid : at, .other = own ? at : solid};
         double in[3];
-        hull_point(world, pose, body, i, contact.x);
+        hull_point(world, pose, solid, i, contact.x);
         for (int k = 0; k < 3; k++)
             in[k] = contact.x[k] - to->position[k];
         if (dot(in, in) > reach * reach)
             continue;
         quat_rotate_inverse(to->orientation, in, in);
-        contact.gap = solid_distance(&world->solids[other], world->dimensions, in) - hull->radius;
+        contact.gap = solid_distance(&world->solids[at], world->dimensions, in) - hull->radius;
         if (!(contact.gap < within)) /* nor what is no number: the sentinel goes back from that */
             continue;
-        solid_normal(&world->solids[other], world->dimensions, in, contact.n);
+        solid_normal(&world->solids[at], world->dimensions, in, contact.n);
         quat_rotate(to->orientation, contact.n, contact.n);
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
             contact.x[k] -= hull->radius * contact.n[k];
+            contact.n[k] *= own ? 1 : -1;
+        }
         keep(&nearest, &contact);
     }
     add(contacts, &nearest);
@@ -147,8 +168,11 @@ static void find(const BodyWorld *world, const BodyStates *states, double dt, Co
                 find_at_wall(world, states, a, own, axis, side, contacts);
         for (int b = 0; b < world->count; b++) {
             const double within = own + way_of(&world->solids[b], pose_of(world, states, b), dt);
-            if (b != a && !far_apart(world, states, a, b, within))
-                find_at_solid(world, states, a, b, within, contacts);
+            if (b == a || far_apart(world, states, a, b, within))
+                continue;
+            find_at_solid(world, states, a, b, within, contacts);
+            if (!is_free(world, b)) /* else its turn comes */
+                find_at_solid(world, states, b, a, within, contacts);
         }
     }
 }

@@ -243,6 +243,74 @@ static void blocks_come_to_rest(void **state)
     near(fastest, 0, 0.02, "the last speed");
 }
 
+/* A body in a box of 1 x 2 x 1 m beside a pillar that does not float, for so many steps. */
+static BodyStates beside_pillar(const SolidDef *body, const SolidDef *pillar, int steps)
+{
+    static const double dt = 2e-3;
+    const double gravity[3] = {0, -9.81, 0};
+    const SolidDef solids[2] = {*body, *pillar};
+    const BoxState still = {.orientation = {0, 0, 0, 1}};
+    Walls walls;
+    Body bodies[2] = {0};
+    BodyStates now = {0};
+    BoxState fixed[2] = {0};
+    walls_place(&walls, 3, (double[3]){1, 2, 1}, (bool[3]){false}, 0.05);
+    const BodyWorld world = {3, 2, &walls, solids, bodies, fixed, 9.81, 0.05};
+    body_make(&bodies[0], body, 3);
+    body_start(&bodies[0], gravity, &now.of[0]);
+    body_hull(pillar, 3, &bodies[1].hull);
+    solid_pose(pillar, 0, &fixed[1]);
+    for (int i = 0; i < steps; i++) {
+        body_drift(&bodies[0], &still, &still, 0.5 * dt, &now.of[0]);
+        body_fall(&bodies[0], gravity, NULL, dt, &now.of[0]);
+        body_contacts_hit(&world, dt, &now);
+        body_drift(&bodies[0], &still, &still, 0.5 * dt, &now.of[0]);
+        body_contacts_part(&world, &now);
+    }
+    return now;
+}
+
+/* A plate falls with the middle of its face, where its hull has no points, onto what stands: a box, a ball.
+ */
+static void what_stands_holds_a_face(void **state)
+{
+    (void)state;
+    const SolidDef plate = {.kind = SOLID_BOX,
+                            .size = {0.6, 0.04, 0.6},
+                            .centre = {0, 0.5, 0},
+                            .axis = {0, 1, 0},
+                            .density = 500};
+    const SolidDef pillars[2] = {
+        {.kind = SOLID_BOX, .size = {0.08, 0.3, 0.08}, .centre = {0, 0.15, 0}, .axis = {0, 1, 0}},
+        {.kind = SOLID_SPHERE, .radius = 0.1, .centre = {0, 0.2, 0}, .axis = {0, 1, 0}}};
+    for (int i = 0; i < 2; i++) {
+        const BodyStates now = beside_pillar(&plate, &pillars[i], 500);
+        near(now.of[0].pose.position[1], 0.3 + 0.02, 2e-3, "the plate's height");
+    }
+}
+
+/* All sides of what lies flat are held, or it would creep and turn.
+ */
+static void what_lies_flat_stays(void **state)
+{
+    (void)state;
+    const SolidDef far = {.kind = SOLID_SPHERE, .radius = 0.01, .centre = {0.4, 1.9, 0.4}, .axis = {0, 1, 0}};
+    const SolidDef block = {.kind = SOLID_BOX,
+                            .size = {0.4, 0.1, 0.4},
+                            .centre = {0, 0.05, 0},
+                            .axis = {0, 1, 0},
+                            .density = 500};
+    const BodyStates now = beside_pillar(&block, &far, 2000);
+    const BoxState *pose = &now.of[0].pose;
+    printf("flat: at %.3g %.3g %.3g m, turned by %.3g %.3g %.3g\n", pose->position[0],
+           pose->position[1] - 0.05, pose->position[2], pose->orientation[0], pose->orientation[1],
+           pose->orientation[2]);
+    for (int k = 0; k < 3; k++)
+        near(pose->position[k], k == 1 ? 0.05 : 0, 1e-8, "its place");
+    for (int k = 0; k < 3; k++)
+        near(pose->orientation[k], 0, 1e-8, "its turn");
+}
+
 /* The sentinel goes back from numbers that are none; until it looks nothing may wait for them. */
 static void what_is_no_number_ends(void **state)
 {
@@ -272,7 +340,8 @@ int main(void)
         cmocka_unit_test(mesh_weighs_what_its_box_does), cmocka_unit_test(shapes_weigh_what_books_say),
         cmocka_unit_test(tumbling_keeps_momentum),       cmocka_unit_test(rod_swings),
         cmocka_unit_test(pushes_move_and_turn),          cmocka_unit_test(blocks_come_to_rest),
-        cmocka_unit_test(what_is_no_number_ends),
+        cmocka_unit_test(what_is_no_number_ends),        cmocka_unit_test(what_stands_holds_a_face),
+        cmocka_unit_test(what_lies_flat_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
