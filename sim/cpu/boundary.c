@@ -86,19 +86,6 @@ void cpu_boundary_append(Cpu *cpu)
     cpu->count = cpu->owned + boundary->count;
 }
 
-void cpu_boundary_find(Cpu *cpu)
-{
-    size_t owned = 0, boundary = 0;
-    for (size_t i = 0; i < cpu->count; i++) {
-        cpu->owned_before[i] = (uint32_t)owned;
-        if (cpu->now.fluid[i] < FLUIDS_MAX)
-            cpu->owned_at[owned++] = (uint32_t)i;
-        else
-            cpu->boundary_at[boundary++] = (uint32_t)i;
-    }
-    cpu->owned_before[cpu->count] = (uint32_t)owned;
-}
-
 void cpu_pose(void *state, const SolidPose *pose)
 {
     Cpu *cpu = state;
@@ -177,8 +164,8 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, Around *aro
     look_around(args, cpu->cell[i], around);
     for (const CellRow *row = around->rows; row < around->rows + around->count; row++) {
         const float *shift = row->shift, from[3] = {x[0] + shift[0], x[1] + shift[1], x[2] + shift[2]};
-        for (uint32_t k = cpu->owned_before[row->begin]; k < cpu->owned_before[row->end]; k++)
-            see(cpu, args, from, cpu->owned_at[k], &seen);
+        for (uint32_t k = cpu->fluid_before[row->begin]; k < cpu->fluid_before[row->end]; k++)
+            see(cpu, args, from, cpu->fluid_at[k], &seen);
     }
     float pressure = 0, g[3], a[3];
     if (seen.weight > 0) {

@@ -32,17 +32,25 @@ static void *array(Cpu *cpu, size_t count, size_t size)
     return memory;
 }
 
-static void cpu_destroy(void *state)
+static void arrays_destroy(Cpu *cpu)
 {
-    Cpu *cpu = state;
     columns_destroy(&cpu->now);
     columns_destroy(&cpu->spare);
+    if (cpu->fluid_at != cpu->owned_at)
+        free(cpu->fluid_at);
     void *const all[] = {cpu->cell,       cpu->spare_cell, cpu->rank,        cpu->order,
-                         cpu->cell_start, cpu->owned_at,   cpu->boundary_at, cpu->owned_before,
-                         cpu->partial,    cpu->place,      cpu->motion,      cpu->pushes};
+                         cpu->cell_start, cpu->owned_at,   cpu->boundary_at, cpu->fluid_before,
+                         cpu->partial,    cpu->place,      cpu->motion,      cpu->ghost};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     neighbour_lists_destroy(&cpu->lists);
+}
+
+static void cpu_destroy(void *state)
+{
+    Cpu *cpu = state;
+    arrays_destroy(cpu);
+    free(cpu->pushes);
     free(cpu);
 }
 
@@ -81,10 +89,16 @@ static bool arrays_create(Cpu *cpu, Error *error)
     ok &= (cpu->place = array(cpu, cpu->capacity + 1, sizeof *cpu->place)) != NULL;
     ok &= (cpu->motion = array(cpu, cpu->capacity + 1, sizeof *cpu->motion)) != NULL;
     ok &= neighbour_lists_create(&cpu->lists, cpu->capacity, neighbours_expected(s));
-    if (s->boundary.count > 0) {
+    if (s->boundary.count > 0 || cpu->foreign) {
         ok &= (cpu->owned_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
-        ok &= (cpu->owned_before = array(cpu, cpu->capacity + 1, sizeof(uint32_t))) != NULL;
+        ok &= (cpu->fluid_before = array(cpu, cpu->capacity + 1, sizeof(uint32_t))) != NULL;
+        cpu->fluid_at = cpu->owned_at;
+    }
+    if (s->boundary.count > 0)
         ok &= (cpu->boundary_at = array(cpu, s->boundary.count, sizeof(uint32_t))) != NULL;
+    if (cpu->foreign) {
+        ok &= (cpu->ghost = array(cpu, cpu->capacity, sizeof *cpu->ghost)) != NULL;
+        ok &= (cpu->fluid_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
     }
     ok &= (cpu->cell_start = array(cpu, s->cells.count + 2, sizeof(uint32_t))) != NULL;
     return ok || error_set(error,
@@ -130,6 +144,56 @@ static void *cpu_create(const Constants *constants, const WorldDef *def, const I
     return cpu;
 }
 
+/* Such a state without arrays. */
+static Cpu bare(const Cpu *cpu)
+{
+    return (Cpu){
+        .constants = cpu->constants,
+        .pairs = cpu->pairs,
+        .threads = cpu->threads,
+        .count = cpu->count,
+        .owned = cpu->owned,
+        .capacity = cpu->capacity,
+        .foreign = cpu->foreign,
+        .gauge = cpu->gauge,
+        .guarded = cpu->guarded,
+        .forces = cpu->forces,
+        .pushes = cpu->pushes,
+        .watch = cpu->watch,
+    };
+}
+
+/* Gives the state other arrays, as `to` has them so far. */
+static bool move_into(Cpu *cpu, Cpu *to)
+{
+    Error none;
+    if (!arrays_create(to, &none)) {
+        arrays_destroy(to);
+        return false;
+    }
+    columns_copy(&cpu->sorted, &cpu->now, &to->now, NULL, 0, cpu->count);
+    memcpy(to->solid, cpu->solid, sizeof to->solid);
+    arrays_destroy(cpu);
+    *cpu = *to;
+    if (cpu->owned_at)
+        cpu_find(cpu);
+    return true;
+}
+
+bool cpu_share(Cpu *cpu, const uint8_t *foreign)
+{
+    Cpu to = bare(cpu);
+    to.foreign = foreign;
+    return move_into(cpu, &to);
+}
+
+bool cpu_grow(Cpu *cpu, size_t capacity)
+{
+    Cpu to = bare(cpu);
+    to.capacity = capacity;
+    return move_into(cpu, &to);
+}
+
 PairArgs cpu_pair_args(Cpu *cpu)
 {
     const CpuParticles *p = &cpu->now;
@@ -138,6 +202,7 @@ PairArgs cpu_pair_args(Cpu *cpu)
         .count = cpu->count,
         .cell_start = cpu->cell_start,
         .cell = cpu->cell,
+        .foreign = cpu->foreign,
         .id = p->id,
         .fluid = p->fluid,
         .x = p->x,

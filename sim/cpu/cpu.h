@@ -2,6 +2,7 @@
 #ifndef SLOSH_CPU_H
 #define SLOSH_CPU_H
 
+#include "sim/base/exact_sum.h"
 #include "sim/base/parallel.h"
 #include "sim/cpu/pair_set.h"
 #include "sim/matter/forces.h"
@@ -14,7 +15,7 @@ typedef struct Cpu {
     const Constants *constants;
     PairSet pairs;
     int threads;
-    size_t count, owned; /* particles: boundary particles of solids included; of the fluids alone */
+    size_t count, owned; /* particles: boundary particles of solids and ghosts included; its own alone */
     size_t capacity;     /* room for */
     CpuParticles now;
     CpuParticles spare; /* what `grid` sorts into: its columns then change places with those of `now` */
@@ -26,10 +27,14 @@ typedef struct Cpu {
     uint32_t *order;                          /* by `grid`: old place of each new one */
     uint32_t *cell_start;   /* by `grid`: cells + 2; the last cell is for what is set aside */
     size_t gridded;         /* by `grid`: how many it has seen */
-    uint32_t *owned_at;     /* by `grid`: where the fluids' particles stand; NULL without solids */
-    uint32_t *boundary_at;  /* and the solids' */
-    uint32_t *owned_before; /* of each particle: how many of the fluids' particles stand before it; one entry
+    uint32_t *owned_at;     /* by `grid`: where its own particles stand; NULL without solids and ghosts */
+    uint32_t *boundary_at;  /* and the solids'; NULL without solids */
+    uint32_t *fluid_at;     /* and the fluids', ghosts among them; without ghosts `owned_at` */
+    uint32_t *fluid_before; /* of each particle: how many of the fluids' particles stand before it; one entry
                                more, for all */
+    const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, another's that are read here;
+                               NULL: none are */
+    uint8_t *ghost;         /* by `grid`, of each particle: 1 for a ghost; NULL: there are none */
     SolidStep solid[SOLIDS_MAX]; /* the last move of each: solids stand at the end of it */
     WorldSums *partial;          /* by `sums`: one a range */
     WorldGauge gauge;            /* by `gauge` */
@@ -52,22 +57,27 @@ enum { CPU_GRAIN = LISTS_GRAIN }; /* particles in a range: some 0.2 ms of work, 
 
 PairArgs cpu_pair_args(Cpu *cpu);
 
-/* The next run of fluid particles at or after *begin, as far as *stop; false when there is none before `end`.
-   Without solids it is all. */
+/* Whether a particle is a fluid's and no ghost. */
+static inline bool cpu_owns(const Cpu *cpu, size_t i)
+{
+    return cpu->now.fluid[i] < FLUIDS_MAX && !(cpu->ghost && cpu->ghost[i]);
+}
+
+/* The next run of its own particles at or after *begin, as far as *stop; false when there is none before
+   `end`. Without solids and ghosts it is all. */
 static inline bool cpu_run(const Cpu *cpu, size_t *begin, size_t end, size_t *stop)
 {
-    const uint8_t *fluid = cpu->now.fluid;
     *stop = end;
-    if (!cpu->boundary_at)
+    if (!cpu->owned_at)
         return *begin < end;
-    while (*begin < end && fluid[*begin] >= FLUIDS_MAX)
+    while (*begin < end && !cpu_owns(cpu, *begin))
         ++*begin;
-    for (*stop = *begin; *stop < end && fluid[*stop] < FLUIDS_MAX;)
+    for (*stop = *begin; *stop < end && cpu_owns(cpu, *stop);)
         ++*stop;
     return *begin < end;
 }
 
-/* Where the fluids' k-th particle stands. */
+/* Where its own k-th particle stands. */
 static inline size_t cpu_owned(const Cpu *cpu, size_t k)
 {
     return cpu->owned_at ? cpu->owned_at[k] : k;
@@ -90,27 +100,44 @@ static inline void cpu_fill_terms(const Cpu *cpu, size_t i)
 /* The grid's cell of x, m. */
 uint32_t cpu_cell_of(const Constants *constants, const float x[3]);
 
+/* From now on there are ghosts: in those cells, as Cpu.foreign says, which outlives this. False when memory
+   is short. */
+bool cpu_share(Cpu *cpu, const uint8_t *foreign);
+
+/* Room for so many particles, boundary particles included; keeps what goes with them (COLUMN_SORTED), and a
+   grid must follow. False when memory is short: nothing has changed. */
+bool cpu_grow(Cpu *cpu, size_t capacity);
+
+/* Where its own particles, ghosts and boundary particles stand, after a change without a grid. */
+void cpu_find(Cpu *cpu);
+
 void cpu_grid(void *state);
 void cpu_run_pass(void *state, const Pass *pass, const PassInput *input);
 void cpu_drift(void *state, const BoxStep *step);
 
-/* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; finds them
-   after a sort; gives those at `i` no share in the fluids' terms; fills in what the forces need of them, and
-   takes back the velocities that are mirrored for it. */
+/* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; gives those at
+   `i` no share in the fluids' terms; fills in what the forces need of them, and takes back the velocities
+   that are mirrored for it. */
 void cpu_boundary_append(Cpu *cpu);
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps);
-void cpu_boundary_find(Cpu *cpu);
 void cpu_boundary_terms(Cpu *cpu, size_t i);
 void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity);
 void cpu_boundary_restore(Cpu *cpu);
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3]);
 void cpu_pose(void *state, const SolidPose *pose);
 size_t cpu_emit(void *state, const EmitLayer *layer, size_t most);
+/* Of cpu_emit: whether a particle may come in at x (m), which is in the box and in no cell of ghosts; adds
+   there the layer's particle of that number, for which there must be room. */
+bool cpu_has_room(Cpu *cpu, const float x[3]);
+void cpu_append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number);
 void cpu_guide(void *state, const Guide *guides, int count);
 size_t cpu_drain(void *state, const Fill *regions, int count);
 
+/* Backend.excess and .sum; and the same as parts that add up: what is above 0, its greatest value or all. */
 Excess cpu_excess(void *state, const ColumnDef *column);
 double cpu_sum(void *state, const ColumnDef *column);
+float cpu_excess_part(Cpu *cpu, const ColumnDef *column, ExactSum *sum);
+void cpu_sum_part(Cpu *cpu, const ColumnDef *column, ExactSum *sum);
 void cpu_touch(void *state, const FingerStep *finger);
 void cpu_kick(void *state, const float gravity[3], float dt);
 StepWatch cpu_watch(void *state);
@@ -128,5 +155,8 @@ void cpu_feel_guard(Push *felt, float mass, const float x[3], const float v[3], 
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
 void cpu_energy(void *state, bool turning, EnergySums *sums);
+/* The same as parts that add up, one for each number of EnergySums. */
+enum { ENERGY_SUMS = sizeof(EnergySums) / sizeof(double) };
+void cpu_energy_part(Cpu *cpu, bool turning, ExactSum sums[ENERGY_SUMS]);
 
 #endif

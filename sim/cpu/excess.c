@@ -1,58 +1,69 @@
-/* Sums over a column: a partial sum a range, and these in their order, so that no thread count changes a bit.
- */
+/* Sums over a column: exact, so that they depend neither on threads nor on who adds up which part. */
 #include "sim/cpu/cpu.h"
 
 typedef struct ExcessPass {
     Cpu *cpu;
     const float *column;
+    ExactSum *sum;
+    float most;
 } ExcessPass;
+
+static void add_part(ExcessPass *pass, const ExactSum *sum, float most)
+{
+#pragma omp critical(excess)
+    {
+        exact_merge(pass->sum, sum);
+        pass->most = most > pass->most ? most : pass->most;
+    }
+}
 
 static void excess_range(void *context, size_t begin, size_t end)
 {
-    const ExcessPass *pass = context;
-    WorldSums *part = &pass->cpu->partial[begin / CPU_GRAIN];
-    double sum = 0;
+    ExcessPass *pass = context;
+    ExactSum sum = {.strange = false};
     float most = 0;
     for (size_t k = begin; k < end; k++) {
         const float value = pass->column[cpu_owned(pass->cpu, k)];
-        sum += value < 0 ? 0 : (double)value; /* NaN stays */
+        if (!(value <= 0)) /* NaN too */
+            exact_add(&sum, (double)value);
         most = value > most ? value : most;
     }
-    part->mass = sum;
-    part->max_speed = (double)most;
+    add_part(pass, &sum, most);
+}
+
+float cpu_excess_part(Cpu *cpu, const ColumnDef *column, ExactSum *sum)
+{
+    ExcessPass pass = {cpu, *column_array(&cpu->now, column, 0), sum, 0};
+    parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, excess_range, &pass);
+    return pass.most;
 }
 
 Excess cpu_excess(void *state, const ColumnDef *column)
 {
     Cpu *cpu = state;
-    ExcessPass pass = {cpu, *column_array(&cpu->now, column, 0)};
-    Excess all = {0};
-    parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, excess_range, &pass);
-    for (size_t r = 0; r * CPU_GRAIN < cpu->owned; r++) {
-        const float most = (float)cpu->partial[r].max_speed;
-        all.mean += cpu->partial[r].mass;
-        all.greatest = most > all.greatest ? most : all.greatest;
-    }
-    all.mean /= cpu->owned > 0 ? (double)cpu->owned : 1;
-    return all;
+    ExactSum sum = {.strange = false};
+    const float most = cpu_excess_part(cpu, column, &sum);
+    return (Excess){.mean = exact_value(&sum) / (cpu->owned > 0 ? (double)cpu->owned : 1), .greatest = most};
 }
 
 static void sum_range(void *context, size_t begin, size_t end)
 {
-    const ExcessPass *pass = context;
-    double sum = 0;
+    ExcessPass *pass = context;
+    ExactSum sum = {.strange = false};
     for (size_t k = begin; k < end; k++)
-        sum += (double)pass->column[cpu_owned(pass->cpu, k)];
-    pass->cpu->partial[begin / CPU_GRAIN].mass = sum;
+        exact_add(&sum, (double)pass->column[cpu_owned(pass->cpu, k)]);
+    add_part(pass, &sum, 0);
+}
+
+void cpu_sum_part(Cpu *cpu, const ColumnDef *column, ExactSum *sum)
+{
+    ExcessPass pass = {cpu, *column_array(&cpu->now, column, 0), sum, 0};
+    parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, sum_range, &pass);
 }
 
 double cpu_sum(void *state, const ColumnDef *column)
 {
-    Cpu *cpu = state;
-    ExcessPass pass = {cpu, *column_array(&cpu->now, column, 0)};
-    double sum = 0;
-    parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, sum_range, &pass);
-    for (size_t r = 0; r * CPU_GRAIN < cpu->owned; r++)
-        sum += cpu->partial[r].mass;
-    return sum;
+    ExactSum sum = {.strange = false};
+    cpu_sum_part(state, column, &sum);
+    return exact_value(&sum);
 }

@@ -7,8 +7,9 @@
 static const float ROOM = 0.9f; /* least distance to others, in spacings */
 
 /* Whether no particle is near x: neither of those in the grid, nor of those that came after it was made. */
-static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
+bool cpu_has_room(Cpu *cpu, const float x[3])
 {
+    const PairArgs pairs = cpu_pair_args(cpu), *args = &pairs;
     const float least = ROOM * cpu->constants->spacing;
     const uint32_t cell = cpu_cell_of(cpu->constants, x);
     CellRow rows[CELL_ROWS];
@@ -37,7 +38,7 @@ static bool has_room(const Cpu *cpu, const PairArgs *args, const float x[3])
     return true;
 }
 
-static void append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number)
+void cpu_append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number)
 {
     const CpuParticles *p = &cpu->now;
     const size_t i = cpu->count++;
@@ -46,6 +47,8 @@ static void append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t nu
     p->vx[i] = layer->velocity[0], p->vy[i] = layer->velocity[1], p->vz[i] = layer->velocity[2];
     p->id[i] = layer->first_id + (uint32_t)number;
     p->fluid[i] = (uint8_t)layer->fluid;
+    if (cpu->ghost)
+        cpu->ghost[i] = 0;
     if (cpu->owned_at)
         cpu->owned_at[cpu->owned] = (uint32_t)i;
     cpu->owned++;
@@ -54,12 +57,11 @@ static void append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t nu
 size_t cpu_emit(void *state, const EmitLayer *layer, size_t most)
 {
     Cpu *cpu = state;
-    const PairArgs args = cpu_pair_args(cpu);
     size_t number = 0;
     for (size_t k = 0; k < layer->count && number < most; k++) {
         const float *x = layer->position + 3 * k;
-        if (walls_contain(&cpu->constants->walls, x) && has_room(cpu, &args, x))
-            append(cpu, layer, x, number++);
+        if (walls_contain(&cpu->constants->walls, x) && cpu_has_room(cpu, x))
+            cpu_append(cpu, layer, x, number++);
     }
     return number;
 }
@@ -106,15 +108,17 @@ size_t cpu_drain(void *state, const Fill *regions, int count)
     size_t gone = 0;
     for (size_t i = 0; i < cpu->count;) {
         const double x[3] = {p->x[i], p->y[i], p->z[i]};
-        if (p->fluid[i] >= FLUIDS_MAX || !drains(regions, count, cpu->constants->dimensions, x)) {
+        if (!cpu_owns(cpu, i) || !drains(regions, count, cpu->constants->dimensions, x)) {
             i++;
             continue;
         }
         columns_move(&cpu->sorted, p, --cpu->count, i);
+        if (cpu->ghost)
+            cpu->ghost[i] = cpu->ghost[cpu->count];
         gone++;
     }
     cpu->owned -= gone;
-    if (gone > 0 && cpu->boundary_at)
-        cpu_boundary_find(cpu);
+    if (gone > 0 && cpu->owned_at)
+        cpu_find(cpu);
     return gone;
 }

@@ -130,8 +130,8 @@ static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, 
     for (int row = 0; row < count; row++) {
         const float *shift = rows[row].shift,
                     from[3] = {p->x[b] + shift[0], p->y[b] + shift[1], p->z[b] + shift[2]};
-        for (uint32_t k = cpu->owned_before[rows[row].begin]; k < cpu->owned_before[rows[row].end]; k++)
-            add_pair(pass, from, cpu->owned_at[k], b, sum);
+        for (uint32_t k = cpu->fluid_before[rows[row].begin]; k < cpu->fluid_before[rows[row].end]; k++)
+            add_pair(pass, from, cpu->fluid_at[k], b, sum);
     }
 }
 

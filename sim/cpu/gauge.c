@@ -2,6 +2,12 @@
 #include "sim/world/gauge.h"
 #include "sim/cpu/cpu.h"
 
+#include <string.h>
+
+/* `own` and `first` of EnergySums, which stand first. */
+enum { ENERGY_ALWAYS = 4 };
+_Static_assert(offsetof(EnergySums, second) == ENERGY_ALWAYS * sizeof(double), "they stand first");
+
 typedef struct GaugePass {
     const Cpu *cpu;
     const double *gravity;
@@ -56,45 +62,47 @@ bool cpu_gauged(void *state, WorldGauge *gauge)
 typedef struct EnergyPass {
     const Cpu *cpu;
     bool turning;
-    EnergySums *partial; /* one a range */
+    ExactSum *sums;
 } EnergyPass;
 
-/* In two loops: the sums of the second would not stay in registers over the calls of the first. */
+/* What each particle adds goes exactly into the sums: these decide about steps, and ranks that share the
+   particles have to come to the same bits. */
 static void energy_range(void *context, size_t begin, size_t end)
 {
     const EnergyPass *pass = context;
     const Cpu *cpu = pass->cpu;
     const CpuParticles *p = &cpu->now;
-    EnergySums sums = {0};
+    ExactSum sums[ENERGY_SUMS] = {{.strange = false}};
     for (size_t k = begin; k < end; k++) {
         const size_t i = cpu_owned(cpu, k);
         const float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        energy_add(&sums, cpu->constants, p->fluid[i], (double)particle_compression(p, cpu->constants, i), x,
+        EnergySums one = {0};
+        double each[ENERGY_SUMS];
+        energy_add(&one, cpu->constants, p->fluid[i], (double)particle_compression(p, cpu->constants, i), x,
                    v);
+        if (pass->turning)
+            energy_add_turning(&one, cpu->constants, p->fluid[i], x, v);
+        memcpy(each, &one, sizeof each);
+        for (int s = 0; s < (pass->turning ? ENERGY_SUMS : ENERGY_ALWAYS); s++)
+            exact_add(&sums[s], each[s]);
     }
-    for (size_t k = begin; pass->turning && k < end; k++) {
-        const size_t i = cpu_owned(cpu, k);
-        const float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        energy_add_turning(&sums, cpu->constants, p->fluid[i], x, v);
-    }
-    pass->partial[begin / CPU_GRAIN] = sums;
+#pragma omp critical(energy)
+    for (int s = 0; s < ENERGY_SUMS; s++)
+        exact_merge(&pass->sums[s], &sums[s]);
+}
+
+void cpu_energy_part(Cpu *cpu, bool turning, ExactSum sums[ENERGY_SUMS])
+{
+    EnergyPass pass = {cpu, turning, sums};
+    parallel_ranges(cpu->threads, cpu->owned, 8 * CPU_GRAIN, energy_range, &pass);
 }
 
 void cpu_energy(void *state, bool turning, EnergySums *sums)
 {
-    Cpu *cpu = state;
-    _Static_assert(sizeof(EnergySums) <= sizeof(WorldSums), "their memory is shared");
-    EnergyPass pass = {cpu, turning, (EnergySums *)(void *)cpu->partial};
-    parallel_ranges(cpu->threads, cpu->owned, CPU_GRAIN, energy_range, &pass);
-    *sums = (EnergySums){0};
-    for (size_t r = 0; r < (cpu->owned + CPU_GRAIN - 1) / CPU_GRAIN; r++) {
-        const EnergySums *part = &pass.partial[r];
-        sums->own += part->own;
-        for (int k = 0; k < 6; k++)
-            sums->second[k] += part->second[k];
-        for (int k = 0; k < 3; k++) {
-            sums->first[k] += part->first[k];
-            sums->turn[k] += part->turn[k];
-        }
-    }
+    ExactSum all[ENERGY_SUMS] = {{.strange = false}};
+    double each[ENERGY_SUMS];
+    cpu_energy_part(state, turning, all);
+    for (int s = 0; s < ENERGY_SUMS; s++)
+        each[s] = exact_value(&all[s]);
+    memcpy(sums, each, sizeof *sums);
 }

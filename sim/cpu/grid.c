@@ -108,7 +108,26 @@ static void move_particles(void *state, size_t begin, size_t end)
     Cpu *cpu = state;
     for (size_t i = begin; i < end; i++)
         cpu->cell[i] = cpu->spare_cell[cpu->order[i]];
+    for (size_t i = begin; cpu->foreign && i < end; i++)
+        cpu->ghost[i] = cpu->foreign[cpu->cell[i]];
     columns_copy(&cpu->sorted, &cpu->now, &cpu->spare, cpu->order, begin, end);
+}
+
+void cpu_find(Cpu *cpu)
+{
+    const bool ghosts = cpu->ghost;
+    size_t owned = 0, fluid = 0, boundary = 0;
+    for (size_t i = 0; i < cpu->count; i++) {
+        cpu->fluid_before[i] = (uint32_t)fluid;
+        if (cpu->now.fluid[i] >= FLUIDS_MAX) {
+            cpu->boundary_at[boundary++] = (uint32_t)i;
+            continue;
+        }
+        cpu->fluid_at[fluid++] = (uint32_t)i;
+        if (ghosts && !cpu->ghost[i])
+            cpu->owned_at[owned++] = (uint32_t)i;
+    }
+    cpu->fluid_before[cpu->count] = (uint32_t)fluid;
 }
 
 void cpu_grid(void *state)
@@ -127,6 +146,6 @@ void cpu_grid(void *state)
     columns_swap(&cpu->sorted, &cpu->now, &cpu->spare);
     cpu->gridded = cpu->count;
     cpu->lists.ready = false;
-    if (cpu->boundary_at)
-        cpu_boundary_find(cpu);
+    if (cpu->owned_at)
+        cpu_find(cpu);
 }

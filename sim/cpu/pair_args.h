@@ -16,6 +16,7 @@ typedef struct PairArgs {
     size_t count;               /* particles */
     const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
     const uint32_t *cell;       /* of each particle */
+    const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, which have no lists; NULL */
     const uint32_t *id;
     const uint8_t *fluid;
     const float *x, *y, *z, *vx, *vy, *vz; /* m, m/s */

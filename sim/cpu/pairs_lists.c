@@ -131,11 +131,13 @@ typedef struct Making {
     uint32_t used; /* entries of the range's memory */
 } Making;
 
-/* Of the particles [begin, end), those of one cell or a part of them. Boundary particles have no lists. */
+/* Of the particles [begin, end), those of one cell or a part of them. Boundary particles and ghosts have no
+   lists. */
 static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, Making *making)
 {
     const uint32_t cell = args->cell[begin];
-    const bool aside = cell == args->constants->cells.count; /* nobody sees those */
+    const bool aside = cell == args->constants->cells.count /* nobody sees those */
+                       || (args->foreign && args->foreign[cell]);
     Rows rows = {.count = 0};
     Block block;
     if (!aside)

@@ -91,10 +91,11 @@ APP = {
     "play": "base yaml recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
     "manual": "base scene session",
     "film": "base scene recording output setting session playback beside",
+    "dist": "base scene output session",
     "command": "base metric probe outcome yaml recipe scene recording hand device held output setting session playback export beside shelf trace case lab stability fit ablate gallery meter play manual film",
 }
-FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("render", RENDER, ["sim", "sim/gl"]),
-          ("app", APP, ["sim", "sim/gl", "render"])]
+FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("sim/dist", {"": ""}, ["sim"]),
+          ("render", RENDER, ["sim", "sim/gl"]), ("app", APP, ["sim", "sim/gl", "sim/dist", "render"])]
 DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "volume", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
@@ -124,13 +125,14 @@ def may():
         rooms[floor] = [folder(floor, room) for room in table]
         under = [where for name in below for where in rooms[name]]
         under = [where for where in under if where not in BACKENDS]
-        if floor != "sim/gl":
+        if floor not in ("sim/gl", "sim/dist"):
             under = [where for where in under if where not in SIM_INSIDE]
         for room, names in table.items():
             own = [folder(floor, name) for name in names.split()]
             if floor == "sim/gl":
                 own.append("sim/gl")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
+            down = [where for where in down if where != "sim/dist" or room == "dist"]  # no other command needs MPI
             own_shaders = f"sim/{room}" if floor == "sim" else room
             blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
             allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks]

@@ -1,0 +1,47 @@
+/* Sums that do not depend on the order of what is added: exact, and rounded once. Parts of a sum, of threads
+   or of ranks, add up to the same bits however they were shared out.
+
+   After: R. Neal, "Fast exact summation using small and large superaccumulators", 2015. */
+#ifndef SLOSH_EXACT_SUM_H
+#define SLOSH_EXACT_SUM_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <string.h>
+
+/* Bin k counts multiples of 2^(32 k - EXACT_BELOW): each holds 2^42 numbers at least. */
+enum { EXACT_BINS = 16, EXACT_BELOW = 400, EXACT_WORDS = 3 * EXACT_BINS + 1 };
+
+/* Zero-initialise it. */
+typedef struct ExactSum {
+    __int128 bin[EXACT_BINS];
+    bool strange; /* a number was not finite, or 2^164 or more */
+} ExactSum;
+
+/* Adds a number; what of it is less than 2^-400 is left out. */
+static inline void exact_add(ExactSum *sum, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    const int place = (int)(bits >> 52 & 0x7ff) - (1075 - EXACT_BELOW);
+    if (place < 0)
+        return;
+    if (place >= 32 * EXACT_BINS) {
+        sum->strange = true;
+        return;
+    }
+    const __int128 whole = (__int128)((bits & 0xfffffffffffff) | 0x10000000000000) << (place & 31);
+    sum->bin[place >> 5] += bits >> 63 ? -whole : whole;
+}
+
+/* Adds all that another sum has. */
+void exact_merge(ExactSum *sum, const ExactSum *part);
+
+/* The sum; NaN where a number was strange. */
+double exact_value(const ExactSum *sum);
+
+/* The same as whole numbers, which add up as such, of 2^31 sums at most. */
+void exact_to_words(const ExactSum *sum, int64_t words[EXACT_WORDS]);
+void exact_from_words(const int64_t words[EXACT_WORDS], ExactSum *sum);
+
+#endif

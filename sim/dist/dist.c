@@ -1,0 +1,273 @@
+/* Who has which cells.
+
+   Zoltan bisects the cells that have particles, RCB, and keeps its cuts, by which every cell finds its owner,
+   empty ones too. Coordinates are those of the cell with a part of the others, so that no two cells have the
+   same one: a cut may run within a layer of cells, and shares differ by a cell and not by a layer. */
+#include "sim/dist/dist_state.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROUND_MOST = 125 };
+
+void dist_check(int code, const char *what)
+{
+    if (code != ZOLTAN_OK && code != ZOLTAN_WARN)
+        dist_die("Zoltan failed: %s (code %d)", what, code);
+}
+
+int dist_rank(const Dist *dist)
+{
+    return dist->rank;
+}
+
+int dist_size(const Dist *dist)
+{
+    return dist->size;
+}
+
+int dist_owner(const Dist *dist, uint32_t cell)
+{
+    return dist->owner[cell];
+}
+
+const uint8_t *dist_foreign(const Dist *dist)
+{
+    return dist->size > 1 ? dist->foreign : NULL;
+}
+
+size_t dist_ghosts(const Dist *dist)
+{
+    return dist->ghost_count;
+}
+
+static void place_of(const CellGrid *cells, uint32_t cell, int at[3])
+{
+    at[0] = (int)(cell % (uint32_t)cells->size[0]);
+    at[1] = (int)(cell / (uint32_t)cells->size[0]) % cells->size[1];
+    at[2] = (int)(cell / (uint32_t)cells->size[0]) / cells->size[1];
+}
+
+static void coordinates(const CellGrid *cells, uint32_t cell, double x[3])
+{
+    int at[3];
+    place_of(cells, cell, at);
+    for (int k = 0; k < 3; k++) {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        x[k] = at[k] + 0.999 * (at[next] + (at[last] + 0.5) / cells->size[last]) / cells->size[next];
+    }
+}
+
+/* ---- what Zoltan asks ---- */
+
+static int object_count(void *data, int *code)
+{
+    *code = ZOLTAN_OK;
+    return ((const Dist *)data)->objects.count;
+}
+
+static void object_list(void *data, int global, int local, ZOLTAN_ID_PTR ids, ZOLTAN_ID_PTR local_ids,
+                        int weights, float *weight, int *code)
+{
+    const Objects *objects = &((const Dist *)data)->objects;
+    (void)local, (void)local_ids, (void)global;
+    for (int i = 0; i < objects->count; i++) {
+        ids[i] = objects->cell[i];
+        if (weights > 0)
+            weight[i] = (float)objects->weight[objects->cell[i]];
+    }
+    *code = ZOLTAN_OK;
+}
+
+static int geometry_count(void *data, int *code)
+{
+    (void)data;
+    *code = ZOLTAN_OK;
+    return 3;
+}
+
+static void geometry(void *data, int global, int local, int count, ZOLTAN_ID_PTR ids, ZOLTAN_ID_PTR local_ids,
+                     int dimensions, double *x, int *code)
+{
+    const Dist *dist = data;
+    (void)global, (void)local, (void)local_ids, (void)dimensions;
+    for (int i = 0; i < count; i++)
+        coordinates(&dist->constants->cells, ids[i], x + 3 * i);
+    *code = ZOLTAN_OK;
+}
+
+static void set_up(Dist *dist)
+{
+    static const char *const settings[][2] = {
+        {"DEBUG_LEVEL", "0"},    {"LB_METHOD", "RCB"},      {"KEEP_CUTS", "1"},
+        {"AVERAGE_CUTS", "1"},   {"NUM_GID_ENTRIES", "1"},  {"NUM_LID_ENTRIES", "0"},
+        {"OBJ_WEIGHT_DIM", "1"}, {"RETURN_LISTS", "NONE"},  {"IMBALANCE_TOL", "1.01"},
+        {"RCB_REUSE", "0"},      {"RCB_OUTPUT_LEVEL", "0"},
+    };
+    float version;
+    dist_check(Zoltan_Initialize(0, NULL, &version), "its start");
+    dist->zoltan = Zoltan_Create(dist->comm);
+    if (!dist->zoltan)
+        dist_die("Zoltan has no memory");
+    for (size_t k = 0; k < sizeof settings / sizeof *settings; k++)
+        dist_check(Zoltan_Set_Param(dist->zoltan, settings[k][0], settings[k][1]), settings[k][0]);
+    Zoltan_Set_Num_Obj_Fn(dist->zoltan, object_count, dist);
+    Zoltan_Set_Obj_List_Fn(dist->zoltan, object_list, dist);
+    Zoltan_Set_Num_Geom_Fn(dist->zoltan, geometry_count, dist);
+    Zoltan_Set_Geom_Multi_Fn(dist->zoltan, geometry, dist);
+}
+
+/* What boundary particles have of the fluid around them is made here for those next to the fluid here: so
+   the fluid around these has to be here too. */
+static int layers(const Constants *constants)
+{
+    return constants->boundary.count > 0 ? 2 : 1;
+}
+
+Dist *dist_init(const Constants *constants)
+{
+    const size_t cells = constants->cells.count;
+    Dist *dist = calloc(1, sizeof *dist);
+    if (!dist)
+        dist_die("no memory");
+    dist->constants = constants;
+    dist->comm = MPI_COMM_WORLD;
+    MPI_Comm_rank(dist->comm, &dist->rank);
+    MPI_Comm_size(dist->comm, &dist->size);
+    dist->wide = layers(constants);
+    dist->owner = calloc(cells, sizeof *dist->owner);
+    dist->foreign = calloc(cells + 1, sizeof *dist->foreign);
+    dist->border = calloc(cells, sizeof *dist->border);
+    dist->objects.cell = calloc(cells, sizeof *dist->objects.cell);
+    if (!dist->owner || !dist->foreign || !dist->border || !dist->objects.cell)
+        dist_die("no memory for %zu cells; use a larger spacing or a smaller box", cells);
+    if (dist->size > 1)
+        set_up(dist);
+    return dist;
+}
+
+void dist_end(Dist *dist)
+{
+    if (!dist)
+        return;
+    if (dist->plan)
+        Zoltan_Comm_Destroy(&dist->plan);
+    if (dist->zoltan)
+        Zoltan_Destroy(&dist->zoltan);
+    void *const all[] = {dist->owner, dist->foreign, dist->border,  dist->objects.cell,
+                         dist->sets,  dist->seen,    dist->send_at, dist->ghost_at,
+                         dist->to,    dist->out,     dist->in};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++)
+        free(all[k]);
+    free(dist);
+}
+
+/* ---- who sees which cell ---- */
+
+/* The place along an axis, across a periodic side; -1: behind a wall. */
+static int along(const Constants *s, int axis, int at)
+{
+    const int cells = s->cells.size[axis] - 2;
+    if (at >= 1 && at <= cells)
+        return at;
+    return s->periodic.axis[axis] ? (at - 1 + 2 * cells) % cells + 1 : -1;
+}
+
+/* The cells around one, at most ROUND_MOST, itself among them. */
+static int around(const Dist *dist, uint32_t cell, uint32_t out[ROUND_MOST])
+{
+    const Constants *s = dist->constants;
+    const int *size = s->cells.size, w = dist->wide, wz = s->dimensions == 2 ? 0 : w;
+    int at[3], count = 0;
+    place_of(&s->cells, cell, at);
+    for (int dz = -wz; dz <= wz; dz++)
+        for (int dy = -w; dy <= w; dy++)
+            for (int dx = -w; dx <= w; dx++) {
+                const int x = along(s, 0, at[0] + dx), y = along(s, 1, at[1] + dy),
+                          z = along(s, 2, at[2] + dz);
+                if (x >= 0 && y >= 0 && z >= 0)
+                    out[count++] = (uint32_t)((z * size[1] + y) * size[0] + x);
+            }
+    return count;
+}
+
+static bool inner(const CellGrid *cells, uint32_t cell)
+{
+    int at[3];
+    place_of(cells, cell, at);
+    bool in = true;
+    for (int k = 0; k < 3; k++)
+        in &= at[k] >= 1 && at[k] <= cells->size[k] - 2;
+    return in;
+}
+
+static void *grown(void *memory, size_t count, size_t *room, size_t size)
+{
+    if (count <= *room)
+        return memory;
+    *room = 2 * count + 64;
+    memory = realloc(memory, *room * size);
+    if (!memory)
+        dist_die("no memory for the borders of its part");
+    return memory;
+}
+
+/* Other owners of cells around one of this rank's, each once. */
+static void look_around(Dist *dist, uint32_t cell)
+{
+    uint32_t near[ROUND_MOST];
+    const int count = around(dist, cell, near);
+    const size_t first = dist->seen_count;
+    for (int k = 0; k < count; k++) {
+        const int owner = dist->owner[near[k]];
+        bool known = owner == dist->rank;
+        for (size_t i = first; i < dist->seen_count && !known; i++)
+            known = dist->seen[i] == owner;
+        if (known)
+            continue;
+        dist->seen = grown(dist->seen, dist->seen_count + 1, &dist->seen_room, sizeof *dist->seen);
+        dist->seen[dist->seen_count++] = owner;
+    }
+    if (dist->seen_count == first)
+        return;
+    dist->sets = grown(dist->sets, dist->set_count + 1, &dist->set_room, sizeof *dist->sets);
+    dist->sets[dist->set_count++] = (Seen){(uint32_t)first, (uint32_t)(dist->seen_count - first)};
+    dist->border[cell] = (uint32_t)dist->set_count;
+}
+
+static void find_owners(Dist *dist)
+{
+    const CellGrid *cells = &dist->constants->cells;
+    for (uint32_t cell = 0; cell < cells->count; cell++) {
+        double x[3];
+        int part;
+        coordinates(cells, cell, x);
+        dist_check(Zoltan_LB_Point_PP_Assign(dist->zoltan, x, &dist->owner[cell], &part), "whose a cell is");
+        dist->foreign[cell] = dist->owner[cell] != dist->rank;
+    }
+    dist->set_count = dist->seen_count = 0;
+    for (uint32_t cell = 0; cell < cells->count; cell++) {
+        dist->border[cell] = 0;
+        if (!dist->foreign[cell] && inner(cells, cell))
+            look_around(dist, cell);
+    }
+}
+
+void dist_balance(Dist *dist, const double *weight, bool known)
+{
+    int changes, global, local, imports, exports;
+    ZOLTAN_ID_PTR ids[4];
+    int *ranks[2], *parts[2];
+    if (dist->size == 1)
+        return;
+    dist->objects.weight = weight;
+    dist->objects.count = 0;
+    for (uint32_t cell = 0; cell < dist->constants->cells.count; cell++)
+        if (weight[cell] > 0 &&
+            (known ? (int)(cell % (uint32_t)dist->size) == dist->rank : !dist->foreign[cell]))
+            dist->objects.cell[dist->objects.count++] = cell;
+    dist_check(Zoltan_LB_Partition(dist->zoltan, &changes, &global, &local, &imports, &ids[0], &ids[1],
+                                   &ranks[0], &parts[0], &exports, &ids[2], &ids[3], &ranks[1], &parts[1]),
+               "shares of the cells");
+    find_owners(dist);
+}

@@ -1,0 +1,255 @@
+/* What goes from rank to rank, by Zoltan's communication plans: particles that move, ghosts, their values. */
+#include "sim/dist/dist_state.h"
+
+#include <string.h>
+
+enum { TAG_PARTICLES = 4711, TAG_GHOSTS, TAG_VALUES };
+
+/* Of a ghost, before the grid. */
+typedef struct Ghost {
+    float x[3];
+    uint32_t id, fluid;
+} Ghost;
+
+static void reserve_particles(Cpu *cpu, size_t count)
+{
+    if (count > cpu->capacity && !cpu_grow(cpu, count + count / 8 + 1024))
+        dist_die("no memory for %zu particles; use more ranks or a larger spacing", count);
+}
+
+void dist_drop(Dist *dist, Cpu *cpu)
+{
+    if (!dist->plan)
+        return;
+    Zoltan_Comm_Destroy(&dist->plan);
+    dist->plan = NULL;
+    for (size_t i = cpu->count; i-- > 0;) {
+        if (!cpu->ghost[i] || cpu->now.fluid[i] >= FLUIDS_MAX)
+            continue;
+        columns_move(&cpu->sorted, &cpu->now, --cpu->count, i);
+        cpu->ghost[i] = cpu->ghost[cpu->count];
+    }
+    memset(cpu->ghost, 0, cpu->count);
+    dist->ghost_count = dist->send_count = 0;
+    cpu_find(cpu);
+}
+
+/* ---- particles that move ---- */
+
+static void find_cells(void *context, size_t begin, size_t end)
+{
+    Cpu *cpu = context;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = begin; i < end; i++)
+        cpu->spare_cell[i] = cpu_cell_of(cpu->constants, (float[]){p->x[i], p->y[i], p->z[i]});
+}
+
+static size_t record_size(const ColumnRows *rows)
+{
+    size_t size = 0;
+    for (int r = 0; r < rows->count; r++)
+        size += (size_t)rows->row[r]->components * column_size(rows->row[r]);
+    return size;
+}
+
+/* All of these rows of particle i, one behind the other. */
+static void pack_one(Cpu *cpu, const ColumnRows *rows, size_t i, char *to)
+{
+    for (int r = 0; r < rows->count; r++)
+        for (int c = 0; c < rows->row[r]->components; c++) {
+            const size_t size = column_size(rows->row[r]);
+            const char *array = *column_array(&cpu->now, rows->row[r], c);
+            memcpy(to, array + i * size, size);
+            to += size;
+        }
+}
+
+static void unpack_one(Cpu *cpu, const ColumnRows *rows, size_t i, const char *from)
+{
+    for (int r = 0; r < rows->count; r++)
+        for (int c = 0; c < rows->row[r]->components; c++) {
+            const size_t size = column_size(rows->row[r]);
+            char *array = *column_array(&cpu->now, rows->row[r], c);
+            memcpy(array + i * size, from, size);
+            from += size;
+        }
+}
+
+/* A plan for `count` records to dist->to; how many come. */
+static ZOLTAN_COMM_OBJ *make_plan(Dist *dist, size_t count, int tag, int *come)
+{
+    ZOLTAN_COMM_OBJ *plan = NULL;
+    dist_check(Zoltan_Comm_Create(&plan, (int)count, dist->to, dist->comm, tag, come), "a plan");
+    return plan;
+}
+
+/* Takes those that leave out of the arrays, into dist->out. */
+static size_t take_leavers(Dist *dist, Cpu *cpu, size_t size)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < cpu->count; i++)
+        count += cpu->now.fluid[i] < FLUIDS_MAX && dist->foreign[cpu->spare_cell[i]];
+    dist_reserve(&dist->to, &dist->to_room, count * sizeof *dist->to);
+    dist_reserve(&dist->out, &dist->out_room, count * size);
+    count = 0;
+    for (size_t i = cpu->count; i-- > 0;) {
+        if (cpu->now.fluid[i] >= FLUIDS_MAX || !dist->foreign[cpu->spare_cell[i]])
+            continue;
+        dist->to[count] = dist->owner[cpu->spare_cell[i]];
+        pack_one(cpu, &cpu->sorted, i, dist->out + count++ * size);
+        columns_move(&cpu->sorted, &cpu->now, --cpu->count, i);
+        cpu->spare_cell[i] = cpu->spare_cell[cpu->count];
+    }
+    cpu->owned -= count;
+    return count;
+}
+
+void dist_migrate(Dist *dist, Cpu *cpu)
+{
+    int come;
+    const size_t size = record_size(&cpu->sorted);
+    if (dist->size == 1)
+        return;
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
+    const size_t leave = take_leavers(dist, cpu, size);
+    ZOLTAN_COMM_OBJ *plan = make_plan(dist, leave, TAG_PARTICLES, &come);
+    dist_reserve(&dist->in, &dist->in_room, (size_t)come * size);
+    dist_check(Zoltan_Comm_Do(plan, TAG_PARTICLES, dist->out, (int)size, dist->in), "particles");
+    Zoltan_Comm_Destroy(&plan);
+    reserve_particles(cpu, cpu->count + (size_t)come);
+    for (int k = 0; k < come; k++)
+        unpack_one(cpu, &cpu->sorted, cpu->count + (size_t)k, dist->in + (size_t)k * size);
+    cpu->count += (size_t)come;
+    cpu->owned += (size_t)come;
+    memset(cpu->ghost, 0, cpu->count);
+}
+
+/* ---- ghosts ---- */
+
+static const Seen *who_sees(const Dist *dist, const Cpu *cpu, size_t i)
+{
+    const uint32_t border = dist->border[cpu->spare_cell[i]];
+    return border > 0 && cpu->now.fluid[i] < FLUIDS_MAX ? &dist->sets[border - 1] : NULL;
+}
+
+/* Those that others see: where they stand, whom they go to, and what goes. */
+static void send_ghosts(Dist *dist, Cpu *cpu)
+{
+    const CpuParticles *p = &cpu->now;
+    size_t count = 0;
+    for (size_t i = 0; i < cpu->count; i++) {
+        const Seen *seen = who_sees(dist, cpu, i);
+        count += seen ? seen->count : 0;
+    }
+    dist_reserve(&dist->to, &dist->to_room, count * sizeof *dist->to);
+    dist_reserve(&dist->send_at, &dist->send_room, count * sizeof *dist->send_at);
+    dist_reserve(&dist->out, &dist->out_room, count * sizeof(Ghost));
+    count = 0;
+    for (size_t i = 0; i < cpu->count; i++) {
+        const Seen *seen = who_sees(dist, cpu, i);
+        for (uint32_t k = 0; seen && k < seen->count; k++, count++) {
+            const Ghost ghost = {{p->x[i], p->y[i], p->z[i]}, p->id[i], p->fluid[i]};
+            dist->to[count] = dist->seen[seen->first + k];
+            dist->send_at[count] = (uint32_t)i;
+            memcpy(dist->out + count * sizeof ghost, &ghost, sizeof ghost);
+        }
+    }
+    dist->send_count = count;
+}
+
+static void append_ghosts(Dist *dist, Cpu *cpu)
+{
+    const CpuParticles *p = &cpu->now;
+    for (size_t k = 0; k < dist->ghost_count; k++) {
+        const size_t i = cpu->count++;
+        Ghost ghost;
+        memcpy(&ghost, dist->in + k * sizeof ghost, sizeof ghost);
+        columns_clear(&cpu->sorted, p, i);
+        p->x[i] = ghost.x[0], p->y[i] = ghost.x[1], p->z[i] = ghost.x[2];
+        p->id[i] = ghost.id;
+        p->fluid[i] = (uint8_t)ghost.fluid;
+        dist->ghost_at[k] = (uint32_t)i;
+    }
+}
+
+/* Where they stand behind the grid. The grid's ranks are of no use any more. */
+static void follow_sort(Dist *dist, Cpu *cpu)
+{
+    uint32_t *place = cpu->rank;
+    for (size_t i = 0; i < cpu->count; i++)
+        place[cpu->order[i]] = (uint32_t)i;
+    for (size_t k = 0; k < dist->send_count; k++)
+        dist->send_at[k] = place[dist->send_at[k]];
+    for (size_t k = 0; k < dist->ghost_count; k++)
+        dist->ghost_at[k] = place[dist->ghost_at[k]];
+}
+
+void dist_halo(Dist *dist, Cpu *cpu)
+{
+    int come;
+    if (dist->size > 1) {
+        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
+        send_ghosts(dist, cpu);
+        dist->plan = make_plan(dist, dist->send_count, TAG_GHOSTS, &come);
+        dist->ghost_count = (size_t)come;
+        dist_reserve(&dist->in, &dist->in_room, dist->ghost_count * sizeof(Ghost));
+        dist_reserve(&dist->ghost_at, &dist->ghost_room, dist->ghost_count * sizeof *dist->ghost_at);
+        dist_check(Zoltan_Comm_Do(dist->plan, TAG_GHOSTS, dist->out, sizeof(Ghost), dist->in), "ghosts");
+        reserve_particles(cpu, cpu->count + dist->ghost_count);
+        append_ghosts(dist, cpu);
+    }
+    cpu_grid(cpu);
+    if (dist->size > 1)
+        follow_sort(dist, cpu);
+}
+
+/* ---- their values ---- */
+
+/* One array's entries of `size` bytes, between particles and records of `record` bytes, from `offset` on. */
+static void pack(const char *array, size_t size, const uint32_t *at, size_t count, size_t record, char *out)
+{
+    for (size_t k = 0; k < count; k++)
+        memcpy(out + k * record, array + at[k] * size, size);
+}
+
+static void unpack(char *array, size_t size, const uint32_t *at, size_t count, size_t record, const char *in)
+{
+    for (size_t k = 0; k < count; k++)
+        memcpy(array + at[k] * size, in + k * record, size);
+}
+
+static ColumnRows chosen(const Cpu *cpu, uint64_t rows)
+{
+    ColumnRows out = {.count = 0};
+    for (int r = 0; r < cpu->all.count; r++)
+        if (rows >> r & 1)
+            out.row[out.count++] = cpu->all.row[r];
+    return out;
+}
+
+void dist_update(Dist *dist, Cpu *cpu, uint64_t wanted, bool motion)
+{
+    const ColumnRows rows = chosen(cpu, wanted);
+    const size_t record = record_size(&rows) + (motion ? sizeof *cpu->motion : 0);
+    size_t offset = 0;
+    if (dist->size == 1 || record == 0)
+        return;
+    dist_reserve(&dist->out, &dist->out_room, dist->send_count * record);
+    dist_reserve(&dist->in, &dist->in_room, dist->ghost_count * record);
+    for (int r = 0; r < rows.count; r++)
+        for (int c = 0; c < rows.row[r]->components; c++, offset += column_size(rows.row[r]))
+            pack(*column_array(&cpu->now, rows.row[r], c), column_size(rows.row[r]), dist->send_at,
+                 dist->send_count, record, dist->out + offset);
+    if (motion)
+        pack((const char *)cpu->motion, sizeof *cpu->motion, dist->send_at, dist->send_count, record,
+             dist->out + offset);
+    dist_check(Zoltan_Comm_Do(dist->plan, TAG_VALUES, dist->out, (int)record, dist->in), "values of ghosts");
+    offset = 0;
+    for (int r = 0; r < rows.count; r++)
+        for (int c = 0; c < rows.row[r]->components; c++, offset += column_size(rows.row[r]))
+            unpack(*column_array(&cpu->now, rows.row[r], c), column_size(rows.row[r]), dist->ghost_at,
+                   dist->ghost_count, record, dist->in + offset);
+    if (motion)
+        unpack((char *)cpu->motion, sizeof *cpu->motion, dist->ghost_at, dist->ghost_count, record,
+               dist->in + offset);
+}

@@ -1,0 +1,27 @@
+/* The backend cpu on MPI ranks: each rank makes the same world and calls the same functions of it, and its
+   backend has a share of the particles. To the bit what backend cpu does, whatever the ranks and threads. */
+#ifndef SLOSH_RANKS_H
+#define SLOSH_RANKS_H
+
+#include "sim/world/backend.h"
+
+/* Its name in a def; slosh-dist puts it in the place of "cpu". backend_add it first. All reads of the
+   particles (world_read, snapshots) are collective; each rank gets what it has arrays for. */
+#define RANKS_BACKEND "ranks"
+extern const Backend backend_ranks;
+
+/* What the ranks of this process' world did since the last call. */
+typedef struct RanksFigures {
+    double compute, exchange, balance, wait; /* s: passes; what ghosts and movers take; shares; for others */
+    size_t owned, ghosts;                    /* particles now */
+    size_t bytes;                            /* memory of the particles' state */
+    int balances;                            /* how often cells changed hands */
+} RanksFigures;
+
+/* Of the last world that was made; this rank's own. Not collective. */
+void ranks_figures(RanksFigures *figures);
+
+/* Whether shares follow the time that ranks take (the default), or stay as they began. Before the world. */
+void ranks_balance(bool on);
+
+#endif
