@@ -1,6 +1,7 @@
 #include "app/mesh_file/mesh_file.h"
 
 #include "app/base/read_file.h"
+#include "app/mesh_file/mesh_child.h"
 #include "app/mesh_file/mesh_count.h"
 #include "sim/base/hash.h"
 #include "sim/base/parallel.h"
@@ -184,7 +185,7 @@ static const Kept *look_up(const char *path, MeshFormat format, Error *error)
     if (!bytes_fit(path, format, &of, &size, error))
         return NULL;
     const Kept *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
-    if (kept || !mesh_file_read(path, &triangles, error))
+    if (kept || !mesh_child_read(mesh_file_read, path, &triangles, error))
         return kept;
     if (format == MESH_GLTF) {
         of = hash_add(HASH_NONE, triangles.vertex, triangles.vertex_count * sizeof *triangles.vertex);

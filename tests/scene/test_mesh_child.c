@@ -1,0 +1,89 @@
+/* What a reader of meshes may do in its own process: crash, hang, give up, or read. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "app/mesh_file/mesh_child.h"
+
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool crash(const char *path, Triangles *triangles, Error *error)
+{
+    (void)path, (void)triangles, (void)error;
+    raise(SIGSEGV);
+    return true;
+}
+
+static bool hang(const char *path, Triangles *triangles, Error *error)
+{
+    (void)path, (void)triangles, (void)error;
+    raise(SIGXCPU);
+    return true;
+}
+
+static bool leave(const char *path, Triangles *triangles, Error *error)
+{
+    (void)path, (void)triangles, (void)error;
+    _exit(0);
+}
+
+static bool refuse(const char *path, Triangles *triangles, Error *error)
+{
+    (void)triangles;
+    return error_set(error, "%s: no mesh", path);
+}
+
+enum { MANY = 100000 };
+
+static bool make(const char *path, Triangles *triangles, Error *error)
+{
+    (void)path, (void)error;
+    *triangles = (Triangles){MANY, MANY, calloc(MANY, sizeof *triangles->vertex),
+                             calloc(MANY, sizeof *triangles->triangle)};
+    triangles->vertex[MANY - 1][2] = 7;
+    triangles->triangle[MANY - 1][1] = 9;
+    return true;
+}
+
+static void expect_error(MeshRead *read, const char *words)
+{
+    Triangles triangles;
+    Error error = {""};
+    assert_false(mesh_child_read(read, "a.obj", &triangles, &error));
+    if (!strstr(error.message, words))
+        fail_msg("'%s' has no '%s'", error.message, words);
+    assert_null(triangles.vertex);
+}
+
+static void ends_are_errors(void **state)
+{
+    (void)state;
+    expect_error(crash, "crashed over it (Segmentation fault)");
+    expect_error(hang, "took more than");
+    expect_error(leave, "ended early");
+    expect_error(refuse, "a.obj: no mesh");
+}
+
+static void more_than_a_pipe_holds(void **state)
+{
+    (void)state;
+    Triangles triangles;
+    Error error;
+    assert_true(mesh_child_read(make, "a.obj", &triangles, &error));
+    assert_int_equal(triangles.vertex_count, MANY);
+    assert_true(triangles.vertex[MANY - 1][2] == 7 && triangles.triangle[MANY - 1][1] == 9);
+    triangles_free(&triangles);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(ends_are_errors),
+                                       cmocka_unit_test(more_than_a_pipe_holds)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
