@@ -82,6 +82,7 @@ static bool measure_one(const Plan *plan, size_t at, Headless *context, BenchRes
         .frames = args->frames  ? args->frames
                   : plan->table ? TABLE_FRAMES
                                 : DEFAULT_FRAMES,
+        .seconds = plan->table ? plan->table->seconds : 0,
         .from = args->time_given ? args->time : 0,
         .clock = clock_of(args->clock),
         .device = args->device,

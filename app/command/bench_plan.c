@@ -40,8 +40,7 @@ static bool plan_table(Plan *plan, Error *error)
                          "slosh bench: --table brings its own scenes and sweeps; leave the others out");
     if (args->output && !chart_name(args->output, error))
         return false;
-    plan->scenes = &plan->table->scene;
-    plan->scene_count = 1;
+    plan->scene_count = table_scenes(plan->table, &plan->scenes);
     plan->sweep_count = table_sweeps(plan->table, plan->sweeps);
     memset(plan->settings.said, 0, sizeof plan->settings.said);
     for (int i = 0; i < TABLE_SETTINGS && plan->table->settings[i]; i++)
@@ -136,8 +135,12 @@ bool plan_case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Err
     SweptTexts texts;
     Notes notes;
     SceneSettings settings;
-    if (!case_settings(plan, index % plan->combinations, texts, &settings, error) ||
-        !scene_load(plan->scenes[index / plan->combinations], &settings, scene, &notes, error))
+    const size_t number = index / plan->combinations;
+    if (!case_settings(plan, index % plan->combinations, texts, &settings, error))
+        return false;
+    if (plan->table && !plan->table->scene && settings.particles == 0)
+        settings.particles = strtoul(plan->table->particles[number], NULL, 10);
+    if (!scene_load(plan->scenes[number], &settings, scene, &notes, error))
         return false;
     if (tell)
         notes_print(&notes, stderr);

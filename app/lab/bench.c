@@ -210,16 +210,21 @@ static bool look(Stand *stand, Error *error)
            error_set(error, "no memory to look at the particles; use a larger spacing");
 }
 
-static bool measure(Stand *stand, int frames, Progress *progress, double done, double part, Samples *samples,
-                    Error *error)
+static bool measure(Stand *stand, const BenchSetup *setup, Progress *progress, double done, double part,
+                    Samples *samples, Error *error)
 {
-    WorldInfo first, last;
+    const int frames = setup->frames;
+    WorldInfo first, before, last;
     if (!look(stand, error))
         return false;
     world_info(stand->world, &first);
     world_tally_anew(stand->world);
-    for (double began = wall_ms(); samples->frames < frames && !interrupted();) {
+    while (samples->frames < frames && !interrupted()) {
         StageClock clock;
+        if (!advance(stand, first.time + setup->seconds * samples->frames / frames, error))
+            return false;
+        world_info(stand->world, &before);
+        const double began = wall_ms();
         if (!frame(stand, &clock, error))
             return false;
         samples->gl_frames += gl_timer_frame(stand->timer, &samples->gl[samples->gl_frames]);
@@ -229,15 +234,14 @@ static bool measure(Stand *stand, int frames, Progress *progress, double done, d
         progress_update(progress, done + part * samples->frames / frames);
         world_info(stand->world, &last);
         samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
-        began = wall_ms();
+        samples->steps += last.step - before.step;
+        samples->simulated += last.time - before.time;
     }
     if (!world_sound(stand->world) && !world_substep(stand->world, NULL, error)) /* goes back, or gives up */
         return false;
     world_info(stand->world, &last);
     samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
-    samples->steps = last.step - first.step;
     samples->began = first.time;
-    samples->simulated = last.time - first.time;
     while (samples->gl_frames < samples->frames &&
            gl_timer_drain(stand->timer, &samples->gl[samples->gl_frames]))
         samples->gl_frames++;
@@ -312,7 +316,7 @@ bool bench_measure(const BenchSetup *setup, Progress *progress, double done, dou
     if (stand.world)
         describe(&stand, result);
     ok = ok && advance(&stand, setup->from, &error) && warm_up(&stand, &error) &&
-         measure(&stand, setup->frames, progress, done, part, &samples, &error) &&
+         measure(&stand, setup, progress, done, part, &samples, &error) &&
          conclude(&stand, &samples, result, &error);
     judge(&stand, ok, &error, result);
     samples_destroy(&samples);

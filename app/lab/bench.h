@@ -52,7 +52,9 @@ typedef struct BenchSetup {
     Headless *context; /* current; NULL: neither solver nor pictures need one */
     bool draws;
     int width, height, frames;
-    double from;                  /* simulated time at which to begin, s */
+    double from;    /* simulated time at which to begin, s */
+    double seconds; /* simulated time over which the frames are spread: what is between them is not measured;
+                       0: they follow at once */
     const char *device, *mapping; /* as hand_replay_open takes them; no device: the hand is at rest */
     GlClock clock;
 } BenchSetup;

@@ -6,7 +6,7 @@
 #include "app/lab/bench.h"
 #include "app/session/args.h"
 
-enum { TABLE_SWEEPS = 3, TABLE_SETTINGS = 2, TABLE_COLUMNS = 5 };
+enum { TABLE_SWEEPS = 3, TABLE_SETTINGS = 3, TABLE_COLUMNS = 5 };
 
 /* A column sums up stages; one without takes all that no other names. */
 typedef struct TableColumn {
@@ -16,7 +16,9 @@ typedef struct TableColumn {
 
 typedef struct Table {
     const char *name, *help;
-    const char *scene;                    /* its path */
+    const char *scene;                    /* its path; NULL: */
+    const char *scenes[5];                /* several, each with the particles at its place; ended by NULL */
+    double seconds;                       /* over which the frames are spread; 0: they follow at once */
     const char *settings[TABLE_SETTINGS]; /* before those of the command line */
     const char *particles[8];             /* each of these, with each view and each backend; ended by NULL */
     const char *substeps[3];              /* and each of these; ended by NULL */
@@ -36,6 +38,9 @@ const Table *table_find(const char *name, Error *error);
 
 /* The name at `index`, NULL from the end of the list on. */
 const char *table_choice(int index);
+
+/* How many scenes it has, and their paths. */
+size_t table_scenes(const Table *table, const char *const **scenes);
 
 /* The sweeps that make up its cases, views and backends as this program has them; how many. */
 int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1]);

@@ -46,8 +46,14 @@ static bool find(const Reader *reader, const char *file, char path[1200], Error 
     Error none = {""};
     if (!scene_beside_path(reader->check.tree->path, file, path, why))
         return false;
-    if (reader->lenient && access(path, R_OK) != 0 && scene_path_find(file, found, &none))
-        memcpy(path, found, sizeof found);
+    if (!reader->lenient || access(path, R_OK) == 0)
+        return true;
+    if (!scene_path_find(file, found, &none))
+        return error_set(
+            why,
+            "neither at %.200s, beside the snapshots, nor where scenes are looked for; put it at one of the two",
+            path);
+    memcpy(path, found, sizeof found);
     return true;
 }
 

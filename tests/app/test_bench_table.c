@@ -50,15 +50,15 @@ static void expect(const char *text, const char *label, const char *row)
 static void shares_of_passes(void **state)
 {
     (void)state;
-    BenchResult results[] = {made_up(17640, "splat", "cpu"), made_up(109744, "splat", "cpu")};
-    results[1].counts = (ViewCounts){.counted = true, .coverage = 0.125};
-    results[1].counts.fragments[STAGE_VISIBILITY] = 7.5;
-    results[1].counts.fragments[STAGE_BLEND] = 2.5;
+    BenchResult results[] = {made_up(109744, "splat", "cpu"), made_up(17640, "splat", "cpu")};
+    results[0].counts = (ViewCounts){.counted = true, .coverage = 0.125};
+    results[0].counts.fragments[STAGE_VISIBILITY] = 7.5;
+    results[0].counts.fragments[STAGE_BLEND] = 2.5;
     char *text = printed("paper002-passes", results, 2);
-    expect(text, "Beethoven, published", "18000 splat Beethoven, published 25.0 % 45.0 % 30.0 % 47.0");
-    expect(text, "17640", "17640 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0");
+    expect(text, "Beethoven, published", "18000 splat Beethoven, published 25.0 % 45.0 % 30.0 % 47.0 0.85");
+    expect(text, "17640", "17640 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0 0.35");
     expect(text, "109744",
-           "109744 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0 12.5 % 7.5 2.5");
+           "109744 1 splat cpu 10.000 25.0 % 25.000 62.5 % 5.000 12.5 % 40.000 20.0 2.19 12.5 % 7.5 2.5");
     free(text);
 }
 
@@ -108,7 +108,11 @@ static void cases_are_all_views_and_backends(void **state)
     assert_int_equal(table_sweeps(table_find("paper003-spheres", &error), sweeps), 3);
     assert_string_equal(sweeps[0].key, "view.kind");
     assert_true(sweeps[0].count >= 2 && sweeps[1].count == 4 && sweeps[2].count == 3);
-    assert_int_equal(table_sweeps(table_find("paper002-passes", &error), sweeps), 2);
+    assert_int_equal(table_sweeps(table_find("paper002-passes", &error), sweeps), 1);
+    const char *const *scenes;
+    assert_int_equal(table_scenes(table_find("paper003-raycast", &error), &scenes), 1);
+    assert_int_equal(table_scenes(table_find("paper002-passes", &error), &scenes), 4);
+    assert_string_equal(scenes[1], "scenes/papers/goop_on_bust.yaml");
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "splat") == 0);
     assert_int_equal(table_sweeps(table_find("paper003-voxelize", &error), sweeps), 3);
     assert_true(strcmp(sweeps[2].key, "view.volume.method") == 0 && sweeps[2].count == 7);
