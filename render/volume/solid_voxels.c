@@ -173,18 +173,16 @@ static bool follow(Block *block, const SolidDef *solid, double slab, double cell
 
 /* ---- drawing ---- */
 
-static void draw_block(const SolidVoxels *voxels, const Block *block, const float to_eye[16],
-                       const float color[3])
+static void draw_block(const Block *block, const float to_eye[16], const float color[3])
 {
     float high[3];
     for (int k = 0; k < 3; k++)
         high[k] = (float)(block->low[k] + (block->size[k] - 1) * block->cell);
-    glProgramUniformMatrix4fv(voxels->program, SOLID_TO_EYE_AT, 1, GL_FALSE, to_eye);
-    glProgramUniform3f(voxels->program, SOLID_LOW_AT, (GLfloat)block->low[0], (GLfloat)block->low[1],
-                       (GLfloat)block->low[2]);
-    glProgramUniform3fv(voxels->program, SOLID_HIGH_AT, 1, high);
-    glProgramUniform3fv(voxels->program, SOLID_COLOR_AT, 1, color);
-    glProgramUniform1f(voxels->program, SOLID_CELL_AT, (GLfloat)block->cell);
+    glUniformMatrix4fv(SOLID_TO_EYE_AT, 1, GL_FALSE, to_eye);
+    glUniform3f(SOLID_LOW_AT, (GLfloat)block->low[0], (GLfloat)block->low[1], (GLfloat)block->low[2]);
+    glUniform3fv(SOLID_HIGH_AT, 1, high);
+    glUniform3fv(SOLID_COLOR_AT, 1, color);
+    glUniform1f(SOLID_CELL_AT, (GLfloat)block->cell);
     glBindTextureUnit(FIELD_UNIT, block->texture);
     glDrawArrays(GL_TRIANGLES, 0, SIDES);
 }
@@ -219,7 +217,7 @@ void solid_voxels_draw(SolidVoxels *voxels, double cell, const ParticleBuffers *
         }
         solid_to_world(&world->solids[i], i, particles, frame, to_eye);
         matrix_multiply(frame->camera.view, to_eye, to_eye);
-        draw_block(voxels, &voxels->block[i], to_eye, world->solids[i].color);
+        draw_block(&voxels->block[i], to_eye, world->solids[i].color);
     }
     glDisable(GL_CULL_FACE);
 }
