@@ -431,7 +431,7 @@ bool past_load(const Past *past, uint64_t place, World **world, Scene *scene, si
         return error_set(error, "no state of the past is kept");
     const Kept *kept = kept_before(past, place);
     settings_apply(past, kept->settings, &then);
-    if (!world_set_shapes(world, &then.world, error) || !world_load(*world, &kept->state, error))
+    if (!world_load_shapes(world, &then.world, &kept->state, error))
         return false;
     memcpy(scene, &then, sizeof then); /* its padding too, for comparisons */
     *next = kept->next;

@@ -253,36 +253,50 @@ static bool inherit(World *to, const World *from, Error *error)
     return true;
 }
 
+/* Another world of that def in that state, which goes on from `from`. NULL with the reason. */
+static World *made_with(const World *from, const WorldDef *def, const WorldState *state, Error *error)
+{
+    InitialState initial;
+    WorldDef own = *def;
+    World *to = NULL;
+    own.initial = &initial;
+    if (as_initial(state, &initial)) {
+        initial.room = from->capacity;
+        to = world_create(&own, error);
+    } else {
+        error_set(error, "no memory for %zu particles", state->count);
+    }
+    if (to) {
+        to->initial = from->initial;
+        to->mass = from->mass;
+    }
+    const bool ok = to && world_load(to, state, error) && inherit(to, from, error);
+    free((float *)initial.position);
+    if (ok)
+        return to;
+    world_destroy(to);
+    return NULL;
+}
+
 bool world_rebuild(World **world, const WorldDef *def, Error *error)
 {
     World *from = *world;
     WorldState state = {.count = 0};
-    InitialState initial = {.position = NULL};
-    WorldDef own = *def;
-    own.initial = &initial;
-    bool ok = world_save(from, &state, error);
-    for (int k = 0; ok && k < own.dimensions; k++)
-        if (own.box_size[k] < from->def.box_size[k])
-            bring_in(&state, &own, k);
-    if (ok && !as_initial(&state, &initial))
-        ok = error_set(error, "no memory for %zu particles", state.count);
-    initial.room = from->capacity;
-    World *to = ok ? world_create(&own, error) : NULL;
-    if (to) {
-        to->initial = from->initial;
-        to->mass = from->mass;
-        ok = world_load(to, &state, error) && inherit(to, from, error);
-        if (ok && own.box_size[1] != from->def.box_size[1]) { /* about whose half it turns */
-            world_pose(to);
-            ok = sentinel_mark(to, error);
+    const bool saved = world_save(from, &state, error);
+    for (int k = 0; saved && k < def->dimensions; k++)
+        if (def->box_size[k] < from->def.box_size[k])
+            bring_in(&state, def, k);
+    World *to = saved ? made_with(from, def, &state, error) : NULL;
+    world_state_free(&state);
+    if (to && def->box_size[1] != from->def.box_size[1]) { /* about whose half it turns */
+        world_pose(to);
+        if (!sentinel_mark(to, error)) {
+            world_destroy(to);
+            return false;
         }
     }
-    free((float *)initial.position);
-    world_state_free(&state);
-    if (!to || !ok) {
-        world_destroy(to);
+    if (!to)
         return false;
-    }
     world_destroy(from);
     *world = to;
     return true;
@@ -302,28 +316,57 @@ static bool same_solid(const SolidDef *a, const SolidDef *b)
     return same;
 }
 
+/* The world's def with the box and the solids of `from`; false: it has others, but for where a hand has them.
+ */
+static bool with_shapes(const World *world, const WorldDef *from, WorldDef *def)
+{
+    *def = world->def;
+    bool same = def->solid_count == from->solid_count;
+    for (int i = 0; i < from->solid_count; i++)
+        same &= same_solid(&def->solids[i], &from->solids[i]);
+    def->solid_count = from->solid_count;
+    memcpy(def->solids, from->solids, sizeof def->solids);
+    for (int k = 0; k < def->dimensions; k++) {
+        same &= def->box_size[k] == from->box_size[k];
+        def->box_size[k] = from->box_size[k];
+    }
+    return same;
+}
+
+static void set_solids(World *world, const SolidDef solids[SOLIDS_MAX])
+{
+    memcpy(world->def.solids, solids, sizeof world->def.solids);
+    memcpy(world->constants.solids, solids, sizeof world->constants.solids);
+}
+
 bool world_set_shapes(World **world, const WorldDef *from, Error *error)
 {
-    World *w = *world;
-    WorldDef def = w->def;
-    bool same = def.solid_count == from->solid_count;
-    for (int i = 0; i < from->solid_count; i++)
-        same &= same_solid(&def.solids[i], &from->solids[i]);
-    def.solid_count = from->solid_count;
-    memcpy(def.solids, from->solids, sizeof def.solids);
-    for (int k = 0; k < def.dimensions; k++) {
-        same &= def.box_size[k] == from->box_size[k];
-        def.box_size[k] = from->box_size[k];
+    WorldDef def;
+    const bool same = with_shapes(*world, from, &def), set = same || world_rebuild(world, &def, error);
+    if (same)
+        set_solids(*world, from->solids);
+    energy_forget(*world);
+    return set;
+}
+
+bool world_load_shapes(World **world, const WorldDef *from, const WorldState *state, Error *error)
+{
+    WorldDef def;
+    SolidDef before[SOLIDS_MAX];
+    if (!with_shapes(*world, from, &def)) { /* the present state, which may not be sound, is not asked for */
+        World *to = made_with(*world, &def, state, error);
+        if (!to)
+            return false;
+        world_destroy(*world);
+        *world = to;
+        return true;
     }
-    if (!same) {
-        const bool made = world_rebuild(world, &def, error);
-        energy_forget(*world);
-        return made;
-    }
-    memcpy(w->def.solids, from->solids, sizeof w->def.solids);
-    memcpy(w->constants.solids, from->solids, sizeof w->constants.solids);
-    energy_forget(w);
-    return true;
+    memcpy(before, (*world)->def.solids, sizeof before);
+    set_solids(*world, from->solids);
+    if (world_load(*world, state, error))
+        return true;
+    set_solids(*world, before);
+    return false;
 }
 
 bool world_make_room(World **world, Error *error)

@@ -96,4 +96,9 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error);
    box leaves outside come to its walls. */
 bool world_set_shapes(World **world, const WorldDef *def, Error *error);
 
+/* Puts it into a state in which it had the box and the solids of that def; where it has others now, *world is
+   another one then, and its present state may be one that is not sound. False with the reason: nothing has
+   changed. */
+bool world_load_shapes(World **world, const WorldDef *def, const WorldState *state, Error *error);
+
 #endif
