@@ -49,11 +49,13 @@ bool again_look(const Model *model, Again *out, Error *error)
     return true;
 }
 
-/* What a user did in a scene that begins anew is not lost. */
+/* What a user did in a scene that begins anew is not lost: where it can't be saved the scene goes on. */
 static bool keep_session(Model *model, Error *error)
 {
     char path[1024];
-    if (!model->status.unsaved || model->record) /* with --record the scene that is left is saved anyway */
+    if (model->record)
+        return model_keep_session(model, error);
+    if (!model->status.unsaved)
         return true;
     file_name_new(path, "recording");
     return model_save_now(model, path, error);
@@ -76,7 +78,9 @@ static bool open_with(Model *model, const SettingList *settings, size_t particle
     if (!setting_list_settings(settings, &given, error))
         return false;
     given.particles = particles;
-    return keep_session(model, error) && model_open(model, path, &given, error);
+    const bool ok = keep_session(model, error) && model_open(model, path, &given, error);
+    model->kept = false; /* where it did not open, more may be done */
+    return ok;
 }
 
 /* A number of particles decides the spacing; a scene takes no more than one of them. */

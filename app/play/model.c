@@ -256,14 +256,22 @@ bool model_save_now(Model *model, const char *path, Error *error)
 }
 
 /* With --record nothing that was done goes without a trace, though only the last session gets that name. */
+bool model_keep_session(Model *model, Error *error)
+{
+    char path[1024];
+    file_name_new(path, "recording");
+    model->kept = !model->open.source->simulates || !model->record || model->status.step == 0 ||
+                  model_save_now(model, path, error);
+    return model->kept;
+}
+
+/* Not twice; one that can't be kept ends all the same. */
 static void keep_session(Model *model)
 {
     Error error = {{0}};
-    char path[1024];
-    file_name_new(path, "recording");
-    const bool simulates = model->open.source->simulates;
-    if (simulates && model->record && model->status.step > 0 && !model_save_now(model, path, &error))
+    if (!model->kept && !model_keep_session(model, &error))
         notice_error(model->notice, error.message);
+    model->kept = false;
 }
 
 bool model_leave(Model *model, double patience_ms)

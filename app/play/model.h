@@ -18,6 +18,7 @@ typedef struct Model {
     HandPost *post;     /* given: sends the box where the hand wants it */
     Notice *notice;     /* given */
     const char *record; /* given: no session goes without a trace; or NULL */
+    bool kept;          /* with it the session that is left next is saved already */
     size_t past_bytes;  /* given: as of SimulatorSetup */
     double speed;       /* given: simulated seconds in a second */
 
@@ -115,5 +116,9 @@ void model_let_go(Model *model);
 /* The session so far into a new file, behind the window's back; or at once, and waits for it. */
 void model_save(Model *model);
 bool model_save_now(Model *model, const char *path, Error *error);
+
+/* With --record: saves it under a name of its own before it is left, when it has gone on at all. False with
+   the reason. */
+bool model_keep_session(Model *model, Error *error);
 
 #endif

@@ -32,7 +32,9 @@ static void begin(Reload *reload, const Model *model)
 static void tell_broken(Play *play, const Error *error)
 {
     Reload *reload = &play->reload;
-    if (strcmp(reload->broken.message, error->message) != 0)
+    const SimulatorStatus *status = &play->model.status; /* of a save model_listen has told */
+    if (strcmp(reload->broken.message, error->message) != 0 &&
+        strcmp(status->saved ? "" : status->save_message, error->message) != 0)
         notice_error(&play->notice, error->message);
     reload->broken = *error;
     play->picture.dirty = true;

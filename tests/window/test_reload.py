@@ -1,5 +1,6 @@
 """A scene file that is saved in an editor while the window shows it."""
 import os
+import resource
 import sys
 import time
 
@@ -79,6 +80,24 @@ class Reload(Window):
         self.assertEqual((out['scenes_opened'], out['camera_auto']), (3, False))
         self.assertIn('camera_turn: 0', self.read('still-2.yaml').decode())
 
+    def test_a_session_that_cannot_be_saved_goes_on(self):
+        """With --record, where no file may be as large: said once; when there is room again it is saved and begins anew."""
+        self.quit()
+        self.write('still.yaml', STILL + 20000 * '#' + '\n')
+        self.open('still.yaml', '--record', 'a.recording')
+        resource.prlimit(self.process.pid, resource.RLIMIT_FSIZE, (8192, resource.RLIM_INFINITY))
+        self.save(STILL.replace('spacing: 0.1', 'spacing: 0.125'))
+        self.wait_said('recording: cannot be written: File too large')
+        self.shown(0.3)
+        self.assertNotIn('begins anew', self.said_now())
+        self.assertEqual(self.said_now().count('recording: cannot be written: File too large'), 1, self.said_now())
+        resource.prlimit(self.process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
+        self.save(STILL.replace('spacing: 0.1', 'spacing: 0.12'))
+        self.wait_said(f'{SAVED}: begins anew with particles.spacing')
+        out = self.quit()
+        self.assertEqual(out['scenes_opened'], 2)
+        self.assertEqual(len(self.files('recording')), 1)
+
     def test_broken(self):
         """The last good one goes on, until it is mended."""
         self.save(STILL.replace('size: [1, 1, 1]', 'size: [1, 1'), whole=False)
@@ -97,4 +116,5 @@ class Reload(Window):
 
 
 if __name__ == '__main__':
-    command.main('Reload.test_live Reload.test_broken', 'Reload.test_begins_anew Reload.test_files_that_it_names')
+    command.main('Reload.test_live Reload.test_broken Reload.test_a_session_that_cannot_be_saved_goes_on',
+                 'Reload.test_begins_anew Reload.test_files_that_it_names')
