@@ -339,12 +339,38 @@ static void set_solids(World *world, const SolidDef solids[SOLIDS_MAX])
     memcpy(world->constants.solids, solids, sizeof world->constants.solids);
 }
 
+/* The solid of `before` that `after` lacks, the others being the same; -1: it is otherwise. */
+static int taken_out(const WorldDef *before, const WorldDef *after)
+{
+    int k = 0;
+    bool same = after->solid_count == before->solid_count - 1;
+    while (k < after->solid_count && same_solid(&before->solids[k], &after->solids[k]))
+        k++;
+    for (int i = k; i < after->solid_count; i++)
+        same &= same_solid(&before->solids[i + 1], &after->solids[i]);
+    return same ? k : -1;
+}
+
+/* What the solids behind it felt goes by their new numbers. */
+static void close_gap(Forces *felt, int taken)
+{
+    Push *at = felt->solid + taken;
+    memmove(at, at + 1, (size_t)(SOLIDS_MAX - 1 - taken) * sizeof *at);
+    felt->solid[SOLIDS_MAX - 1] = (Push){0};
+}
+
 bool world_set_shapes(World **world, const WorldDef *from, Error *error)
 {
     WorldDef def;
-    const bool same = with_shapes(*world, from, &def), set = same || world_rebuild(world, &def, error);
+    const bool same = with_shapes(*world, from, &def);
+    const int taken = taken_out(&(*world)->def, from);
+    const bool set = same || world_rebuild(world, &def, error);
     if (same)
         set_solids(*world, from->solids);
+    if (set && taken >= 0) {
+        close_gap(&(*world)->felt, taken);
+        close_gap(&(*world)->felt_before, taken);
+    }
     energy_forget(*world);
     return set;
 }

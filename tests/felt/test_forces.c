@@ -3,6 +3,7 @@
 #include "tests/sim/fixture.h"
 
 #include "sim/wcsph/wcsph.h"
+#include "sim/world/world_state.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
@@ -211,6 +212,34 @@ static void time_that_went_back_is_not_summed(void **state)
     world_destroy(world);
 }
 
+/* One is taken out between two looks: the other one, behind it, keeps what it felt, under its new number. */
+static void what_is_felt_goes_by_new_numbers(void **state)
+{
+    (void)state;
+    WorldDef def = impact("mueller", 2, SLIP_FREE), after;
+    World *worlds[2];
+    Forces felt[2];
+    def.solids[1] = def.solids[0];
+    def.solids[0] = (SolidDef){
+        .kind = SOLID_SPHERE, .centre = {-0.8, 0.2, 0}, .radius = 0.1, .axis = {0, 1, 0}, .slip = SLIP_FREE};
+    def.solid_count = 2;
+    after = def;
+    after.solids[0] = def.solids[1];
+    after.solid_count = 1;
+    for (int k = 0; k < 2; k++) {
+        Error error = {{0}};
+        worlds[k] = felt_world(&def);
+        fixture_step(worlds[k], 60);
+        if (k == 1 && !world_set_shapes(&worlds[k], &after, &error))
+            fail_msg("%s", error.message);
+        world_forces(worlds[k], &felt[k]);
+        world_destroy(worlds[k]);
+    }
+    assert_true(length(felt[0].solid[1].force) > 1);
+    assert_memory_equal(&felt[1].solid[0], &felt[0].solid[1], sizeof(Push));
+    assert_true(length(felt[1].solid[1].force) == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +250,7 @@ int main(void)
         cmocka_unit_test(a_small_ball_in_much_water_counts),
         cmocka_unit_test(sums_are_the_same_by_any_threads),
         cmocka_unit_test(time_that_went_back_is_not_summed),
+        cmocka_unit_test(what_is_felt_goes_by_new_numbers),
     };
     return cmocka_run_group_tests_name("felt.forces", tests, NULL, NULL);
 }
