@@ -157,6 +157,9 @@ static bool hold(Way *way, double normal[3])
     const double d[3] = {way->to[0] - way->from[0], way->to[1] - way->from[1], way->to[2] - way->from[2]};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double at_end = distance_on(way, 1);
+    if (at_end >= 2 * length) /* then the start is at least `length` away, a mesh's start too, whose distance
+                                 is rough */
+        return false;
     if (at_end >= 0 && distance_on(way, 0) + at_end >= length)
         return false;
     const double t = length > 0 ? meeting(way, length, slack) : 0;
@@ -197,6 +200,20 @@ static bool out_of_reach(const SolidStep *step, const float before[3], const flo
     return r2 > most * most;
 }
 
+/* The same of a block, which may be long and thin: whether one of its sides alone is far enough away. */
+static bool beside_block(const SolidDef *solid, const Way *way)
+{
+    double gap = 0, way2 = 0;
+    if (solid->kind != SOLID_BOX)
+        return false;
+    for (int k = 0; k < way->dimensions; k++) {
+        const double d = way->to[k] - way->from[k];
+        gap = fmax(gap, fabs(way->to[k]) - 0.5 * solid->size[k]);
+        way2 += d * d;
+    }
+    return gap > 0 && gap * gap > 5 * way2;
+}
+
 static void place(const SolidPose *pose, const Way *way, const double normal[3], float x[3], float v[3])
 {
     float in_solid[3], out[3], wall[3], into = 0;
@@ -226,6 +243,8 @@ bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, c
         way.from[k] = k < dimensions ? from[k] : 0;
         way.to[k] = k < dimensions ? to[k] : 0;
     }
+    if (beside_block(solid, &way))
+        return false;
     double normal[3];
     bool held = false;
     for (int i = 0; i < 3 && hold(&way, normal); i++) { /* again: an inner edge has two sides */
