@@ -211,10 +211,11 @@ bool view_has_glass(const ViewDef *def)
 
 ViewQuality view_quality(const ViewDef *def, bool moving)
 {
-    const bool clear = view_shows_clear_fluid(def); /* the dearest look */
+    const ViewKind *kind = view_find(def->kind);
+    const bool dear = view_shows_clear_fluid(def) || (kind && kind->dear && kind->dear(def));
     if (def->quality != VIEW_AUTO)
         return (ViewQuality)def->quality;
-    return moving && clear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
+    return moving && dear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
 }
 
 ViewDef view_at_quality(const ViewDef *def, bool moving)

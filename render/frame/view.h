@@ -124,6 +124,9 @@ typedef struct ViewKind {
     /* Changes what the view draws with for a draft or for the best, of keys at their defaults; NULL: nothing.
      */
     void (*quality)(ViewDef *def, ViewQuality quality);
+    /* Whether it is as dear to draw as clear fluid, which a moving window draws as a draft on a software
+       driver; NULL: it is not. */
+    bool (*dear)(const ViewDef *def);
     double radius;                /* of a particle, in spacings, where ViewDef.radius is 0 */
     unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: of the def's curves those that it draws */
     const KeyOwner *curves_where; /* in use where it does; NULL: always */

@@ -348,8 +348,17 @@ static void splat_show_in(const ViewDef *def, Frame *frame)
     frame->refraction = (float)splat_def(def)->ior;
 }
 
+/* The filter is more than half of a picture's time. */
+static bool splat_dear(const ViewDef *def)
+{
+    return splat_filter(splat_def(def)) != SPLAT_NO_FILTER;
+}
+
+/* What the filter makes smooth loses little by fewer pixels. */
 static void splat_quality(ViewDef *def, ViewQuality quality)
 {
+    if (quality == VIEW_DRAFT && splat_dear(def) && def->resolution == 1)
+        def->resolution = 0.5;
     if (quality == VIEW_DRAFT && splat_def(def)->antialias == splat_usual.antialias)
         splat_def(def)->antialias = false;
 }
@@ -365,6 +374,7 @@ const ViewKind view_splat = {
     .radii = splat_radii,
     .shapes = splat_shapes,
     .own_colors = splat_own_colors,
+    .dear = splat_dear,
     .quality = splat_quality,
     .show = splat_show_in,
     .create = splat_create,

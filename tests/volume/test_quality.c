@@ -27,6 +27,13 @@ static void a_draft_has_fewer_of_all(void **state)
     assert_true(!volume_def(&draft)->raycast.shadows && volume_def(&good)->raycast.shadows);
     const ViewDef splats = drawn_at(VIEW_DRAFT, "splat"), whole = drawn_at(VIEW_BEST, "splat");
     assert_true(!splat_def(&splats)->antialias && splat_def(&whole)->antialias);
+    ViewDef filtered = view_def_default();
+    text_set(filtered.kind, "splat");
+    splat_def(&filtered)->filter = SPLAT_NARROW_RANGE;
+    assert_true(view_quality(&filtered, false) == VIEW_GOOD);
+    assert_true((view_quality(&filtered, true) == VIEW_DRAFT) == gl_renderer_is_software());
+    filtered.quality = VIEW_DRAFT;
+    assert_true(view_at_quality(&filtered, true).resolution < 1 && splats.resolution == 1);
 }
 
 static void what_a_scene_says_stays(void **state)
