@@ -13,6 +13,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* A state this small part of a frame early is on time, as in app/session/session.c. */
 static const double ROUNDING = 1e-6;
@@ -158,10 +159,41 @@ static void report(const DistRun *run)
                 run->args->output, snapshot_steps(run->file));
 }
 
+/* --resume, where the file is there: the world as it is at the file's end, whoever wrote it on how many
+ * ranks. */
+static void resume(DistRun *run)
+{
+    WorldState state = {.count = 0};
+    Error error = {{0}};
+    bool busy;
+    if (run->rank == 0 &&
+        !(run->file = snapshot_resume(run->args->output, &run->scene, "", &state, &busy, &error)))
+        end_all(run, &error);
+    ranks_spread(&state, &run->scene.world);
+    if (!world_load(run->world, &state, &error))
+        end_all(run, &error);
+    world_state_free(&state);
+    world_info(run->world, &run->info);
+    run->next = floor(run->info.time / run->args->every + 1e-6) + 1;
+    if (run->rank == 0 && !run->args->quiet)
+        fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshot%s\n", run->args->output, run->info.time,
+                snapshot_steps(run->file), plural(snapshot_steps(run->file)));
+}
+
+/* As the first rank sees it. */
+static bool is_there(const DistRun *run)
+{
+    int there = run->rank == 0 && access(run->args->output, F_OK) == 0;
+    MPI_Bcast(&there, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    return there;
+}
+
 static int go(DistRun *run, Error *error)
 {
     Progress progress;
-    if (run->rank == 0 && !(run->file = snapshot_create(run->args->output, &run->scene, error)))
+    if (run->args->resume && is_there(run))
+        resume(run);
+    else if (run->rank == 0 && !(run->file = snapshot_create(run->args->output, &run->scene, error)))
         end_all(run, error);
     progress_begin(&progress, stderr, "run", run->args->quiet || run->rank > 0);
     const bool done = simulate(run, &progress, error);

@@ -272,9 +272,11 @@ static void share_take(const Ranks *ranks, const Constants *constants, const Ini
                                     .pressure = share->pressure};
 }
 
-/* The first shares: by the particles of each cell, which all ranks know. */
+/* The first shares: by the particles of each cell, which all ranks know; of an empty box by its cells. */
 static void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial)
 {
+    for (size_t cell = 0; initial->count == 0 && cell < constants->cells.count; cell++)
+        ranks->weight[cell] = 1;
     for (size_t i = 0; i < initial->count; i++)
         ranks->weight[cpu_cell_of(constants, initial->position + 3 * i)]++;
     dist_balance(ranks->dist, ranks->weight, true);

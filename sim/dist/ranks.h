@@ -4,6 +4,7 @@
 #define SLOSH_RANKS_H
 
 #include "sim/world/backend.h"
+#include "sim/world/world_state.h"
 
 /* Its name in a def; slosh-dist puts it in the place of "cpu". backend_add it first. All reads of the
    particles (world_read, snapshots) are collective; each rank gets what it has arrays for. */
@@ -20,6 +21,9 @@ typedef struct RanksFigures {
 
 /* Of the last world that was made; this rank's own. Not collective. */
 void ranks_figures(RanksFigures *figures);
+
+/* A state that the first rank has becomes that of all: of the def's worlds. Collective. */
+void ranks_spread(WorldState *state, const WorldDef *def);
 
 /* Whether shares follow the time that ranks take (the default), or stay as they began. Before the world. */
 void ranks_balance(bool on);

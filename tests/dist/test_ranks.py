@@ -1,0 +1,99 @@
+"""slosh-dist gives the bits of slosh run on 1, 2, 3 and 4 ranks: each method, a box that moves, solids, emitters and drains,
+periodic sides, adaptive steps, a rank with hardly a particle, trouble that is gone back from, and runs that go on on other
+ranks."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import h5py
+import numpy
+
+SLOSH, DIST, MPIRUN = (sys.argv.pop(1) for _ in range(3))
+RANKS = dict(OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+             OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none",
+             OMPI_MCA_btl="self,vader", OMPI_MCA_pml="ob1")
+
+
+def states(path):
+    """Of each step its time, its numbers, and its columns by id."""
+    with h5py.File(path) as file:
+        for k in range(len([name for name in file if name.startswith("Step#")])):
+            step = file[f"Step#{k}"]
+            order = numpy.argsort(step["id"][:])
+            yield (step.attrs["TimeValue"], step.attrs["restart"][:].tobytes(),
+                   {name: step[name][:][order].tobytes() for name in step})
+
+
+class Ranks(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_one(self, *args, name="one"):
+        path = self.folder / f"{name}.h5part"
+        subprocess.run([SLOSH, "run", *args, "-o", path, "--quiet", "--threads", "1"], check=True, capture_output=True, timeout=60)
+        return path
+
+    def dist(self, ranks, *args, name="ranks"):
+        path = self.folder / f"{name}.h5part"
+        done = subprocess.run([MPIRUN, "-n", str(ranks), DIST, "run", *args, "-o", path, "--quiet", "--threads", "1"],
+                              env=os.environ | RANKS, capture_output=True, text=True, timeout=60)
+        return path, done
+
+    def check(self, *args, ranks=(3,)):
+        one = list(states(self.run_one(*args)))
+        self.assertGreater(len(one), 1)
+        for count in ranks:
+            path, done = self.dist(count, *args)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with self.subTest(args=args, ranks=count):
+                many = list(states(path))
+                self.assertEqual(len(many), len(one))
+                for step, (a, b) in enumerate(zip(one, many)):
+                    self.assertEqual(a[0], b[0], f"time of step {step}")
+                    self.assertEqual(sorted(a[2]), sorted(b[2]))
+                    self.assertEqual([name for name in a[2] if a[2][name] != b[2][name]], [], f"columns of step {step}")
+                    self.assertEqual(a[1], b[1], f"numbers of step {step}")
+
+    def test_the_same_bits_on_1_to_4_ranks(self):
+        """In a box that moves."""
+        self.check("box_slosh", "--particles", "800", "--time", "0.2", "--every", "0.1", ranks=(1, 2, 3, 4))
+
+    def test_methods(self):
+        for method in ("wcsph", "dfsph", "pbf"):
+            self.check("dam_break", "--method", method, "--particles", "500", "--time", "0.06", "--every", "0.03")
+
+    def test_solids_and_adaptive_steps(self):
+        self.check("paddle", "--particles", "800", "--time", "0.05", "--every", "0.02", "--set", "solver.step.mode=cfl",
+                   "--backend", "cpu")
+
+    def test_fluid_that_comes_and_goes(self):
+        self.check("fountain", "--set", "particles.spacing=0.02", "--time", "0.4", "--every", "0.2", "--backend", "cpu")
+
+    def test_periodic_sides_and_few_particles(self):
+        self.check("poiseuille", "--particles", "200", "--time", "0.02", "--every", "0.01", "--backend", "cpu", ranks=(4,))
+
+    def test_going_back_and_going_on(self):
+        """A step that is too long: the sentinel halves it on all ranks. Two ranks begin a run, three end it."""
+        scene = ["dam_break", "--particles", "300", "--every", "0.1", "--set", "solver.step.substeps=2"]
+        one = self.run_one(*scene, "--time", "0.4")
+        path, done = self.dist(2, *scene, "--time", "0.2")
+        self.assertIn("1/2 of the step", done.stderr)
+        path, done = self.dist(3, *scene, "--time", "0.4", "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([state[:2] for state in states(path)], [state[:2] for state in states(one)])
+        self.assertEqual(list(states(path)), list(states(one)))
+
+    def test_what_is_not_there_is_refused(self):
+        path, done = self.dist(2, "ducks", "--backend", "cpu", "--time", "0.01")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(len([line for line in done.stderr.splitlines() if "float" in line]), 1, done.stderr)
+        self.assertFalse(path.exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
