@@ -83,6 +83,22 @@ static inline size_t cpu_owned(const Cpu *cpu, size_t k)
     return cpu->owned_at ? cpu->owned_at[k] : k;
 }
 
+/* Whether its own k-th particle and the one before were in one cell when `grid` looked: cells are whole
+   wherever the particles are shared, so what is added up cell by cell has the same bits there. */
+static inline bool cpu_cell_goes_on(const Cpu *cpu, size_t k)
+{
+    return k > 0 && cpu->gridded == cpu->count &&
+           cpu->cell[cpu_owned(cpu, k)] == cpu->cell[cpu_owned(cpu, k - 1)];
+}
+
+/* The first of its own particles from the k-th on that begins a cell; Cpu.owned if none does. */
+static inline size_t cpu_cell_first(const Cpu *cpu, size_t k)
+{
+    while (k < cpu->owned && cpu_cell_goes_on(cpu, k))
+        k++;
+    return k;
+}
+
 /* What the pair sums need of particle i's fluid, of the terms that the scene names. */
 static inline void cpu_fill_terms(const Cpu *cpu, size_t i)
 {

@@ -1,4 +1,5 @@
-/* Sums over a column: exact, so that they depend neither on threads nor on who adds up which part. */
+/* Sums over a column: of each cell, and of these exactly, so that they depend neither on threads nor on who
+   adds up which part. */
 #include "sim/cpu/cpu.h"
 
 typedef struct ExcessPass {
@@ -10,7 +11,7 @@ typedef struct ExcessPass {
 
 static void add_part(ExcessPass *pass, const ExactSum *sum, float most)
 {
-#pragma omp critical(excess)
+#pragma omp critical
     {
         exact_merge(pass->sum, sum);
         pass->most = most > pass->most ? most : pass->most;
@@ -22,11 +23,15 @@ static void excess_range(void *context, size_t begin, size_t end)
     ExcessPass *pass = context;
     ExactSum sum = {.strange = false};
     float most = 0;
-    for (size_t k = begin; k < end; k++) {
-        const float value = pass->column[cpu_owned(pass->cpu, k)];
-        if (!(value <= 0)) /* NaN too */
-            exact_add(&sum, (double)value);
-        most = value > most ? value : most;
+    const size_t last = cpu_cell_first(pass->cpu, end);
+    for (size_t k = cpu_cell_first(pass->cpu, begin); k < last;) {
+        double of_cell = 0;
+        do {
+            const float value = pass->column[cpu_owned(pass->cpu, k)];
+            of_cell += value < 0 ? 0 : (double)value; /* NaN stays */
+            most = value > most ? value : most;
+        } while (++k < last && cpu_cell_goes_on(pass->cpu, k));
+        exact_add(&sum, of_cell);
     }
     add_part(pass, &sum, most);
 }
@@ -50,8 +55,14 @@ static void sum_range(void *context, size_t begin, size_t end)
 {
     ExcessPass *pass = context;
     ExactSum sum = {.strange = false};
-    for (size_t k = begin; k < end; k++)
-        exact_add(&sum, (double)pass->column[cpu_owned(pass->cpu, k)]);
+    const size_t last = cpu_cell_first(pass->cpu, end);
+    for (size_t k = cpu_cell_first(pass->cpu, begin); k < last;) {
+        double of_cell = 0;
+        do
+            of_cell += (double)pass->column[cpu_owned(pass->cpu, k)];
+        while (++k < last && cpu_cell_goes_on(pass->cpu, k));
+        exact_add(&sum, of_cell);
+    }
     add_part(pass, &sum, 0);
 }
 

@@ -65,29 +65,40 @@ typedef struct EnergyPass {
     ExactSum *sums;
 } EnergyPass;
 
-/* What each particle adds goes exactly into the sums: these decide about steps, and ranks that share the
-   particles have to come to the same bits. */
+/* Adds its own particles of one cell from the k-th on, before `last`; where the next cell begins. */
+static size_t energy_cell(const EnergyPass *pass, size_t k, size_t last, EnergySums *sums)
+{
+    const Cpu *cpu = pass->cpu;
+    const CpuParticles *p = &cpu->now;
+    do {
+        const size_t i = cpu_owned(cpu, k);
+        const float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+        energy_add(sums, cpu->constants, p->fluid[i], (double)particle_compression(p, cpu->constants, i), x,
+                   v);
+        if (pass->turning)
+            energy_add_turning(sums, cpu->constants, p->fluid[i], x, v);
+    } while (++k < last && cpu_cell_goes_on(cpu, k));
+    return k;
+}
+
+/* What a cell's particles add goes exactly into the sums: these decide about steps, and ranks that share the
+   cells have to come to the same bits. */
 static void energy_range(void *context, size_t begin, size_t end)
 {
     const EnergyPass *pass = context;
-    const Cpu *cpu = pass->cpu;
-    const CpuParticles *p = &cpu->now;
+    const size_t last = cpu_cell_first(pass->cpu, end);
+    const int count = pass->turning ? ENERGY_SUMS : ENERGY_ALWAYS;
     ExactSum sums[ENERGY_SUMS] = {{.strange = false}};
-    for (size_t k = begin; k < end; k++) {
-        const size_t i = cpu_owned(cpu, k);
-        const float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        EnergySums one = {0};
+    for (size_t k = cpu_cell_first(pass->cpu, begin); k < last;) {
+        EnergySums cell = {0};
         double each[ENERGY_SUMS];
-        energy_add(&one, cpu->constants, p->fluid[i], (double)particle_compression(p, cpu->constants, i), x,
-                   v);
-        if (pass->turning)
-            energy_add_turning(&one, cpu->constants, p->fluid[i], x, v);
-        memcpy(each, &one, sizeof each);
-        for (int s = 0; s < (pass->turning ? ENERGY_SUMS : ENERGY_ALWAYS); s++)
+        k = energy_cell(pass, k, last, &cell);
+        memcpy(each, &cell, sizeof each);
+        for (int s = 0; s < count; s++)
             exact_add(&sums[s], each[s]);
     }
-#pragma omp critical(energy)
-    for (int s = 0; s < ENERGY_SUMS; s++)
+#pragma omp critical
+    for (int s = 0; s < count; s++)
         exact_merge(&pass->sums[s], &sums[s]);
 }
 

@@ -857,10 +857,10 @@ class Panel(Window):
         self.assertEqual((out['panel'], out['paused'], out['camera_auto']), (False, False, False))
 
     def test_a_slider_changes_the_fluid(self):
-        self.open('--record', 'a.rec', size=(760, 598))
+        self.open('--record', 'a.rec', size=(760, 620))
         self.pause()
-        self.drag(1, [(60, 546), (60, 546)])  # the heading World, closed at first
-        self.drag(1, [(248, 568), (255, 568), (262, 568)])
+        self.drag(1, [(60, 568), (60, 568)])  # the heading World, closed at first
+        self.drag(1, [(248, 590), (255, 590), (262, 590)])
         self.keys('space')
         self.pictures(5)
         self.quit()

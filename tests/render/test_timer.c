@@ -135,8 +135,8 @@ static bool has_stage(const char *view, Stage stage)
         Stage stage;
     } of_one_view[] = {{"spheres", STAGE_VISIBILITY}, {"splat", STAGE_VISIBILITY}, {"splat", STAGE_BLEND},
                        {"splat", STAGE_THICKNESS},    {"splat", STAGE_FILTER},     {"splat", STAGE_ANTIALIAS},
-                       {"spheres", STAGE_SHADE},      {"splat", STAGE_SHADE},      {"volume", STAGE_VOXELIZE},
-                       {"volume", STAGE_RAYCAST}};
+                       {"splat", STAGE_FOAM},         {"spheres", STAGE_SHADE},    {"splat", STAGE_SHADE},
+                       {"volume", STAGE_VOXELIZE},    {"volume", STAGE_RAYCAST}};
     bool named = false, own = false;
     for (size_t i = 0; i < sizeof of_one_view / sizeof *of_one_view; i++) {
         named |= of_one_view[i].stage == stage;
