@@ -67,6 +67,12 @@ class Ranks(unittest.TestCase):
         for method in ("wcsph", "dfsph", "pbf"):
             self.check("dam_break", "--method", method, "--particles", "500", "--time", "0.06", "--every", "0.03")
 
+    def test_passes_behind_the_kick(self):
+        """A shift that carries velocity reads that of ghosts as the kick left it."""
+        self.check("box_slosh", "--method", "wcsph", "--set", "solver.shifting=0.2",
+                   "--set", "solver.corrected_gradient=true", "--particles", "400", "--time", "0.04", "--every", "0.02",
+                   ranks=(3,))
+
     def test_solids_and_adaptive_steps(self):
         self.check("paddle", "--particles", "800", "--time", "0.05", "--every", "0.02", "--set", "solver.step.mode=cfl",
                    "--backend", "cpu")
