@@ -6,4 +6,11 @@
 
 int dist_run(const Args *args);
 
+/* What the parts of a step take a rank, with --json as a file for dist_model. */
+int dist_bench(const Args *args);
+
+/* Files of dist_bench: what the model of cost fitted to them says, of them and of a run that nobody made. On
+   one rank. */
+int dist_model(int count, char *const paths[]);
+
 #endif

@@ -41,6 +41,13 @@ size_t dist_ghosts(const Dist *dist)
     return dist->ghost_count;
 }
 
+DistSent dist_sent(Dist *dist)
+{
+    const DistSent sent = dist->sent;
+    dist->sent = (DistSent){0, 0};
+    return sent;
+}
+
 static void place_of(const CellGrid *cells, uint32_t cell, int at[3])
 {
     at[0] = (int)(cell % (uint32_t)cells->size[0]);

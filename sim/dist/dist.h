@@ -25,8 +25,12 @@ void dist_balance(Dist *dist, const double *weight, bool known);
 /* Particles that stand in cells of others go there. There are no ghosts before. */
 void dist_migrate(Dist *dist, Cpu *cpu);
 
-/* Brings the ghosts and makes the grid. Of ghosts places, ids and fluids are there, and nothing else. */
+/* Brings the ghosts, for the grid that is made next. Of ghosts places, ids and fluids are there, and nothing
+ * else. */
 void dist_halo(Dist *dist, Cpu *cpu);
+
+/* Behind cpu_grid, which put the ghosts and those that others see in other places. */
+void dist_follow(Dist *dist, Cpu *cpu);
 
 /* Ghosts get what their owners have now: of the rows of cpu->all whose bits are set; with `motion` Cpu.motion
    too. */
@@ -48,8 +52,15 @@ const uint8_t *dist_foreign(const Dist *dist);
 /* Takes the ghosts out; the grid is then none. */
 void dist_drop(Dist *dist, Cpu *cpu);
 
-/* Ghosts at hand; seconds in calls of Zoltan since it began. */
+/* Ghosts at hand. */
 size_t dist_ghosts(const Dist *dist);
+
+/* What this rank sent to others since the last call: movers, ghosts and their values. What plans and sums
+   over all ranks take is not in it. */
+typedef struct DistSent {
+    size_t bytes, messages;
+} DistSent;
+DistSent dist_sent(Dist *dist);
 
 /* Says "slosh-dist: rank N: ..." on standard error and ends all ranks. */
 _Noreturn void dist_die(const char *format, ...) __attribute__((format(printf, 1, 2)));

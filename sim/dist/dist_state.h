@@ -39,6 +39,7 @@ struct Dist {
     int *to;                      /* ranks that something goes to */
     char *out, *in;               /* what goes and what comes */
     size_t to_room, out_room, in_room;
+    DistSent sent;
 };
 
 /* Ends all ranks where Zoltan failed. */

@@ -83,6 +83,18 @@ static ZOLTAN_COMM_OBJ *make_plan(Dist *dist, size_t count, int tag, int *come)
     return plan;
 }
 
+/* `count` records of dist->out go, others come to dist->in. */
+static void carry(Dist *dist, ZOLTAN_COMM_OBJ *plan, int tag, size_t count, size_t size, const char *what)
+{
+    int messages = 0;
+    dist_check(Zoltan_Comm_Do(plan, tag, dist->out, (int)size, dist->in), what);
+    dist_check(Zoltan_Comm_Info(plan, &messages, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
+                                NULL, NULL),
+               what);
+    dist->sent.bytes += count * size;
+    dist->sent.messages += (size_t)messages;
+}
+
 /* Takes those that leave out of the arrays, into dist->out. */
 static size_t take_leavers(Dist *dist, Cpu *cpu, size_t size)
 {
@@ -114,7 +126,7 @@ void dist_migrate(Dist *dist, Cpu *cpu)
     const size_t leave = take_leavers(dist, cpu, size);
     ZOLTAN_COMM_OBJ *plan = make_plan(dist, leave, TAG_PARTICLES, &come);
     dist_reserve(&dist->in, &dist->in_room, (size_t)come * size);
-    dist_check(Zoltan_Comm_Do(plan, TAG_PARTICLES, dist->out, (int)size, dist->in), "particles");
+    carry(dist, plan, TAG_PARTICLES, leave, size, "particles");
     Zoltan_Comm_Destroy(&plan);
     reserve_particles(cpu, cpu->count + (size_t)come);
     for (int k = 0; k < come; k++)
@@ -172,35 +184,34 @@ static void append_ghosts(Dist *dist, Cpu *cpu)
     }
 }
 
+void dist_halo(Dist *dist, Cpu *cpu)
+{
+    int come;
+    if (dist->size == 1)
+        return;
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
+    send_ghosts(dist, cpu);
+    dist->plan = make_plan(dist, dist->send_count, TAG_GHOSTS, &come);
+    dist->ghost_count = (size_t)come;
+    dist_reserve(&dist->in, &dist->in_room, dist->ghost_count * sizeof(Ghost));
+    dist_reserve(&dist->ghost_at, &dist->ghost_room, dist->ghost_count * sizeof *dist->ghost_at);
+    carry(dist, dist->plan, TAG_GHOSTS, dist->send_count, sizeof(Ghost), "ghosts");
+    reserve_particles(cpu, cpu->count + dist->ghost_count);
+    append_ghosts(dist, cpu);
+}
+
 /* Where they stand behind the grid. The grid's ranks are of no use any more. */
-static void follow_sort(Dist *dist, Cpu *cpu)
+void dist_follow(Dist *dist, Cpu *cpu)
 {
     uint32_t *place = cpu->rank;
+    if (dist->size == 1)
+        return;
     for (size_t i = 0; i < cpu->count; i++)
         place[cpu->order[i]] = (uint32_t)i;
     for (size_t k = 0; k < dist->send_count; k++)
         dist->send_at[k] = place[dist->send_at[k]];
     for (size_t k = 0; k < dist->ghost_count; k++)
         dist->ghost_at[k] = place[dist->ghost_at[k]];
-}
-
-void dist_halo(Dist *dist, Cpu *cpu)
-{
-    int come;
-    if (dist->size > 1) {
-        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
-        send_ghosts(dist, cpu);
-        dist->plan = make_plan(dist, dist->send_count, TAG_GHOSTS, &come);
-        dist->ghost_count = (size_t)come;
-        dist_reserve(&dist->in, &dist->in_room, dist->ghost_count * sizeof(Ghost));
-        dist_reserve(&dist->ghost_at, &dist->ghost_room, dist->ghost_count * sizeof *dist->ghost_at);
-        dist_check(Zoltan_Comm_Do(dist->plan, TAG_GHOSTS, dist->out, sizeof(Ghost), dist->in), "ghosts");
-        reserve_particles(cpu, cpu->count + dist->ghost_count);
-        append_ghosts(dist, cpu);
-    }
-    cpu_grid(cpu);
-    if (dist->size > 1)
-        follow_sort(dist, cpu);
 }
 
 /* ---- their values ---- */
@@ -243,7 +254,7 @@ void dist_update(Dist *dist, Cpu *cpu, uint64_t wanted, bool motion)
     if (motion)
         pack((const char *)cpu->motion, sizeof *cpu->motion, dist->send_at, dist->send_count, record,
              dist->out + offset);
-    dist_check(Zoltan_Comm_Do(dist->plan, TAG_VALUES, dist->out, (int)record, dist->in), "values of ghosts");
+    carry(dist, dist->plan, TAG_VALUES, dist->send_count, record, "values of ghosts");
     offset = 0;
     for (int r = 0; r < rows.count; r++)
         for (int c = 0; c < rows.row[r]->components; c++, offset += column_size(rows.row[r]))

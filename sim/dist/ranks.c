@@ -41,15 +41,20 @@ typedef struct Ranks {
 } Ranks;
 
 static bool balances = true;
-static RanksFigures *told;
+static Ranks *told;
 
 void ranks_figures(RanksFigures *figures)
 {
-    *figures = told ? *told : (RanksFigures){.compute = 0};
-    if (told) {
-        told->compute = told->exchange = told->balance = told->wait = 0;
-        told->balances = 0;
-    }
+    WorldInfo info;
+    *figures = (RanksFigures){.compute = 0};
+    if (!told)
+        return;
+    backend_cpu.info(told->cpu, &info);
+    *figures = told->figures;
+    figures->bytes = info.state_bytes;
+    figures->owned = told->cpu->owned;
+    figures->ghosts = dist_ghosts(told->dist);
+    told->figures = (RanksFigures){.compute = 0};
 }
 
 void ranks_balance(bool on)
@@ -83,7 +88,10 @@ static void computed(Ranks *ranks, Clock since)
 
 static void exchanged(Ranks *ranks, Clock since)
 {
+    const DistSent sent = dist_sent(ranks->dist);
     ranks->figures.exchange += MPI_Wtime() - since.wall;
+    ranks->figures.sent += sent.bytes;
+    ranks->figures.messages += sent.messages;
 }
 
 /* For who is slower, before an exchange, so that the exchange's time is its own. */
@@ -182,15 +190,17 @@ static void ranks_grid(void *state)
     wait_for_others(ranks);
     if (ranks->due)
         share_anew(ranks);
-    const Clock begin = clock_now();
+    Clock begin = clock_now();
     dist_drop(ranks->dist, ranks->cpu);
     dist_migrate(ranks->dist, ranks->cpu);
     dist_halo(ranks->dist, ranks->cpu);
     exchanged(ranks, begin);
+    begin = clock_now();
+    cpu_grid(ranks->cpu);
+    dist_follow(ranks->dist, ranks->cpu);
+    computed(ranks, begin);
     ranks->fresh = rows_named(ranks->cpu, "position id fluid");
     ranks->came_count = 0;
-    ranks->figures.owned = ranks->cpu->owned;
-    ranks->figures.ghosts = dist_ghosts(ranks->dist);
 }
 
 /* ---- begin and end ---- */
@@ -198,7 +208,7 @@ static void ranks_grid(void *state)
 static void ranks_destroy(void *state)
 {
     Ranks *ranks = state;
-    if (told == &ranks->figures)
+    if (told == ranks)
         told = NULL;
     if (ranks->cpu)
         backend_cpu.destroy(ranks->cpu);
@@ -312,7 +322,7 @@ static void *ranks_create(const Constants *constants, const WorldDef *def, const
     share_free(&share);
     if (size > 1 && !cpu_share(ranks->cpu, dist_foreign(ranks->dist)))
         dist_die("no memory for %zu particles; use more ranks or a larger spacing", ranks->cpu->count);
-    told = &ranks->figures;
+    told = ranks;
     return ranks;
 }
 
@@ -398,8 +408,11 @@ static void ranks_guide(void *state, const Guide *guides, int count)
 static StepWatch ranks_watch(void *state)
 {
     Ranks *ranks = state;
+    Clock begin = clock_now();
     StepWatch watch = cpu_watch(ranks->cpu);
+    computed(ranks, begin);
     wait_for_others(ranks);
+    begin = clock_now();
     double most[5] = {(double)watch.max_speed, (double)watch.max_acceleration,
                       (double)watch.max_density_ratio, !watch.bounded, watch.memory};
     reduce_most(most, 5);
@@ -409,6 +422,7 @@ static StepWatch ranks_watch(void *state)
     watch.bounded = most[3] == 0;
     watch.memory = most[4] != 0;
     ranks->guarded = ranks->began_guarded + (size_t)reduce_count((int64_t)ranks->cpu->guarded);
+    exchanged(ranks, begin);
     return watch;
 }
 
@@ -416,10 +430,14 @@ static Excess ranks_excess(void *state, const ColumnDef *column)
 {
     Ranks *ranks = state;
     ExactSum sum = {.strange = false};
+    Clock begin = clock_now();
     double most = (double)cpu_excess_part(ranks->cpu, column, &sum);
+    computed(ranks, begin);
     wait_for_others(ranks);
+    begin = clock_now();
     reduce_exact(&sum, 1);
     reduce_most(&most, 1);
+    exchanged(ranks, begin);
     return (Excess){.mean = exact_value(&sum) / (ranks->total > 0 ? (double)ranks->total : 1),
                     .greatest = (float)most};
 }
@@ -428,9 +446,13 @@ static double ranks_sum(void *state, const ColumnDef *column)
 {
     Ranks *ranks = state;
     ExactSum sum = {.strange = false};
+    Clock begin = clock_now();
     cpu_sum_part(ranks->cpu, column, &sum);
+    computed(ranks, begin);
     wait_for_others(ranks);
+    begin = clock_now();
     reduce_exact(&sum, 1);
+    exchanged(ranks, begin);
     return exact_value(&sum);
 }
 

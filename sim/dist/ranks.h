@@ -15,7 +15,8 @@ extern const Backend backend_ranks;
 typedef struct RanksFigures {
     double compute, exchange, balance, wait; /* s: passes; what ghosts and movers take; shares; for others */
     size_t owned, ghosts;                    /* particles now */
-    size_t bytes;                            /* memory of the particles' state */
+    size_t bytes;                            /* memory of the particles' state, ghosts included */
+    size_t sent, messages;                   /* bytes to others; see dist_sent */
     int balances;                            /* how often cells changed hands */
 } RanksFigures;
 

@@ -1,0 +1,83 @@
+#include "app/dist/stand.h"
+
+#include "app/base/exit_code.h"
+#include "app/base/interrupt.h"
+#include "sim/dist/ranks.h"
+
+#include <mpi.h>
+#include <stdio.h>
+#include <string.h>
+
+void stand_begin(Stand *stand)
+{
+    MPI_Comm_rank(MPI_COMM_WORLD, &stand->rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &stand->size);
+    interrupt_install();
+}
+
+void stand_say(const Stand *stand, const char *words)
+{
+    if (stand->rank == 0)
+        fprintf(stderr, "%s\n", words);
+}
+
+int stand_ranks_here(void)
+{
+    MPI_Comm machine;
+    int ranks;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &ranks);
+    MPI_Comm_free(&machine);
+    return ranks;
+}
+
+/* Of the processors that the ranks of a machine share. */
+static int threads_each(void)
+{
+    const int each = world_processors() / stand_ranks_here();
+    return each > 1 ? each : 1;
+}
+
+int stand_open(Stand *stand, const Args *args, const char *command, Error *error)
+{
+    Notes notes;
+    SceneSettings settings = args->settings;
+    if (!scene_load(args->scenes[0], &settings, &stand->scene, &notes, error))
+        return EXIT_USAGE;
+    WorldDef def = stand->scene.world;
+    if (strcmp(def.backend, "cpu") != 0) {
+        error_set(error, "slosh-dist %s: it has backend cpu alone, not %s; use slosh %s, or --backend cpu",
+                  command, def.backend, command);
+        return EXIT_USAGE;
+    }
+    if (stand->rank == 0)
+        notes_print(&notes, stderr);
+    snprintf(def.backend, sizeof def.backend, "%s", RANKS_BACKEND);
+    if (*world_threads(&def) == 0)
+        *world_threads(&def) = threads_each();
+    stand->world = world_create(&def, error);
+    if (!stand->world)
+        return EXIT_USAGE;
+    world_info(stand->world, &stand->info);
+    return 0;
+}
+
+bool stand_interrupted(void)
+{
+    int any = interrupted();
+    MPI_Allreduce(MPI_IN_PLACE, &any, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return any;
+}
+
+bool stand_frame(Stand *stand, Error *error)
+{
+    char words[256];
+    bool ok = true;
+    do {
+        ok = world_substep(stand->world, NULL, error);
+        world_info(stand->world, &stand->info);
+        if (session_trouble_is_new(&stand->told, &stand->info.trouble))
+            stand_say(stand, session_trouble_text(&stand->info.trouble, words));
+    } while (ok && stand->info.within_frame);
+    return ok;
+}
