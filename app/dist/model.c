@@ -68,13 +68,14 @@ static bool one_kind(const Sample *samples, int count, Error *error)
 static bool fit(const Sample *samples, int fitted, CostModel *model, Error *error)
 {
     CostSample *costs = calloc((size_t)fitted + 1, sizeof *costs);
-    if (!costs || fitted == 0) {
-        free(costs);
-        return error_set(error, costs ? "slosh-dist model: no file to fit" : "no memory for the samples");
+    if (!costs) {
+        error_set(error, "no memory for the samples");
+        return false;
     }
     for (int k = 0; k < fitted; k++)
         costs[k] = samples[k].cost;
-    const bool ok = cost_fit(costs, fitted, samples[0].dimensions, model, error);
+    const bool ok = fitted > 0 ? cost_fit(costs, fitted, samples[0].dimensions, model, error)
+                               : error_set(error, "slosh-dist model: no file to fit");
     free(costs);
     return ok;
 }
@@ -124,7 +125,7 @@ static void print_beside(const CostModel *model, const Sample *sample, bool fitt
 int dist_model(int count, char *const paths[])
 {
     Error error = {{0}};
-    CostModel model;
+    CostModel model = {.dimensions = 3};
     int fitted, code = 0;
     Sample *samples = calloc((size_t)count, sizeof *samples);
     const int read = samples ? read_samples(count, paths, samples, &fitted, &error) : -1;
