@@ -17,7 +17,7 @@ SLOSH, DIST, MPIRUN = (sys.argv.pop(1) for _ in range(3))
 RANKS = dict(OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
              OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none",
              OMPI_MCA_btl="self,vader", OMPI_MCA_pml="ob1")
-LONG = ["dam_break", "--particles", "500", "--every", "0.1", "--quiet", "--threads", "1"]
+LONG = ["dam_break", "--particles", "500", "--every", "0.02", "--quiet", "--threads", "1"]
 
 
 def columns(path):
@@ -46,7 +46,7 @@ class Failures(unittest.TestCase):
     def ranks_of(self, ran):
         """Processes of a run whose file is begun; the first rank is the one that has it open."""
         until = time.monotonic() + 15
-        while not (self.path.exists() and self.path.stat().st_size > 300000) and time.monotonic() < until:
+        while not (self.path.exists() and self.path.stat().st_size > 150000) and time.monotonic() < until:
             time.sleep(0.02)
         found = subprocess.run(["pgrep", "-P", str(ran.pid), "slosh-dist"], capture_output=True, text=True).stdout.split()
         return [int(pid) for pid in found]
