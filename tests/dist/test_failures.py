@@ -16,7 +16,8 @@ import h5py
 SLOSH, DIST, MPIRUN = (sys.argv.pop(1) for _ in range(3))
 RANKS = dict(OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
              OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none",
-             OMPI_MCA_btl="self,vader", OMPI_MCA_pml="ob1")
+             OMPI_MCA_btl="self,vader", OMPI_MCA_pml="ob1",
+             OMPI_MCA_odls_base_sigkill_timeout="0")  # s that mpirun gives the other ranks, twice
 LONG = ["dam_break", "--particles", "500", "--every", "0.02", "--quiet", "--threads", "1"]
 
 
