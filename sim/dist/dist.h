@@ -32,9 +32,9 @@ void dist_halo(Dist *dist, Cpu *cpu);
 /* Behind cpu_grid, which put the ghosts and those that others see in other places. */
 void dist_follow(Dist *dist, Cpu *cpu);
 
-/* Ghosts get what their owners have now: of the rows of cpu->all whose bits are set; with `motion` Cpu.motion
-   too. */
-void dist_update(Dist *dist, Cpu *cpu, uint64_t rows, bool motion);
+/* Ghosts get what their owners have now: of the rows of cpu->all whose bits are wanted; with `motion`
+   Cpu.motion too. */
+void dist_update(Dist *dist, Cpu *cpu, uint64_t wanted, bool motion);
 
 void dist_end(Dist *dist); /* NULL is allowed */
 
