@@ -9,6 +9,7 @@ typedef struct Lattice {
 /* Prime factors of the ranks, the greatest first, each along the side that has the fewest ranks. */
 static Lattice lattice(int ranks, int dimensions)
 {
+    const int sides = dimensions == 2 ? 2 : 3;
     int along[3] = {1, 1, 1}, prime = ranks;
     Lattice result = {0, 1};
     while (ranks > 1) {
@@ -20,14 +21,14 @@ static Lattice lattice(int ranks, int dimensions)
                 i = 1;
             }
         int least = 0;
-        for (int d = 1; d < dimensions; d++)
+        for (int d = 1; d < sides; d++)
             if (along[d] < along[least])
                 least = d;
         along[least] *= prime;
         ranks /= prime;
         prime = ranks;
     }
-    for (int d = 0; d < dimensions; d++) {
+    for (int d = 0; d < sides; d++) {
         result.faces += 2 - 2.0 / along[d];
         result.neighbours *= 3 - 2.0 / along[d];
     }

@@ -47,6 +47,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     float square[BLOCK_MOST + LANES];
     int coincident = 0;
     for (int k = 0; k < count; k++) {
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): block_add wrote `count` of them
         const float dx = away(args, 0, at[0] - x[k]), dy = away(args, 1, at[1] - y[k]),
                     dz = away(args, 2, at[2] - z[k]);
         square[k] = dx * dx + dy * dy + dz * dz;

@@ -131,13 +131,18 @@ typedef struct Making {
     uint32_t used; /* entries of the range's memory */
 } Making;
 
+/* Of what is set aside, and of ghosts: nobody sees the first, and another lists the second. */
+static bool has_no_lists(const PairArgs *args, uint32_t cell)
+{
+    return cell == args->constants->cells.count || (args->foreign && args->foreign[cell]);
+}
+
 /* Of the particles [begin, end), those of one cell or a part of them. Boundary particles and ghosts have no
    lists. */
 static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, Making *making)
 {
     const uint32_t cell = args->cell[begin];
-    const bool aside = cell == args->constants->cells.count /* nobody sees those */
-                       || (args->foreign && args->foreign[cell]);
+    const bool aside = has_no_lists(args, cell);
     Rows rows = {.count = 0};
     Block block;
     if (!aside)

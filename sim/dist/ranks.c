@@ -253,12 +253,12 @@ static void share_take(const Ranks *ranks, const Constants *constants, const Ini
     size_t count = 0;
     for (size_t i = 0; i < from->count; i++)
         count += is_own(ranks->dist, constants, from->position + 3 * i);
-    *share = (Share){.position = some(from->position, count, 3 * sizeof(float)),
-                     .velocity = some(from->velocity, count, 3 * sizeof(float)),
-                     .density = some(from->density, count, sizeof(float)),
-                     .pressure = some(from->pressure, count, sizeof(float)),
-                     .fluid = some(from->fluid, count, 1),
-                     .id = some(from, count, sizeof(uint32_t))};
+    share->position = some(from, count, 3 * sizeof(float));
+    share->velocity = some(from->velocity, count, 3 * sizeof(float));
+    share->density = some(from->density, count, sizeof(float));
+    share->pressure = some(from->pressure, count, sizeof(float));
+    share->fluid = some(from->fluid, count, 1);
+    share->id = some(from, count, sizeof(uint32_t));
     count = 0;
     for (size_t i = 0; i < from->count; i++) {
         if (!is_own(ranks->dist, constants, from->position + 3 * i))
