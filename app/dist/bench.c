@@ -65,7 +65,9 @@ static double resident(void)
 
 static double cores_each(const Stand *stand)
 {
-    const int here = stand_ranks_here(), processors = world_processors(), wanted = here * stand->info.threads;
+    int here, processors;
+    stand_machine(&here, &processors);
+    const int wanted = here * stand->info.threads;
     return (double)(wanted < processors ? wanted : processors) / here;
 }
 

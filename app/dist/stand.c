@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "app/dist/stand.h"
 
 #include "app/base/exit_code.h"
@@ -5,6 +6,7 @@
 #include "sim/dist/ranks.h"
 
 #include <mpi.h>
+#include <sched.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -21,21 +23,38 @@ void stand_say(const Stand *stand, const char *words)
         fprintf(stderr, "%s\n", words);
 }
 
-int stand_ranks_here(void)
+/* mpirun binds ranks to processors of their own: those of all of them count. */
+void stand_machine(int *ranks, int *processors)
 {
     MPI_Comm machine;
-    int ranks;
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    sched_getaffinity(0, sizeof set, &set);
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
-    MPI_Comm_size(machine, &ranks);
+    MPI_Allreduce(MPI_IN_PLACE, &set, (int)sizeof set, MPI_BYTE, MPI_BOR, machine);
+    MPI_Comm_size(machine, ranks);
     MPI_Comm_free(&machine);
-    return ranks;
+    *processors = CPU_COUNT(&set) > 0 ? CPU_COUNT(&set) : 1;
 }
 
 /* Of the processors that the ranks of a machine share. */
 static int threads_each(void)
 {
-    const int each = world_processors() / stand_ranks_here();
-    return each > 1 ? each : 1;
+    int ranks, processors;
+    stand_machine(&ranks, &processors);
+    return processors / ranks > 1 ? processors / ranks : 1;
+}
+
+/* Threads of a rank that is bound to fewer processors wait for each other. */
+static void tell_of_binding(const Stand *stand, int threads)
+{
+    char words[160];
+    if (threads <= world_processors())
+        return;
+    snprintf(words, sizeof words,
+             "a rank has %d threads and %d processor%s; `mpirun --bind-to none` binds no rank to processors",
+             threads, world_processors(), plural((size_t)world_processors()));
+    stand_say(stand, words);
 }
 
 int stand_open(Stand *stand, const Args *args, const char *command, Error *error)
@@ -55,6 +74,7 @@ int stand_open(Stand *stand, const Args *args, const char *command, Error *error
     snprintf(def.backend, sizeof def.backend, "%s", RANKS_BACKEND);
     if (*world_threads(&def) == 0)
         *world_threads(&def) = threads_each();
+    tell_of_binding(stand, *world_threads(&def));
     stand->world = world_create(&def, error);
     if (!stand->world)
         return EXIT_USAGE;

@@ -30,7 +30,7 @@ bool stand_interrupted(void);
 /* On standard error, of the first rank alone. */
 void stand_say(const Stand *stand, const char *words);
 
-/* Ranks on this rank's machine. */
-int stand_ranks_here(void);
+/* Ranks on this rank's machine, and the processors that they may use. */
+void stand_machine(int *ranks, int *processors);
 
 #endif
