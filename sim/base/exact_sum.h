@@ -1,5 +1,5 @@
-/* Sums that do not depend on the order of what is added: exact, and rounded once. Parts of a sum, of threads
-   or of ranks, add up to the same bits however they were shared out.
+/* Sums that do not depend on the order of what is added: exact, and rounded when one asks for it. Parts of a
+   sum, of threads or of ranks, add up to the same bits however they were shared out.
 
    After: R. Neal, "Fast exact summation using small and large superaccumulators", 2015. */
 #ifndef SLOSH_EXACT_SUM_H
