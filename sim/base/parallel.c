@@ -1,6 +1,9 @@
 #include "sim/base/parallel.h"
 
 #include <omp.h>
+#include <pthread.h>
+
+static pthread_mutex_t merging = PTHREAD_MUTEX_INITIALIZER;
 
 void parallel_ranges(int threads, size_t count, size_t grain, RangeFunction function, void *context)
 {
@@ -15,4 +18,16 @@ void parallel_ranges(int threads, size_t count, size_t grain, RangeFunction func
 int parallel_processors(void)
 {
     return omp_get_num_procs();
+}
+
+/* No OpenMP critical section: libomp with a tool reads the first thread's record there, also when that
+   thread has ended. */
+void parallel_lock(void)
+{
+    pthread_mutex_lock(&merging);
+}
+
+void parallel_unlock(void)
+{
+    pthread_mutex_unlock(&merging);
 }

@@ -11,6 +11,11 @@ typedef void (*RangeFunction)(void *context, size_t begin, size_t end);
    does not either. */
 void parallel_ranges(int threads, size_t count, size_t grain, RangeFunction function, void *context);
 
+/* What stands between these two runs on one thread at a time, of all ranges: a short merge of results whose
+   order does not matter. They do not nest. */
+void parallel_lock(void);
+void parallel_unlock(void);
+
 /* Processors that OpenMP would use. */
 int parallel_processors(void);
 

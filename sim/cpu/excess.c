@@ -11,11 +11,10 @@ typedef struct ExcessPass {
 
 static void add_part(ExcessPass *pass, const ExactSum *sum, float most)
 {
-#pragma omp critical
-    {
-        exact_merge(pass->sum, sum);
-        pass->most = most > pass->most ? most : pass->most;
-    }
+    parallel_lock();
+    exact_merge(pass->sum, sum);
+    pass->most = most > pass->most ? most : pass->most;
+    parallel_unlock();
 }
 
 static void excess_range(void *context, size_t begin, size_t end)

@@ -97,9 +97,10 @@ static void energy_range(void *context, size_t begin, size_t end)
         for (int s = 0; s < count; s++)
             exact_add(&sums[s], each[s]);
     }
-#pragma omp critical
+    parallel_lock();
     for (int s = 0; s < count; s++)
         exact_merge(&pass->sums[s], &sums[s]);
+    parallel_unlock();
 }
 
 void cpu_energy_part(Cpu *cpu, bool turning, ExactSum sums[ENERGY_SUMS])
