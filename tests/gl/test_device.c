@@ -158,7 +158,7 @@ typedef struct Viewed {
     bool fluid;  /* as the colour, which has no range */
     bool glyphs; /* arrows beside it, of a length of their own */
     int crossings;
-    bool software; /* crossings on a software driver only */
+    bool software; /* crossings on a software driver only; what it notes is a query elsewhere */
     int waits;     /* on a software driver, for what the CPU writes next */
 } Viewed;
 
@@ -225,9 +225,11 @@ static void count_frames(const char *backend, const Viewed *viewed, bool late, S
     const int wanted =
         (1 + (!late ? !viewed->fluid + viewed->glyphs : 0) + (software ? viewed->waits : 0)) * FRAMES;
     const int reads = viewed->software && !software ? 0 : FRAMES * viewed->crossings;
-    if (crossings != reads || waits != wanted || queries)
-        fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d and %d are known",
-                 backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES, reads, wanted);
+    const int asked = viewed->software && !software && !late ? FRAMES : 0;
+    if (crossings != reads || waits != wanted || queries != asked)
+        fail_msg("%s, view %td, %s: %d reads, %d waits, %d queries in %d frames; %d, %d and %d are known",
+                 backend, viewed - views, viewed->kind, crossings, waits, queries, FRAMES, reads, wanted,
+                 asked);
 }
 
 static void no_particle_crosses_in_a_frame(void **state)

@@ -212,4 +212,20 @@ static inline Upload *upload_particles(const Particles *particles, const Particl
     return upload;
 }
 
+/* Hardware snaps corners to 1/256 of a pixel, and with them all that it interpolates; here the place of the
+   k-th of four pictures beside, in pixels. The bounds of a value grow by what it differs there. */
+enum { SNAP_PLACES = 4 };
+
+static inline bool snaps(void)
+{
+    return !gl_renderer_is_software();
+}
+
+static inline void snap_place(int k, double by[2])
+{
+    const double far = 1.0 / 128;
+    by[0] = (k & 1) ? far : -far;
+    by[1] = (k & 2) ? far : -far;
+}
+
 #endif

@@ -242,7 +242,7 @@ static inline SplatHit hit_ellipsoid(const SplatScene *scene, const float shape[
     return hit;
 }
 
-static inline SplatHit hit_of(const SplatScene *scene, size_t particle, int x, int y)
+static inline SplatHit hit_of(const SplatScene *scene, size_t particle, double x, double y)
 {
     const Camera *camera = &scene->frame.camera;
     const double ray[3] = {(2 * (x + 0.5) / scene->width - 1) * camera->tangent[0],
@@ -280,7 +280,7 @@ static inline double weight_of(const SplatScene *scene, const SplatHit *hit, dou
 }
 
 /* Eq. 8 to 10 with all particles. */
-static inline SplatPixel splat_wanted(const SplatScene *scene, int x, int y)
+static inline SplatPixel splat_wanted(const SplatScene *scene, double x, double y)
 {
     SplatPixel pixel = {.depth = 1e30};
     const double eps = splat_def(&scene->def)->eps * scene->frame.particle_radius;
@@ -312,6 +312,30 @@ static inline double splat_rounding(void)
     return gl_renderer_is_software() ? 1 : 5;
 }
 
+typedef SplatPixel (*SplatFormula)(const SplatScene *scene, double x, double y);
+
+/* What the formula differs by where hardware may draw a pixel (fixture.h), the greatest of each number. False
+   where it is unsure of one of them. */
+static inline bool splat_snap(const SplatScene *scene, SplatFormula formula, int x, int y,
+                              const SplatPixel *wanted, SplatPixel *slack)
+{
+    *slack = (SplatPixel){.depth = 0};
+    for (int k = 0; snaps() && k < SNAP_PLACES; k++) {
+        double by[2];
+        snap_place(k, by);
+        const SplatPixel beside = formula(scene, x + by[0], y + by[1]);
+        if (beside.unsure || (beside.depth < 1e29) != (wanted->depth < 1e29))
+            return false;
+        slack->depth = fmax(slack->depth, fabs(beside.depth - wanted->depth));
+        slack->weight = fmax(slack->weight, fabs(beside.weight - wanted->weight));
+        for (int c = 0; c < 3; c++) {
+            slack->color[c] = fmax(slack->color[c], fabs(beside.color[c] - wanted->color[c]));
+            slack->normal[c] = fmax(slack->normal[c], fabs(beside.normal[c] - wanted->normal[c]));
+        }
+    }
+    return true;
+}
+
 /* Depth to 32 bits' precision, sums to 16 bits' of some terms. Returns how many pixels are covered. */
 static inline int splat_compare(SplatScene *scene)
 {
@@ -323,20 +347,21 @@ static inline int splat_compare(SplatScene *scene)
         const int x = i % scene->width, y = i / scene->width;
         const SplatPixel wanted = splat_wanted(scene, x, y);
         covered += drawn[i].depth < 1e29;
-        if (wanted.unsure)
+        SplatPixel snap;
+        if (wanted.unsure || !splat_snap(scene, splat_wanted, x, y, &wanted, &snap))
             continue;
-        const double slack =
-            5e-7 * (wanted.depth + (ellipsoid ? 8 : 2) * wanted.slope * scene->frame.particle_radius);
+        const double slack = snap.depth + 5e-7 * (wanted.depth + (ellipsoid ? 8 : 2) * wanted.slope *
+                                                                     scene->frame.particle_radius);
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, formula %.9g", x, y, drawn[i].depth, wanted.depth);
         const double most =
             2e-3 * (0.05 + wanted.weight) * (ellipsoid || splat_def(&scene->def)->drops ? 6 : 1);
         const double sums = splat_rounding() * most;
-        if (fabs(drawn[i].weight - wanted.weight) > most / 10)
+        if (fabs(drawn[i].weight - wanted.weight) > most / 10 + snap.weight)
             fail_msg("pixel %d %d: weight %g, formula %g", x, y, drawn[i].weight, wanted.weight);
         for (int k = 0; k < 3; k++)
-            if (fabs(drawn[i].color[k] - wanted.color[k]) > sums ||
-                fabs(drawn[i].normal[k] - wanted.normal[k]) > sums)
+            if (fabs(drawn[i].color[k] - wanted.color[k]) > sums + snap.color[k] ||
+                fabs(drawn[i].normal[k] - wanted.normal[k]) > sums + snap.normal[k])
                 fail_msg("pixel %d %d, component %d: colour %g, formula %g; normal %g, formula %g", x, y, k,
                          drawn[i].color[k], wanted.color[k], drawn[i].normal[k], wanted.normal[k]);
     }

@@ -39,7 +39,7 @@ static inline LevelChord level_chord(const SplatScene *scene, const double c[3],
     return chord;
 }
 
-static inline void level_ray(const SplatScene *scene, int x, int y, LevelRay *out)
+static inline void level_ray(const SplatScene *scene, double x, double y, LevelRay *out)
 {
     const Camera *camera = &scene->frame.camera;
     const double ray[3] = {(2 * (x + 0.5) / scene->width - 1) * camera->tangent[0],
@@ -107,7 +107,7 @@ static inline double level_root(const LevelRay *ray, double *near_miss)
 }
 
 /* Eq. 2 and 4 there; unsure where a ray grazes the surface. */
-static inline SplatPixel level_wanted(const SplatScene *scene, int x, int y)
+static inline SplatPixel level_wanted(const SplatScene *scene, double x, double y)
 {
     static LevelRay ray;
     double near_miss, slope = 0;
@@ -142,19 +142,20 @@ static inline int level_compare(SplatScene *scene, int stride)
         if (x % stride || y % stride)
             continue;
         const SplatPixel wanted = level_wanted(scene, x, y);
-        if (wanted.unsure)
+        SplatPixel snap;
+        if (wanted.unsure || !splat_snap(scene, level_wanted, x, y, &wanted, &snap))
             continue;
         covered += wanted.depth < 1e29;
-        const double slack = 1e-4 * scene->frame.particle_radius + 5e-7 * wanted.depth;
+        const double slack = snap.depth + 1e-4 * scene->frame.particle_radius + 5e-7 * wanted.depth;
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, by marching %.9g", x, y, drawn[i].depth, wanted.depth);
-        if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * splat_def(&scene->def)->level)
+        if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * splat_def(&scene->def)->level + snap.weight)
             fail_msg("pixel %d %d: field %g, wanted %g", x, y, drawn[i].weight, wanted.weight);
         const double rounding = 3e-3 * splat_rounding();
         const double most = rounding * sqrt(dot3(wanted.normal, wanted.normal));
         for (int k = 0; k < 3; k++)
-            if (fabs(drawn[i].color[k] - wanted.color[k]) > rounding * wanted.weight ||
-                fabs(drawn[i].normal[k] - wanted.normal[k]) > most)
+            if (fabs(drawn[i].color[k] - wanted.color[k]) > rounding * wanted.weight + snap.color[k] ||
+                fabs(drawn[i].normal[k] - wanted.normal[k]) > most + snap.normal[k])
                 fail_msg("pixel %d %d, component %d: colour %g, eq. 2 %g; normal %g, eq. 4 %g", x, y, k,
                          drawn[i].color[k], wanted.color[k], drawn[i].normal[k], wanted.normal[k]);
     }

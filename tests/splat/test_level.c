@@ -67,7 +67,7 @@ static void one_particle_is_a_ball(void **state)
         covered += hit.rho < 1;
         if ((drawn[i].depth < 1e29) != (hit.rho < 1))
             fail_msg("%g radii beside the centre: depth %g", hit.rho, drawn[i].depth);
-        if (hit.rho < 0.98 && fabs(drawn[i].depth - hit.depth) > 1e-4 * h)
+        if (hit.rho < 0.98 && fabs(drawn[i].depth - hit.depth) > (snaps() ? 3e-4 : 1e-4) * h)
             fail_msg("%g radii beside: depth %.9g, of the ball %.9g", hit.rho, drawn[i].depth, hit.depth);
     }
     assert_true(covered > 700);

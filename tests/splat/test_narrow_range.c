@@ -288,7 +288,8 @@ static void normals_do_not_cross_edges(void **state)
     filter_map(&map);
     for (int i = 0; i < N; i++) {
         const float *n = &map.normal[3 * i];
-        if (!(n[2] > (i % W < W / 2 ? 0.3F : 0.999999F) && n[0] > -1e-6F && fabsf(n[1]) < 0.01F))
+        const float whole = gl_renderer_is_software() ? 0.999999F : 0.999F; /* halves there */
+        if (!(n[2] > (i % W < W / 2 ? 0.3F : whole) && n[0] > -1e-6F && fabsf(n[1]) < 0.01F))
             fail_msg("pixel %d %d: normal %g %g %g", i % W, i / W, n[0], n[1], n[2]);
     }
 }

@@ -5,21 +5,31 @@
 uniform usampler2DArray buckets; // four particles a texel: their indices + 1; 0: none
 
 void meet(int j); // what the pass makes of particle j, another one, of any distance
-void meet_images(int j); // what it makes of j, itself among them, that its images see
+void meet_images(int j); // what it makes of j, itself among them, that its images see: EACH_IMAGE
 
-// The images of the particle in the walls.
-Image images[26];
-int image_count = 0;
+// The walls with the first and the last image of the particle that sees fluid: made anew for each neighbour, since a list of
+// images in a fragment shader's own memory is slow on hardware.
+int first_walls = 0, last_walls = -1;
 
-void images_make(vec3 x)
+void images_find(vec3 x)
 {
     int end = images_end(x);
-    for (int walls = 1; walls < end; walls++) {
-        Image image;
-        if (image_of(x, walls, image))
-            images[image_count++] = image;
-    }
+    Image image;
+    for (int walls = 1; walls < end; walls++)
+        if (image_of(x, walls, image)) {
+            first_walls = last_walls < 0 ? walls : first_walls;
+            last_walls = walls;
+        }
 }
+
+// Does `meet` for each image of the particle at x.
+#define EACH_IMAGE(x, image, meet)                                     \
+    for (int walls = first_walls; walls <= last_walls; walls++) {      \
+        Image image;                                                   \
+        if (image_of(x, walls, image)) {                               \
+            meet;                                                      \
+        }                                                              \
+    }
 
 // Whether particle i at x stands in the buckets itself.
 bool meet_neighbours(int i, vec3 x)
@@ -27,7 +37,7 @@ bool meet_neighbours(int i, vec3 x)
     int middle = cell_index(cell_of(x));
     uint own = uint(i + 1);
     bool placed = false;
-    images_make(x);
+    images_find(x);
     for (int row = first_row; row < last_row; row++) {
         int first = middle + cell_index(ivec3(-1, row % 3 - 1, row / 3 - 1));
         for (int cell = first; cell < first + 3; cell++) {
@@ -40,13 +50,13 @@ bool meet_neighbours(int i, vec3 x)
                         placed = true;
                     else
                         meet(int(four[k]) - 1);
-                    if (image_count > 0)
+                    if (last_walls > 0)
                         meet_images(int(four[k]) - 1);
                 }
             }
         }
     }
-    if (!placed && image_count > 0)
+    if (!placed && last_walls > 0)
         meet_images(i);
     return placed;
 }

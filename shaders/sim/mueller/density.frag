@@ -26,8 +26,7 @@ void meet(int j) { add(here - of_particle(position, j).xyz); }
 void meet_images(int j)
 {
     vec3 x = of_particle(position, j).xyz;
-    for (int k = 0; k < image_count; k++)
-        add(images[k].x - x);
+    EACH_IMAGE(here, image, add(image.x - x))
 }
 
 void main()

@@ -120,13 +120,23 @@ static GLintptr place_of(const Compute *c, int k, size_t i)
     return (GLintptr)(4 * ((size_t)k * c->capacity + i));
 }
 
+static void clear_one(const Compute *c, int k, size_t first, size_t count)
+{
+    if (count > 0)
+        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, first), (GLsizeiptr)(4 * count), GL_RED,
+                                  GL_FLOAT, NULL);
+}
+
+/* A column is either written or cleared: NVIDIA's driver (580) let a clear pass what was written behind it.
+ */
 void compute_own_upload(const Compute *c, const ParticleColumns *from)
 {
-    compute_own_clear(c, 0, c->count);
     for (int k = 0; k < c->own.count; k++)
         if (from->own[c->own.place[k]])
             glNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
                                  from->own[c->own.place[k]]);
+        else
+            clear_one(c, k, 0, c->count);
 }
 
 void compute_own_download(const Compute *c, const ParticleColumns *to)
@@ -151,9 +161,8 @@ void compute_own_copy_one(const Compute *c, int k, unsigned to)
 
 void compute_own_clear(const Compute *c, size_t first, size_t count)
 {
-    for (int k = 0; k < c->own.count && count > 0; k++)
-        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, first), (GLsizeiptr)(4 * count), GL_RED,
-                                  GL_FLOAT, NULL);
+    for (int k = 0; k < c->own.count; k++)
+        clear_one(c, k, first, count);
 }
 
 void compute_own_move(const Compute *c, unsigned order)
