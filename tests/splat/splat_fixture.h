@@ -357,7 +357,7 @@ static inline int splat_compare(SplatScene *scene)
         const double most =
             2e-3 * (0.05 + wanted.weight) * (ellipsoid || splat_def(&scene->def)->drops ? 6 : 1);
         const double sums = splat_rounding() * most;
-        if (fabs(drawn[i].weight - wanted.weight) > most / 10 + snap.weight)
+        if (fabs(drawn[i].weight - wanted.weight) > (snaps() ? most : most / 10) + snap.weight)
             fail_msg("pixel %d %d: weight %g, formula %g", x, y, drawn[i].weight, wanted.weight);
         for (int k = 0; k < 3; k++)
             if (fabs(drawn[i].color[k] - wanted.color[k]) > sums + snap.color[k] ||

@@ -146,7 +146,8 @@ static inline int level_compare(SplatScene *scene, int stride)
         if (wanted.unsure || !splat_snap(scene, level_wanted, x, y, &wanted, &snap))
             continue;
         covered += wanted.depth < 1e29;
-        const double slack = snap.depth + 1e-4 * scene->frame.particle_radius + 5e-7 * wanted.depth;
+        const double slack =
+            snap.depth + (snaps() ? 2e-4 : 1e-4) * scene->frame.particle_radius + 5e-7 * wanted.depth;
         if (fabs(drawn[i].depth - wanted.depth) > slack)
             fail_msg("pixel %d %d: depth %.9g, by marching %.9g", x, y, drawn[i].depth, wanted.depth);
         if (fabs(drawn[i].weight - wanted.weight) > 1e-3 * splat_def(&scene->def)->level + snap.weight)

@@ -45,13 +45,16 @@ bool meet_neighbours(int i, vec3 x)
             for (int layer = 0; layer < bucket_layers && last != 0u; layer++) {
                 uvec4 four = texelFetch(buckets, ivec3(bucket_of(cell), layer), 0);
                 last = four.w;
-                for (int k = 0; k < 4 && four[k] != 0u; k++) {
-                    if (four[k] == own)
+                for (int k = 0; k < 4; k++) {
+                    uint entry = place_of(four, k);
+                    if (entry == 0u)
+                        break;
+                    if (entry == own)
                         placed = true;
                     else
-                        meet(int(four[k]) - 1);
+                        meet(int(entry) - 1);
                     if (last_walls > 0)
-                        meet_images(int(four[k]) - 1);
+                        meet_images(int(entry) - 1);
                 }
             }
         }

@@ -25,6 +25,10 @@ void main()
     }
     ivec2 bucket = bucket_of(number[0] / bucket_layers);
     uvec4 four = texelFetch(buckets, ivec3(bucket, number[0] % bucket_layers), 0);
-    for (int k = 0; k < 4 && four[k] != 0u; k++)
-        list(four[k]);
+    for (int k = 0; k < 4; k++) {
+        uint entry = place_of(four, k);
+        if (entry == 0u)
+            break;
+        list(entry);
+    }
 }
