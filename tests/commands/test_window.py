@@ -26,6 +26,9 @@ DRIVER = '/usr/lib/x86_64-linux-gnu/dri/swrast_dri.so'
 
 MODIFIERS = {'shift': 'Shift_L', 'ctrl': 'Control_L'}
 
+# GLFW takes two presses of a key within one millisecond of the server's clock for one, and the input method's copy of it.
+KEY_APART = 0.002
+
 # At rest, and gentle: nothing moves but what a hand moves.
 STILL = """\
 title: A still tank
@@ -53,6 +56,7 @@ class Display:
         self.root = self.connection.screen().root
         self.root.change_attributes(event_mask=X.SubstructureNotifyMask)
         self.pings = 0
+        self.pressed = 0
 
     def tell(self, window, protocol, value):
         """As a window manager does."""
@@ -104,7 +108,9 @@ class Display:
         self.connection.sync()
 
     def press(self, key):
+        time.sleep(max(self.pressed + KEY_APART - time.monotonic(), 0))
         self.fake(X.KeyPress, self.codes(key))
+        self.pressed = time.monotonic()
 
     def release(self, key):
         self.fake(X.KeyRelease, self.codes(key)[::-1])
