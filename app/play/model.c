@@ -36,27 +36,6 @@ static void follow_travels(Model *model)
     }
     hand_post_follow(model->post, &past->target);
     model->shut = model->status.shut;
-    model->resizing = false;
-}
-
-/* Step by step, so slowly that the fluid gets out of the walls' way, until the box is as large as it is
- * wanted, or the solver says why not. */
-static void go_on_resizing(Model *model)
-{
-    static const double OF_SOUND = 0.006;
-    const WorldDef *def = &model->open.scene.world;
-    const double *now = def->box_size, each = BOX_BITE * def->spacing / (OF_SOUND * def->sound_speed);
-    SimCommand command = {.kind = SIM_SIZE};
-    bool there = true;
-    for (int k = 0; k < def->dimensions; k++)
-        there &= now[k] == model->box_wanted[k];
-    if (there || model->status.messages != model->resized_messages)
-        model->resizing = false;
-    if (!model->resizing || model->status.time < model->resized_time + each)
-        return;
-    model->resized_time = model->status.time;
-    memcpy(command.size, model->box_wanted, sizeof command.size);
-    simulator_send(model->open.simulator, &command);
 }
 
 /* The scene's solids are where the solver has them. */
@@ -106,8 +85,6 @@ void model_listen(Model *model)
         notice_error(model->notice, words);
     follow_travels(model);
     follow_solids(model);
-    if (model->resizing)
-        go_on_resizing(model);
     tell_script(model);
     if (status->saves == model->saves)
         return;
@@ -221,7 +198,7 @@ static void adopt(Model *model, const PlayScene *opened)
     post_open(model);
     model->saves = model->messages = model->travels = model->solids = 0;
     model->shut = 0;
-    model->told_fixed = model->asked_acceleration = model->resizing = false;
+    model->told_fixed = model->asked_acceleration = false;
     model->told_script = SCRIPT_NONE;
     model->scenes_opened++;
     model->seeded =
@@ -337,7 +314,6 @@ void model_reset(Model *model)
     hand_post_close(model->post); /* no report comes in between: it would move the box, and be forgotten */
     model->open.source->reset(&model->open);
     model->shut = 0;
-    model->resizing = false;
     post_open(model);
 }
 
@@ -593,10 +569,7 @@ bool model_resize(Model *model, const double size[3])
         notice_tell(model->notice, "the box keeps its size while solvers run side by side");
         return false;
     }
-    memcpy(model->box_wanted, size, sizeof model->box_wanted);
-    model->resizing = true;
-    model->resized_time = -INFINITY;
-    model->resized_messages = model->status.messages;
+    simulator_resize(model->open.simulator, size);
     return true;
 }
 

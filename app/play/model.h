@@ -38,13 +38,9 @@ typedef struct Model {
     uint64_t shut;            /* gates that shall be: world_shut */
     unsigned travels;         /* SimulatorPast.travels that were followed; */
     unsigned solids;          /* SimulatorStatus.solids */
-    bool resizing;            /* the box is to become so large, m: */
-    double box_wanted[3];
-    double resized_time;       /* SimulatorStatus.time when that was last asked for; */
-    unsigned resized_messages; /* its messages then */
-    atomic_bool pulled;        /* somebody would move the box of a recorded run; */
-    bool told_fixed;           /* it was told that none can */
-    bool asked_acceleration;   /* a view reads it, and the solver was asked for it: once, it may take long */
+    atomic_bool pulled;       /* somebody would move the box of a recorded run; */
+    bool told_fixed;          /* it was told that none can */
+    bool asked_acceleration;  /* a view reads it, and the solver was asked for it: once, it may take long */
 } Model;
 
 /* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */

@@ -183,7 +183,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
                         .devices = overlay->devices,
                         .device_count = overlay->device_count,
                         .panel_ms = meter_panel_mean(facts->meter)};
-    memcpy(data->box_wanted, model->resizing ? model->box_wanted : particles->box_size,
+    memcpy(data->box_wanted, status->resizing ? status->box_wanted : particles->box_size,
            sizeof data->box_wanted);
     for (int k = 0; k < SOLVES_MAX; k++)
         data->iterations += status->solves[k].iterations;

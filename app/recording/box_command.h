@@ -10,6 +10,9 @@
  * do. */
 #define BOX_BITE 0.04
 
+/* Spacings that a side has at least. */
+#define BOX_LEAST 6
+
 struct World;
 struct WorldDef;
 

@@ -112,6 +112,11 @@ void simulator_reset(Simulator *simulator);
    more keys than there are. */
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
 
+/* The box goes to that size, m, from the next step on, each side as fast as its wall may: a side that grows
+   is there at once, one that shrinks comes in at a small part of the speed of sound. Until it is there,
+   another size is wanted, time jumps or the solver says why not. Each change is a command of the session. */
+void simulator_resize(Simulator *simulator, const double size[3]);
+
 /* How many commands the state of that step had obeyed, of those counted by simulator_send; of the last few
    hundred states. */
 uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
@@ -187,6 +192,8 @@ typedef struct SimulatorStatus {
     double real_time_factor;            /* simulated over wall time in the last second; 0 while paused */
     double solved_ms;                   /* wall time of these frames */
     double behind_s;                    /* wall time that the solver could not keep up with, in all, s */
+    bool resizing;                      /* simulator_resize is not done, */
+    double box_wanted[3];               /* and to what size it goes */
     BoxTarget hand;                     /* the hand's part of the box's pose, as the filter has it */
     StageTimes stages;                  /* of the last frame */
     int history_count;                  /* of `history`: wall time of the last frames, ms, oldest first */

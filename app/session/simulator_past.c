@@ -317,6 +317,7 @@ static void finish_present(Simulator *simulator, Work *work)
 void simulator_travel(Simulator *simulator, Work *work)
 {
     const double began = wall_ms();
+    simulator_stop_resizing(simulator);
     if (!simulator->world) {
         jump_done(simulator, began);
         return;

@@ -87,6 +87,7 @@ void simulator_make_world(Simulator *simulator)
              simulator->scene.world.backend); /* the one at hand, which this thread can do */
     simulator->start.world.acceleration |= simulator->scene.world.acceleration; /* once kept they stay */
     simulator->scene = simulator->start;
+    simulator_stop_resizing(simulator);
     world_destroy(simulator->world);
     simulator->told_trouble = (TroubleTold){0};
     simulator->watch = (FluidWatch){0};
@@ -238,6 +239,7 @@ static bool obey_all(Simulator *simulator, Work *work)
         work->commands.commands[i].step = info.step;
         simulator_obey(simulator, &work->commands.commands[i]);
     }
+    simulator_go_on_resizing(simulator);
     simulator->taken = taken;
     return go_on;
 }

@@ -116,6 +116,7 @@ struct Simulator {
     bool behind;         /* there are later places: time follows the recording, */
     size_t next;         /* whose command this is the next one then */
     Newest newest;       /* then */
+    double resized_time; /* s, of the last change of simulator_go_on_resizing; -INFINITY: none yet */
     bool told_short, told_other, told_long, told_none, told_kept;
     Upload *upload;
     void (*wake)(void);
@@ -186,6 +187,10 @@ void simulator_tell_travel(Simulator *simulator);
 void simulator_script_begin(Simulator *simulator);
 void simulator_script_obey(Simulator *simulator);
 void simulator_script_leave(Simulator *simulator);
+
+/* simulator_size.c: between two substeps, after all that was asked for; where time jumps or begins anew. */
+void simulator_go_on_resizing(Simulator *simulator);
+void simulator_stop_resizing(Simulator *simulator);
 
 /* simulator_gauge.c: after a frame, and where a new world begins. */
 void simulator_gauge(Simulator *simulator);

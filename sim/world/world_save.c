@@ -2,6 +2,7 @@
 
 #include "sim/body/bodies.h"
 #include "sim/world/energy_watch.h"
+#include "sim/world/resize.h"
 #include "sim/world/sentinel.h"
 #include "sim/world/world_struct.h"
 
@@ -227,18 +228,6 @@ static bool as_initial(const WorldState *state, InitialState *initial)
     return position;
 }
 
-/* Into a box that has become smaller along an axis. */
-static void bring_in(WorldState *state, const WorldDef *def, int axis)
-{
-    const ParticleColumns *p = &state->particles;
-    float *const along[] = {p->x, p->y, p->z};
-    const float slack = 1e-3F * (float)def->spacing;
-    const float low = axis == 1 ? 0 : -0.5F * (float)def->box_size[axis],
-                high = low + (float)def->box_size[axis];
-    for (size_t i = 0; i < state->count; i++)
-        along[axis][i] = fmaxf(low + slack, fminf(along[axis][i], high - slack));
-}
-
 /* What is in no state. */
 static bool inherit(World *to, const World *from, Error *error)
 {
@@ -285,7 +274,7 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
     const bool saved = world_save(from, &state, error);
     for (int k = 0; saved && k < def->dimensions; k++)
         if (def->box_size[k] < from->def.box_size[k])
-            bring_in(&state, def, k);
+            world_bring_in(&state, def, k);
     World *to = saved ? made_with(from, def, &state, error) : NULL;
     world_state_free(&state);
     if (to && def->box_size[1] != from->def.box_size[1]) { /* about whose half it turns */
@@ -364,7 +353,8 @@ bool world_set_shapes(World **world, const WorldDef *from, Error *error)
     WorldDef def;
     const bool same = with_shapes(*world, from, &def);
     const int taken = taken_out(&(*world)->def, from);
-    const bool set = same || world_rebuild(world, &def, error);
+    const bool set = same || (world_resizes(*world, &def) ? world_resize(*world, &def, error)
+                                                          : world_rebuild(world, &def, error));
     if (same)
         set_solids(*world, from->solids);
     if (set && taken >= 0) {

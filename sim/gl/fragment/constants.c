@@ -23,13 +23,6 @@ static __attribute__((format(printf, 2, 3))) void put(Text *to, const char *form
 }
 
 /* Ten digits give a float back to the bit. */
-static void put_floats(Text *to, const char *name, int count, const float *values)
-{
-    put(to, "const vec%d %s = vec%d(", count, name, count);
-    for (int k = 0; k < count; k++)
-        put(to, "%.9e%s", (double)values[k], k + 1 < count ? ", " : ");\n");
-}
-
 static void put_ints(Text *to, const char *name, int count, const int *values)
 {
     put(to, "const ivec%d %s = ivec%d(", count, name, count);
@@ -84,7 +77,7 @@ void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])
     put_ints(&to, "grid_size", 3, s->cells.size);
     put(&to, "const int dimensions = %d, first_row = %d, last_row = %d;\n", s->dimensions, s->first_row,
         s->last_row);
-    put_floats(&to, "half_size", 3, s->walls.half_size);
+    put(&to, "uniform vec3 half_size;\n"); /* the box may change while the programs stay */
     put_float(&to, "wall_lift",
               wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale);
 }

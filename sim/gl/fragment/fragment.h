@@ -83,7 +83,8 @@ typedef enum FragmentPass {
     X(finger_at)                                                                                             \
     X(finger_velocity)                                                                                       \
     X(finger_kick)                                                                                           \
-    X(fluid_numbers)
+    X(fluid_numbers)                                                                                         \
+    X(half_size)
 
 typedef enum FragmentUniform {
 #define X(name) FRAGMENT_##name,
@@ -162,7 +163,7 @@ bool fragment_programs_create(Fragment *fragment, Error *error);
 /* Compiles the two passes of the gauge, which others have no need of. */
 bool fragment_gauge_programs(Fragment *fragment, Error *error);
 
-/* Gives the programs what may change of the fluids. */
+/* Gives the programs what may change of the fluids, and of the box. */
 void fragment_set_fluids(const Fragment *fragment);
 
 /* Which particles are the texels, from their ids: `listed`. What is drawn from then on, over `width` x

@@ -105,6 +105,8 @@ void fragment_set_fluids(const Fragment *f)
         const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, FRAGMENT_fluid_numbers) : -1;
         if (at >= 0)
             glProgramUniform4fv(f->program[p], at, s->fluid_count, fluids[0]);
+        if (f->program[p])
+            fragment_set3(f, (FragmentPass)p, FRAGMENT_half_size, s->walls.half_size);
     }
 }
 
