@@ -39,6 +39,9 @@ typedef enum PlayCommand {
     PLAY_CAMERA_HOME,
     PLAY_BOX_HOME,
     PLAY_NEUTRAL,
+    PLAY_WALLS,
+    PLAY_BOX_SMALLER,
+    PLAY_BOX_LARGER,
     PLAY_GRAVITY_HOME,
     PLAY_TOUCH,
     PLAY_TOUCH_WAY,
@@ -68,6 +71,7 @@ typedef enum PlayCommand {
     PLAY_MOVE_DRAG,
     PLAY_TURN_DRAG,
     PLAY_GRAVITY_DRAG,
+    PLAY_WALL_DRAG, /* a handle's: app/play/grip.h */
     PLAY_TOUCH_DRAG,
     PLAY_TOUCH_OTHER,
     PLAY_TOUCH_SIZE,

@@ -2,6 +2,7 @@
 #include "app/play/parts.h"
 
 #include "app/play/again.h"
+#include "app/touch/walls.h"
 
 #include "render/frame/colormap.h"
 #include "render/frame/overlay.h"
@@ -337,6 +338,42 @@ static void choose_trail(Play *play)
     notice_tell(&play->notice, "%s", words);
 }
 
+static void take_walls(Play *play)
+{
+    const WorldDef *def = &play->model.open.scene.world;
+    Handle handles[WALL_HANDLES_MAX];
+    Grip *grip = &play->grip;
+    grip->walls = !grip->walls && wall_handles(def->box_size, def->periodic, def->dimensions, handles) > 0;
+    grip->taken &= !grip->wall;
+    grip->over = grip->taken ? grip->over : 0;
+    play->picture.over = true;
+    if (grip->walls)
+        notice_tell(&play->notice,
+                    "drag an arrow: its wall goes with the mouse, the one across from it, too");
+    else
+        notice_tell(&play->notice, "the walls %s",
+                    wall_handles(def->box_size, def->periodic, def->dimensions, handles) > 0
+                        ? "have no handles any more"
+                        : "of this box are open: it keeps its size");
+}
+
+static const double BOX_NOTCH = 1.05;
+
+/* All sides that are not open, from the size that it goes to. */
+static void scale_box(Play *play, double factor)
+{
+    const SimulatorStatus *status = &play->model.status;
+    const WorldDef *def = &play->model.open.scene.world;
+    double size[3];
+    memcpy(size, status->resizing ? status->box_wanted : def->box_size, sizeof size);
+    for (int k = 0; k < def->dimensions; k++)
+        size[k] *= def->periodic[k] ? 1 : factor;
+    if (model_resize(&play->model, size))
+        notice_tell(&play->notice,
+                    def->dimensions == 2 ? "the box: %.3g x %.3g m" : "the box: %.3g x %.3g x %.3g m",
+                    size[0], size[1], size[2]);
+}
+
 /* Said where nothing is simulated. */
 static bool lacks_simulation(Play *play, PlayCommand command)
 {
@@ -442,6 +479,15 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_NEUTRAL:
         hand_post_neutral(play->post);
+        break;
+    case PLAY_WALLS:
+        take_walls(play);
+        break;
+    case PLAY_BOX_SMALLER:
+        scale_box(play, 1 / BOX_NOTCH);
+        break;
+    case PLAY_BOX_LARGER:
+        scale_box(play, BOX_NOTCH);
         break;
     case PLAY_GRAVITY_HOME:
         hands_set_gravity(play, model->file_scene.world.gravity);

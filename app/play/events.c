@@ -30,6 +30,10 @@ static bool grip_has(Play *play, const WindowEvent *event, bool free)
         return false;
     const Look look = play_look(play, panel_of_mouse(play));
     const bool has = grip_event(&play->grip, &look, event, free && play->input.drag == PLAY_NONE);
+    if (play->grip.taken && play->grip.wall && !before.taken) {
+        play->wall_messages = play->model.status.messages;
+        ask_add(&play->asks, &(Ask){.kind = ASK_GRAB}); /* the camera stays while the box changes */
+    }
     play->picture.over |= play->grip.over != before.over || play->grip.panel != before.panel;
     return has;
 }
@@ -85,6 +89,17 @@ static bool shaken_enough(const Play *play)
     return seconds > 0 && began > 0 && wall_ms() - began >= 1000 * seconds;
 }
 
+/* A wall that cannot go on leaves the hand: why is said once. */
+static void drag_wall(Play *play, const Look *look)
+{
+    Ask ask = {.kind = ASK_SIZE};
+    Grip *grip = &play->grip;
+    if (play->model.status.messages != play->wall_messages)
+        grip->taken = false;
+    else if (grip_size(grip, look, ask.amount))
+        ask_add(&play->asks, &ask);
+}
+
 /* Where the mouse has taken a handle since the last picture. */
 static void drag_grip(Play *play)
 {
@@ -92,7 +107,10 @@ static void drag_grip(Play *play)
     if (!play->grip.taken || !play->model.has_particles || !picture_visible(&play->picture))
         return;
     const Look look = play_look(play, play->picture.chosen);
-    ask_settings(&play->asks, settings, grip_settings(&play->grip, &look, settings));
+    if (play->grip.wall)
+        drag_wall(play, &look);
+    else
+        ask_settings(&play->asks, settings, grip_settings(&play->grip, &look, settings));
 }
 
 void events_take(Play *play)

@@ -1,5 +1,7 @@
 #include "app/play/grip.h"
 
+#include "app/touch/walls.h"
+
 #define GLFW_INCLUDE_NONE /* numbers only */
 #include <GLFW/glfw3.h>
 
@@ -13,10 +15,20 @@ void grip_begin(Grip *grip)
     grip->taken = false;
 }
 
-static int handles_of(const Look *look, Handle handles[HANDLES_MAX])
+static int handles_of_view(const Look *look, Handle handles[HANDLES_MAX])
 {
     const ViewKind *kind = view_find(look->view->kind);
     return kind && kind->handles ? kind->handles(look->view, look->particles, handles) : 0;
+}
+
+/* Those of the view, then those of the walls. */
+static int handles_of(const Grip *grip, const Look *look, Handle handles[HANDLES_MAX])
+{
+    const int count = handles_of_view(look, handles);
+    if (!grip->walls || !look->world || count + WALL_HANDLES_MAX > HANDLES_MAX)
+        return count;
+    return count + wall_handles(look->particles->box_size, look->world->periodic, look->world->dimensions,
+                                handles + count);
 }
 
 /* The mouse in the panel's own pixels. */
@@ -30,7 +42,7 @@ static void look_for(Grip *grip, const Look *look, bool free)
 {
     Handle handles[HANDLES_MAX];
     double mouse[2];
-    const int count = free ? handles_of(look, handles) : 0;
+    const int count = free ? handles_of(grip, look, handles) : 0;
     within(grip, look, mouse);
     grip->over = 1 + handle_under(&look->sight, handles, count, mouse);
     grip->panel = look->panel;
@@ -40,10 +52,11 @@ static bool take(Grip *grip, const Look *look)
 {
     Handle handles[HANDLES_MAX];
     double mouse[2];
-    if (grip->over == 0 || grip->over > handles_of(look, handles))
+    if (grip->over == 0 || grip->over > handles_of(grip, look, handles))
         return false;
     within(grip, look, mouse);
     grip->handle = handles[grip->over - 1];
+    grip->wall = grip->over > handles_of_view(look, handles);
     sight_ray(&look->sight, mouse, &grip->first);
     grip->taken = true;
     grip->moved = false;
@@ -72,17 +85,34 @@ bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool fre
     return grip->taken ? event->kind == WINDOW_BUTTON : left && event->down && bare && take(grip, look);
 }
 
-int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTINGS_MAX])
+/* Where the handle in the hand is now; false: where it was, or not to be told. */
+static bool dragged(Grip *grip, const Look *look, double at[3])
 {
-    const ViewKind *kind = view_find(look->view->kind);
-    double mouse[2], at[3];
+    double mouse[2];
     SightRay now;
-    if (!grip->taken || !grip->moved || !kind || !kind->drag)
-        return 0;
+    if (!grip->taken || !grip->moved)
+        return false;
     grip->moved = false;
     within(grip, look, mouse);
     sight_ray(&look->sight, mouse, &now);
-    if (!handle_drag(&grip->handle, &grip->first, &now, at))
+    return handle_drag(&grip->handle, &grip->first, &now, at);
+}
+
+bool grip_size(Grip *grip, const Look *look, double size[3])
+{
+    double at[3];
+    if (!grip->wall || !look->world || !dragged(grip, look, at))
+        return false;
+    memcpy(size, look->particles->box_size, 3 * sizeof *size);
+    wall_drag(&grip->handle, at, BOX_LEAST * look->world->spacing, size);
+    return true;
+}
+
+int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTINGS_MAX])
+{
+    const ViewKind *kind = view_find(look->view->kind);
+    double at[3];
+    if (grip->wall || !kind || !kind->drag || !dragged(grip, look, at))
         return 0;
     return kind->drag(look->view, look->particles, grip->over - 1, &grip->handle, at, settings);
 }
@@ -166,7 +196,7 @@ void grip_draw_ring(const Look *look, const Handle *ring, Text *text, uint32_t r
 void grip_draw(const Grip *grip, const Look *look, Text *text)
 {
     Handle handles[HANDLES_MAX];
-    const int count = handles_of(look, handles), lit = grip->panel == look->panel ? grip->over : 0;
+    const int count = handles_of(grip, look, handles), lit = grip->panel == look->panel ? grip->over : 0;
     if (count == 0)
         return;
     text_begin_within(text, look->width, look->height,

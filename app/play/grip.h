@@ -5,6 +5,9 @@
    Of several panels each has the handles of its own view; the mouse acts in the panel under it, and one that
    is taken is the chosen view's.
 
+   While the walls are to be taken they have handles, too, in views of the scene's own state:
+   app/touch/walls.h.
+
    Handles are drawn over the window's own picture, not into screenshots and videos. */
 #ifndef SLOSH_PLAY_GRIP_H
 #define SLOSH_PLAY_GRIP_H
@@ -24,6 +27,7 @@ typedef struct Look {
     int width, height; /* of so many pixels */
     const ViewDef *view;
     const ParticleBuffers *particles;
+    const WorldDef *world; /* whose walls may be taken; NULL: none */
     Sight sight;
 } Look;
 
@@ -34,7 +38,9 @@ typedef struct Grip {
     Handle handle;   /* as it was then */
     SightRay first;  /* of the mouse then */
     double mouse[2]; /* pixels of the whole picture */
-    bool moved;      /* since the last grip_settings */
+    bool moved;      /* since it was last asked for what it does */
+    bool walls;      /* the walls of the box have handles */
+    bool wall;       /* the one that is taken is a wall's */
 } Grip;
 
 /* Nothing is held. */
@@ -49,6 +55,9 @@ bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool fre
 
 /* What the drag since the last call asks of the panel's view; how many settings. */
 int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTINGS_MAX]);
+
+/* The size that the drag of a wall since the last call asks for, m; false: none. */
+bool grip_size(Grip *grip, const Look *look, double size[3]);
 
 /* What a key asks of the chosen view; 0, with a word to the user, where the view is of no plane. */
 int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTINGS_MAX]);

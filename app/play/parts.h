@@ -45,8 +45,9 @@ typedef struct Play {
     TouchTool touch;
     unsigned solids; /* Model.solids that the views show */
     PadFinger pad;
-    BoxTarget wanted; /* where the hand wants the box, */
-    bool outlined;    /* and an outline shows it */
+    unsigned wall_messages; /* SimulatorStatus.messages when a wall was taken */
+    BoxTarget wanted;       /* where the hand wants the box, */
+    bool outlined;          /* and an outline shows it */
     Readout readout;
     PlayViews views;
     Picture picture;
@@ -87,8 +88,12 @@ static inline Look play_look(const Play *play, int panel)
                  .width = picture->width,
                  .height = picture->height,
                  .view = views_def(&play->views, &play->model.open.scene, panel),
-                 .particles = NULL};
+                 .particles = NULL,
+                 .world = NULL};
     look.particles = model_state(&play->model, look.view);
+    if (look.particles == &play->model.particles && play->model.open.source->simulates && picture->panels &&
+        !renderer_is_flat(panels_renderer(picture->panels, panel)))
+        look.world = &play->model.open.scene.world;
     camera_sight(&play->model, look.view, &sight, text_height(picture->text), &look.sight);
     return look;
 }
