@@ -47,7 +47,7 @@ static void look(const Rig *rig, size_t count, const char *name, Seen *seen)
     WorldGauge gauge;
     WorldInfo info;
     world_info(world, &info);
-    float *x = malloc(8 * count * sizeof *x), *v = x + 4 * count;
+    float *x = calloc(8 * count, sizeof *x), *v = x + 4 * count;
     assert_true(x && info.count == count &&
                 world_read(world, &(ParticleArrays){.position = x, .velocity = v}));
     double square = 0;
