@@ -4,7 +4,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LEAF = 4, DEPTH = 64 };
+enum { LEAF = 4, DEPTH = 64, DISC_MOST = 128 };
+
+static const double FAR = 1 + 1e-8; /* more than what rounding adds */
+static const double NEEDLE = 1e-7;  /* as wide for its length: where it faces is mostly rounding */
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* Six times the volume of the tetrahedron of three vectors. */
+static double triple(const double a[3], const double b[3], const double c[3])
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
 
 /* ---- making it ---- */
 
@@ -46,12 +61,13 @@ static void select_middle(const Maker *maker, uint32_t *item, long count, long a
 static void bound(const Maker *maker, const uint32_t *item, size_t count, TreeNode *node)
 {
     const Triangles *of = maker->tree->of;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
         node->low[k] = INFINITY, node->high[k] = -INFINITY;
-        for (size_t i = 0; i < 3 * count; i++) {
-            const float x = of->vertex[of->triangle[item[i / 3]][i % 3]][k];
-            node->low[k] = fminf(node->low[k], x);
-            node->high[k] = fmaxf(node->high[k], x);
+    for (size_t i = 0; i < 3 * count; i++) {
+        const float *x = of->vertex[of->triangle[item[i / 3]][i % 3]];
+        for (int k = 0; k < 3; k++) {
+            node->low[k] = x[k] < node->low[k] ? x[k] : node->low[k];
+            node->high[k] = x[k] > node->high[k] ? x[k] : node->high[k];
         }
     }
 }
@@ -71,6 +87,7 @@ static void make_node(const Maker *maker, uint32_t first, uint32_t count)
     uint32_t *item = tree->order + first;
     TreeNode *node = &tree->node[tree->node_count++];
     bound(maker, item, count, node);
+    node->disc = count > DISC_MOST ? (Disc){.radius = INFINITY} : disc_around(tree->of, item, count);
     node->first = first;
     node->count = count;
     if (count <= LEAF)
@@ -90,10 +107,11 @@ static void plane_of(const float corner[9], double plane[4])
         b[k] = (double)corner[6 + k] - corner[k];
     }
     const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double length = sqrt(dot(n, n));
+    const bool known = length > NEEDLE * sqrt(dot(a, a) * dot(b, b));
     plane[3] = 0;
     for (int k = 0; k < 3; k++) {
-        plane[k] = length > 0 ? n[k] / length : 0;
+        plane[k] = known ? n[k] / length : 0;
         plane[3] += plane[k] * corner[k];
     }
 }
@@ -144,11 +162,6 @@ void triangle_tree_free(TriangleTree *tree)
 
 /* ---- the nearest ---- */
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* From the point at `p`, relative to the segment's begin, to the segment along d. */
 static double segment_distance2(const double p[3], const double d[3])
 {
@@ -157,33 +170,31 @@ static double segment_distance2(const double p[3], const double d[3])
     return dot(r, r);
 }
 
-/* Above the triangle its plane counts, else the nearest of its sides. `best2` where it is not nearer. */
+/* Above the triangle its plane counts, else the nearest of the sides that x is beyond. `best2` where it is
+   not nearer. */
 static double triangle_distance2(const float corner[9], const double plane[4], const double x[3],
                                  double best2)
 {
-    const double height = dot(plane, x) - plane[3];
-    double p[3][3], side[3][3], least = best2;
-    bool above = dot(plane, plane) > 0;
-    if (height * height >= best2)
+    const double height = dot(plane, x) - plane[3], height2 = height * height;
+    const bool flat = dot(plane, plane) == 0;
+    double least = best2;
+    bool beyond = flat;
+    if (height2 >= best2)
         return best2;
-    for (int c = 0; c < 3; c++)
-        for (int k = 0; k < 3; k++) {
-            p[c][k] = x[k] - corner[3 * c + k];
-            side[c][k] = (double)corner[(3 * c + 3) % 9 + k] - corner[3 * c + k];
-        }
-    for (int c = 0; c < 3 && above; c++) {
-        const double *d = side[c];
-        const double inward[3] = {plane[1] * d[2] - plane[2] * d[1], plane[2] * d[0] - plane[0] * d[2],
-                                  plane[0] * d[1] - plane[1] * d[0]};
-        above = dot(inward, p[c]) >= 0;
-    }
-    if (above)
-        return height * height;
     for (int c = 0; c < 3; c++) {
-        const double d2 = segment_distance2(p[c], side[c]);
+        const float *from = corner + 3 * c, *to = corner + (3 * c + 3) % 9;
+        const double p[3] = {x[0] - from[0], x[1] - from[1], x[2] - from[2]};
+        const double side[3] = {(double)to[0] - from[0], (double)to[1] - from[1], (double)to[2] - from[2]};
+        const double inward = triple(plane, side, p);
+        if (inward >= 0 && !flat)
+            continue;
+        if (inward * inward >= FAR * (best2 - height2) * dot(side, side) && !flat)
+            return best2;
+        beyond = true;
+        const double d2 = segment_distance2(p, side);
         least = d2 < least ? d2 : least;
     }
-    return least;
+    return beyond ? least : height2;
 }
 
 static double block_distance2(const TreeNode *node, const double x[3])
@@ -195,6 +206,12 @@ static double block_distance2(const TreeNode *node, const double x[3])
         sum += d * d;
     }
     return sum;
+}
+
+/* Never more than what the nearest triangle of the node is away. */
+static double node_distance2(const TreeNode *node, const double x[3])
+{
+    return node->disc.radius < INFINITY ? disc_distance2(&node->disc, x) : block_distance2(node, x);
 }
 
 double triangle_tree_nearest(const TriangleTree *tree, const double x[3], uint32_t *near)
@@ -228,8 +245,8 @@ double triangle_tree_near(const TriangleTree *tree, const double x[3], double pa
         }
         if (node->count > 0)
             continue;
-        const double one = block_distance2(&tree->node[at + 1], x),
-                     other = block_distance2(&tree->node[node->first], x);
+        const double one = node_distance2(&tree->node[at + 1], x),
+                     other = node_distance2(&tree->node[node->first], x);
         const bool swapped = other < one; /* the nearer one on top */
         left[count].node = swapped ? at + 1 : node->first;
         left[count].d2 = swapped ? one : other;
@@ -248,7 +265,6 @@ typedef struct Cuts {
     size_t found, most, tests;
 } Cuts;
 
-/* Six times the volume of the tetrahedron. */
 static double volume6(const float a[3], const float b[3], const float c[3], const float d[3])
 {
     double u[3], v[3], w[3];
@@ -257,17 +273,34 @@ static double volume6(const float a[3], const float b[3], const float c[3], cons
         v[k] = (double)c[k] - a[k];
         w[k] = (double)d[k] - a[k];
     }
-    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-           u[2] * (v[0] * w[1] - v[1] * w[0]);
+    return triple(u, v, w);
 }
 
-/* Whether the segment goes through the inside of the triangle; one that only touches does not. */
-static bool pierces(const float p[3], const float q[3], const float t[9])
+/* Which side of triangle t each corner of the other is on. */
+static void sides_of(const float t[9], const float other[9], double side[3])
 {
-    if (volume6(t, t + 3, t + 6, p) * volume6(t, t + 3, t + 6, q) >= 0)
-        return false;
-    const double a = volume6(p, q, t, t + 3), b = volume6(p, q, t + 3, t + 6), c = volume6(p, q, t + 6, t);
-    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+    for (int c = 0; c < 3; c++)
+        side[c] = volume6(t, t + 3, t + 6, other + 3 * c);
+}
+
+static bool all_beside(const double side[3])
+{
+    return (side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0);
+}
+
+/* Whether a side of the other goes through the inside of triangle t; one that only touches does not. */
+static bool pierces(const float other[9], const double side[3], const float t[9])
+{
+    for (int e = 0; e < 3; e++) {
+        const float *p = other + 3 * e, *q = other + (3 * e + 3) % 9;
+        if (side[e] * side[(e + 1) % 3] >= 0)
+            continue;
+        const double a = volume6(p, q, t, t + 3), b = volume6(p, q, t + 3, t + 6),
+                     c = volume6(p, q, t + 6, t);
+        if ((a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0))
+            return true;
+    }
+    return false;
 }
 
 static bool share_vertex(const TriangleTree *tree, uint32_t i, uint32_t j)
@@ -283,14 +316,15 @@ static void test_pair(Cuts *cuts, uint32_t i, uint32_t j)
 {
     const TriangleTree *tree = cuts->tree;
     const float *a = tree->corner[i], *b = tree->corner[j];
+    double of_a[3], of_b[3];
     cuts->tests--;
     if (share_vertex(tree, i, j))
         return;
-    for (int c = 0; c < 3; c++)
-        if (pierces(a + 3 * c, a + 3 * ((c + 1) % 3), b) || pierces(b + 3 * c, b + 3 * ((c + 1) % 3), a)) {
-            cuts->found++;
-            return;
-        }
+    sides_of(b, a, of_a);
+    if (all_beside(of_a))
+        return;
+    sides_of(a, b, of_b);
+    cuts->found += pierces(a, of_a, b) || pierces(b, of_b, a);
 }
 
 static bool blocks_meet(const TreeNode *a, const TreeNode *b)

@@ -1,13 +1,14 @@
-/* Triangles by where they are: a binary tree of blocks around them. */
+/* Triangles by where they are: a binary tree of blocks around them, and of discs around those of a few. */
 #ifndef SLOSH_TRIANGLE_TREE_H
 #define SLOSH_TRIANGLE_TREE_H
 
-#include "sim/mesh/triangles.h"
+#include "sim/mesh/disc.h"
 
 typedef struct TreeNode {
     float low[3], high[3];
     uint32_t first; /* leaf: into `order`; else the child on the far side: the near one comes next */
     uint32_t count; /* of a leaf's triangles; 0: no leaf */
+    Disc disc;      /* of few triangles; else its radius is endless */
 } TreeNode;
 
 typedef struct TriangleTree {
@@ -15,7 +16,7 @@ typedef struct TriangleTree {
     TreeNode *node;
     uint32_t *order;
     float (*corner)[9]; /* of the triangle at each place of `order` */
-    double (*plane)[4]; /* its unit normal, and how far the plane is from 0; without area all 0 */
+    double (*plane)[4]; /* its unit normal, and how far the plane is from 0; of a needle all 0 */
     size_t node_count;
 } TriangleTree;
 
