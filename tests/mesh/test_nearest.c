@@ -13,8 +13,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Where the plane through a, along u and v, is nearest to x, cut to the triangle. After: C. Ericson,
-   "Real-time collision detection", 2005, 5.1.5, by minimising over the triangle and its three sides. */
+/* By least squares in the triangle's plane, else on its sides. */
 static double triangle_by_hand(const float *corner[3], const double x[3])
 {
     double u[3], v[3], p[3], best = INFINITY;
