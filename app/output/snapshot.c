@@ -12,6 +12,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <libgen.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -93,6 +94,17 @@ static bool write_settings(hid_t file, const Scene *scene)
     return written;
 }
 
+/* Of a scene that is not there any more, or was never in a file: none. */
+static bool write_folder(hid_t file, const Scene *scene)
+{
+    char copy[sizeof scene->path];
+    snprintf(copy, sizeof copy, "%s", scene->path);
+    char *folder = realpath(dirname(copy), NULL);
+    const bool written = !folder || write_texts(file, SNAPSHOT_FOLDER, SCALAR, strlen(folder) + 1, folder);
+    free(folder);
+    return written;
+}
+
 /* What the file does not name has none: numbers, and shares. */
 static const char units[] = "TimeValue = s\nx = m\ny = m\nz = m\nvelocity_0 = m/s\nvelocity_1 = m/s\n"
                             "velocity_2 = m/s\ndensity = kg/m3\npressure = Pa\n";
@@ -111,7 +123,8 @@ static bool write_root(hid_t file, const Scene *scene)
             colors[i][k] = linear_to_srgb(def->fluids[i].color[k]);
     }
     return write_texts(file, "title", SCALAR, sizeof scene->title, scene->title) &&
-           write_settings(file, scene) && write_texts(file, SNAPSHOT_UNITS, SCALAR, sizeof units, units) &&
+           write_settings(file, scene) && write_folder(file, scene) &&
+           write_texts(file, SNAPSHOT_UNITS, SCALAR, sizeof units, units) &&
            write_texts(file, "slosh_version", SCALAR, sizeof SLOSH_VERSION, SLOSH_VERSION) &&
            write_texts(file, "method", SCALAR, NAME_SIZE, def->method) &&
            write_doubles(file, "spacing", SCALAR, &def->spacing) &&

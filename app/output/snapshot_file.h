@@ -24,6 +24,9 @@
 /* The settings of the scene, of the root: see scene_print. */
 #define SNAPSHOT_SETTINGS "settings"
 
+/* The folder that the files of the scene were found from, of the root. */
+#define SNAPSHOT_FOLDER "scene_folder"
+
 /* The units of the datasets, of the root: a line "NAME = UNIT" each. */
 #define SNAPSHOT_UNITS "units"
 

@@ -191,12 +191,15 @@ static bool read_scene(const SnapshotReader *reader, const char *path, bool with
 {
     SceneSettings applied = settings ? *settings : (SceneSettings){.count = 0};
     char *text = with_settings ? snapshot_root_text(reader, SNAPSHOT_SETTINGS) : NULL;
+    char *folder = snapshot_root_text(reader, SNAPSHOT_FOLDER);
     applied.recorded = true;
+    applied.folder = folder;
     *strange = (Strange){.count = 0};
     char *yaml = with_settings && !text ? NULL : print_yaml(path, text, numbers, strange, error);
     const bool ok = yaml && scene_parse(path, yaml, strlen(yaml), &applied, scene, notes, error);
     free(yaml);
     free(text);
+    free(folder);
     return ok;
 }
 

@@ -115,7 +115,7 @@ static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, No
         return false;
     out->world.dimensions = tree->dimensions;
     snprintf(out->beside, sizeof out->beside, "%s", settings->beside ? settings->beside : "");
-    return scene_read_meshes(tree, out, settings->recorded, notes, error) && scene_check(tree, out, error) &&
+    return scene_read_meshes(tree, out, settings, notes, error) && scene_check(tree, out, error) &&
            (!needs_tables || scene_read_tables(tree, out, error));
 }
 
@@ -205,7 +205,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
     ScalarNames scalars;
     file_scalars(tree, scalars);
     if (!apply_settings(tree, settings, notes, error) || !read_scene(tree, settings, out, notes, error) ||
-        !scene_read_view_files(tree, settings->recorded, out, notes, error))
+        !scene_read_view_files(tree, settings, out, notes, error))
         return false;
     out->purpose = settings->purpose;
     out->world.acceleration |= shows_acceleration(out);

@@ -1,6 +1,5 @@
 /* The meshes that a scene names, and what its user should know of them. */
 #include "app/base/notes.h"
-#include "app/base/path.h"
 #include "app/mesh_file/mesh_count.h"
 #include "app/mesh_file/mesh_file.h"
 #include "app/scene/advise.h"
@@ -9,7 +8,6 @@
 
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
 bool scene_names_mesh(const char *text)
 {
@@ -18,7 +16,7 @@ bool scene_names_mesh(const char *text)
 
 typedef struct Reader {
     Check check;
-    bool lenient;
+    const SceneSettings *settings;
     Notes *notes;
 } Reader;
 
@@ -39,22 +37,11 @@ static void say_state(const Reader *reader, const char *key, const char *file, c
                file, state->all_looked_at ? "" : "at least ", state->cutting, plural(state->cutting));
 }
 
-/* Beside the scene; of a scene that a file of snapshots has, else where scenes are looked for. */
 static bool find(const Reader *reader, const char *file, char path[1200], Error *why)
 {
-    char found[SCENE_PATH_SIZE];
-    Error none = {""};
-    if (!scene_beside_path(reader->check.tree->path, file, path, why))
-        return false;
-    if (!reader->lenient || access(path, R_OK) == 0)
-        return true;
-    if (!scene_path_find(file, found, &none))
-        return error_set(
-            why,
-            "neither at %.200s, beside the snapshots, nor where scenes are looked for; put it at one of the two",
-            path);
-    memcpy(path, found, sizeof found);
-    return true;
+    const char *scene = reader->check.tree->path;
+    return reader->settings->recorded ? scene_recorded_path(scene, reader->settings->folder, file, path, why)
+                                      : scene_beside_path(scene, file, path, why);
 }
 
 static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
@@ -67,7 +54,7 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
         return FAIL(check, key, "a 2D scene has no meshes; write another shape");
     if (find(reader, mesh->file, path, &why))
         mesh->shape = mesh_file_load(path, &state, &why);
-    if (!mesh->shape && !reader->lenient)
+    if (!mesh->shape && !reader->settings->recorded)
         return FAIL(check, key, "%.90s: %s", mesh->file, why.message);
     if (!reader->notes)
         return true;
@@ -78,9 +65,10 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
     return true;
 }
 
-bool scene_read_meshes(const Tree *tree, Scene *scene, bool lenient, Notes *notes, Error *error)
+bool scene_read_meshes(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
+                       Error *error)
 {
-    const Reader reader = {{tree, scene, error}, lenient, notes};
+    const Reader reader = {{tree, scene, error}, settings, notes};
     char key[96];
     for (int f = 0; f < scene->world.fluid_count; f++)
         for (int i = 0; i < scene->world.fluids[f].fill_count; i++) {

@@ -62,6 +62,8 @@ typedef struct SceneSettings {
                       `particles` alone */
     bool recorded; /* of a recorded run, which nothing simulates: what it began with is not looked at, and of
                       the settings alone it is said what has no effect */
+    const char
+        *folder; /* of a recorded run: where the scene's files were, if not beside it; NULL: not known */
 } SceneSettings;
 
 /* How much of a setting is the same in another that takes its place: up to its '=', and of a preset all. */

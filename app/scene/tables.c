@@ -72,6 +72,38 @@ bool scene_beside_path(const char *scene, const char *name, char path[1200], Err
     return true;
 }
 
+static bool is_in(const char *folder, const char *name, char path[1200])
+{
+    return folder && *name != '/' && snprintf(path, 1200, "%s/%s", folder, name) < 1200 &&
+           access(path, R_OK) == 0;
+}
+
+static bool lacks(const char *beside, const char *folder, Error *error)
+{
+    return error_set(
+        error,
+        "neither at %.200s, beside the snapshots,%s%.200s%s nor where scenes are looked for; put it there",
+        beside, folder ? " nor in " : "", folder ? folder : "", folder ? ", where the scene was," : "");
+}
+
+bool scene_recorded_path(const char *snapshots, const char *folder, const char *name, char path[1200],
+                         Error *error)
+{
+    char found[SCENE_PATH_SIZE], beside[1200];
+    Error none;
+    if (!scene_beside_path(snapshots, name, beside, error))
+        return false;
+    if (access(beside, R_OK) == 0)
+        memcpy(path, beside, sizeof beside);
+    else if (is_in(folder, name, path))
+        return true;
+    else if (scene_path_find(name, found, &none))
+        memcpy(path, found, sizeof found);
+    else
+        return lacks(beside, folder, error);
+    return true;
+}
+
 static const FieldTable *table_of(const Check *check, const char *key, const char *name,
                                   const FieldFileKind *kind)
 {

@@ -11,9 +11,10 @@
  */
 bool scene_read_tables(const Tree *tree, Scene *scene, Error *error);
 
-/* Reads the meshes that it names, found in the same way and kept as long; NULL notes are allowed. `lenient`:
-   one that cannot be read stays without a shape, and the notes say so. */
-bool scene_read_meshes(const Tree *tree, Scene *scene, bool lenient, Notes *notes, Error *error);
+/* Reads the meshes that it names, found in the same way and kept as long; NULL notes are allowed. Of a
+   recorded run, one that cannot be read stays without a shape, and the notes say so. */
+bool scene_read_meshes(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
+                       Error *error);
 
 /* Whether the value of a key is the name of a table: it ends in ".csv". */
 bool scene_names_table(const char *text);
@@ -29,6 +30,11 @@ bool scene_names_mesh(const char *text);
 /* The path of a file that a scene names, from the scene's folder; of one that a picture carries, else where
  * scenes are looked for. */
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
+
+/* The same for what is read of a recorded run: beside its snapshots, else in the folder that the scene was
+   in, else where scenes are looked for. False with what is missing. */
+bool scene_recorded_path(const char *snapshots, const char *folder, const char *name, char path[1200],
+                         Error *error);
 
 /* Calls `found` with each "table", "mesh" and "volume" that the scene in these bytes names once the settings
    (NULL: none) are made, for whoever must not write over them: of a volume with its header and its raw file.

@@ -11,7 +11,7 @@
 /* Where a scene is read. */
 typedef struct Reading {
     Check check;
-    bool recorded;
+    const SceneSettings *settings;
     Notes *notes;
 } Reading;
 
@@ -23,11 +23,15 @@ static bool read_file_of(const Reading *reading, const char *view, const ViewFil
     snprintf(key, sizeof key, "%.60s.%.63s", view, file->key);
     if (file->wrong)
         return FAIL(&reading->check, key, "%s", file->wrong);
-    *file->data =
-        scene_beside_path(reading->check.tree->path, file->name, path, &why) ? volume_kept(path, &why) : NULL;
-    if (!*file->data && reading->recorded)
+    const char *scene = reading->check.tree->path;
+    const bool recorded = reading->settings->recorded;
+    const bool found = recorded
+                           ? scene_recorded_path(scene, reading->settings->folder, file->name, path, &why)
+                           : scene_beside_path(scene, file->name, path, &why);
+    *file->data = found ? volume_kept(path, &why) : NULL;
+    if (!*file->data && recorded)
         notes_add(reading->notes, "%s: %.300s; what is of it is left out", key, why.message);
-    return *file->data || reading->recorded || FAIL(&reading->check, key, "%s", why.message);
+    return *file->data || recorded || FAIL(&reading->check, key, "%s", why.message);
 }
 
 static bool read_view(const Reading *reading, const char *view, const ViewDef *def)
@@ -43,9 +47,10 @@ static bool read_view(const Reading *reading, const char *view, const ViewDef *d
     return true;
 }
 
-bool scene_read_view_files(const Tree *tree, bool recorded, Scene *scene, Notes *notes, Error *error)
+bool scene_read_view_files(const Tree *tree, const SceneSettings *settings, Scene *scene, Notes *notes,
+                           Error *error)
 {
-    const Reading reading = {{tree, scene, error}, recorded, notes};
+    const Reading reading = {{tree, scene, error}, settings, notes};
     for (int i = 0; i < scene->view_count; i++) {
         char view[32];
         snprintf(view, sizeof view, "views[%d]", i);

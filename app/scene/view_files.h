@@ -8,6 +8,7 @@
 
 /* Reads them, found from the folder of tree->path, and hands them to the views. False with "file:line: ..."
    where one cannot be read; of a recorded run that is a note, and what is of the file is left out. */
-bool scene_read_view_files(const Tree *tree, bool recorded, Scene *scene, Notes *notes, Error *error);
+bool scene_read_view_files(const Tree *tree, const SceneSettings *settings, Scene *scene, Notes *notes,
+                           Error *error);
 
 #endif

@@ -64,6 +64,27 @@ class Pictures(PlaybackTest):
                    'frequency: 2}}]\nsolver:\n') + 'view: {range: [0, 0.7], camera: {from: [2, 2, 1], to: [0, 0.3, 0]}}\n')
         self.compare('paddle.yaml', '0.12', 'spheres', 'splat')
 
+    def test_a_mesh_of_another_folder(self):
+        """Found beside the snapshots, else where the scene was; without it the fluid is shown, and one line says why."""
+        os.makedirs(self.path('there/models'))
+        block = [[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]
+        sides = ['1 2 4 3', '5 7 8 6', '1 5 6 2', '3 4 8 7', '1 3 7 5', '2 6 8 4']  # counter-clockwise from outside
+        self.write('there/models/a.obj', ''.join('v {} {} {}\n'.format(*v) for v in block) + ''.join(f'f {s}\n' for s in sides))
+        self.write('there/s.yaml', self.read('scene.yaml').decode() +
+                   'solids: [{mesh: {file: models/a.obj, centre: [0, 0.75, 0], scale: 0.2}}]\n')
+        self.run_('--time', '0', scene='there/s.yaml')
+        self.render('there/s.yaml', 'scene.png', '--time', '0')
+        self.assertNotIn('neither', self.render('a.h5part', 'file.png'))
+        self.assert_same_picture('file.png', 'scene.png')
+        os.rename(self.path('there'), self.path('gone'))
+        said = self.render('a.h5part', 'none.png')
+        self.assertRegex(said, r'\Amodels/a.obj: neither at models/a.obj, beside the snapshots, nor in /.*/there, where the scene '
+                               r'was, nor where scenes are looked for; put it there; it is not drawn\n')
+        self.assertTrue(without_text(self.read('none.png')) != without_text(self.read('file.png')))
+        os.rename(self.path('gone/models'), self.path('models'))
+        self.render('a.h5part', 'beside.png')
+        self.assert_same_picture('beside.png', 'scene.png')
+
     def test_emitters(self):
         jet = '    emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 2}]\n'
         self.write('jet.yaml', command.SCENE.replace('    fill:', jet + '    fill:', 1))
