@@ -180,6 +180,40 @@ class Tables(Case):
         self.assertNotIn('compute', done.stdout)
         self.assertEqual(sum('spheres   cpu ' in line for line in done.stdout.splitlines()), 4)
 
+    def rows_of(self, table, *more):
+        """The published rows of a table, with its words, and the measured ones: each a list of words."""
+        done = self.slosh_out('bench', '--table', table, '--backend', 'cpu', '--frames', '1', '--size', '64x48', '--json', 't.json', *more)
+        rows = [line.split() for line in done.stdout.splitlines() if line[:9].strip().isdigit()]
+        results = json.loads(self.read('t.json'))
+        measured = [row for row in rows if 'published' not in row]
+        self.assertEqual([(int(row[0]), row[2], row[3]) for row in measured], [(r['particles'], r['view'], r['backend']) for r in results])
+        return [row for row in rows if 'published' in row], measured, results
+
+    def test_passes_of_splatting(self):
+        """A row for each animation of the paper, below its own; shares of three passes that sum to all, pictures a second."""
+        published, measured, results = self.rows_of('paper002-passes', '--particles', '600')
+        self.assertEqual([row[0] for row in published], ['110000', '18000', '59000', '63000'])
+        self.assertEqual([float(row[-2]) for row in published], [11, 47, 20, 20])
+        self.assertEqual(len(measured), 4)
+        for row, r in zip(measured, results):
+            times = [next(s['median_ms'] for s in r['stages'] if s['name'] == name) for name in ('visibility', 'blend', 'shade')]
+            for place, time in zip((4, 7, 10), times):
+                self.assertAlmostEqual(float(row[place]), time, 2)
+            self.assertAlmostEqual(sum(float(row[k]) for k in (5, 8, 11)), 100, delta=0.2)
+            self.assertAlmostEqual(float(row[14]) * r['render_ms'] / 1000, 1, 1)
+            self.assertLess(abs(r['particles'] / 600 - 1), 0.1)
+
+    def test_raycasting(self):
+        """The paper's numbers of particles on its processor and its graphics card, and beside them what is here."""
+        published, measured, results = self.rows_of('paper003-raycast', '--set', 'view.volume.cells=16')
+        self.assertEqual([row[0] for row in published], [n for n in ('1024', '2048', '4096', '8192') for _ in range(2)])
+        self.assertEqual(len(measured), 4)
+        for row, r, wanted in zip(measured, results, (1024, 2048, 4096, 8192)):
+            self.assertLess(abs(r['particles'] / wanted - 1), 0.05)
+            times = {s['name']: s['median_ms'] for s in r['stages']}
+            for place, name in [(7, 'voxelize'), (10, 'raycast')]:
+                self.assertAlmostEqual(float(row[place]), times[name], 2)
+
     def test_trouble_is_told(self):
         """Halved steps are counted as they ran; what blew up in its last frame is no measurement."""
         loud = ['--view', 'none', '--frames', '8', '--set', 'solver.sound_speed=450',
