@@ -139,7 +139,7 @@ bool plan_case_load(const Plan *plan, size_t index, bool tell, Scene *scene, Err
     if (!case_settings(plan, index % plan->combinations, texts, &settings, error))
         return false;
     if (plan->table && !plan->table->scene && settings.particles == 0)
-        settings.particles = strtoul(plan->table->particles[number], NULL, 10);
+        settings.particles = table_particles(plan->table, number);
     if (!scene_load(plan->scenes[number], &settings, scene, &notes, error))
         return false;
     if (tell)

@@ -18,6 +18,7 @@ typedef struct Samples {
     int frames, gl_frames;
     uint64_t steps;
     size_t lost;
+    double particles;        /* summed over frames */
     double began, simulated; /* s */
     bool sim_on_gpu;
 } Samples;
@@ -221,7 +222,7 @@ static bool measure(Stand *stand, const BenchSetup *setup, Progress *progress, d
     world_tally_anew(stand->world);
     while (samples->frames < frames && !interrupted()) {
         StageClock clock;
-        if (!advance(stand, first.time + setup->seconds * samples->frames / frames, error))
+        if (!advance(stand, first.time + setup->seconds * (samples->frames + 0.5) / frames, error))
             return false;
         world_info(stand->world, &before);
         const double began = wall_ms();
@@ -234,6 +235,7 @@ static bool measure(Stand *stand, const BenchSetup *setup, Progress *progress, d
         progress_update(progress, done + part * samples->frames / frames);
         world_info(stand->world, &last);
         samples->lost = last.lost > samples->lost ? last.lost : samples->lost;
+        samples->particles += (double)last.count;
         samples->steps += last.step - before.step;
         samples->simulated += last.time - before.time;
     }
@@ -285,6 +287,7 @@ static void describe(const Stand *stand, BenchResult *result)
 static bool conclude(Stand *stand, const Samples *samples, BenchResult *result, Error *error)
 {
     describe(stand, result);
+    result->particles = (size_t)lround(samples->particles / samples->frames);
     result->substeps = (int)lround((double)samples->steps / samples->frames);
     result->lost = samples->lost;
     result->time = samples->began;

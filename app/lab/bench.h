@@ -28,8 +28,8 @@ typedef struct BenchResult {
     char renderer[256]; /* "" when no context was needed */
     const char *simd;   /* NULL: none is chosen */
     int threads, width, height, frames;
-    int substeps; /* of a frame, as they ran: trouble halves the step */
-    size_t particles;
+    int substeps;      /* of a frame, as they ran: trouble halves the step */
+    size_t particles;  /* the mean of the frames */
     unsigned troubles; /* that the sentinel found, the warming up included */
     size_t unlisted;   /* bytes of lists of neighbours that a GPU has no memory for */
     size_t lost;       /* of them, without a place in the grid, at most in one frame */

@@ -47,6 +47,7 @@ static const Table tables[] = {
      .seconds = 1.5,
      .settings = {"view.radius=1", "view.splat.drops=false"}, /* no neighbours there */
      .particles = {"110000", "18000", "59000", "63000"},
+     .asked = {NULL, "20000", "118000", "126000"},
      .reference = "scenes/reference/paper002-passes.csv",
      .view = "splat",
      .percent = true,
@@ -252,6 +253,12 @@ static void print_published(const Table *table, const Reference *reference, size
             print_rate(reference_number(reference, row, "rate"), particles, file);
         fputc('\n', file);
     }
+}
+
+size_t table_particles(const Table *table, size_t scene)
+{
+    const char *asked = table->asked[scene] ? table->asked[scene] : table->particles[scene];
+    return strtoul(asked, NULL, 10);
 }
 
 static size_t asked_for(const Table *table, int group)

@@ -21,10 +21,12 @@ typedef struct Table {
     double seconds;                       /* over which the frames are spread; 0: they follow at once */
     const char *settings[TABLE_SETTINGS]; /* before those of the command line */
     const char *particles[8];             /* each of these, with each view and each backend; ended by NULL */
-    const char *substeps[3];              /* and each of these; ended by NULL */
-    const char *reference;                /* the CSV file of what was published, or NULL */
-    const char *view;                     /* the only one, drawn for one backend; NULL: all of both */
-    bool backends;                        /* with a view: for all of these */
+    const char *asked[8];    /* with several scenes: the --particles whose mean those are, where fluid is
+                                poured; NULL: those */
+    const char *substeps[3]; /* and each of these; ended by NULL */
+    const char *reference;   /* the CSV file of what was published, or NULL */
+    const char *view;        /* the only one, drawn for one backend; NULL: all of both */
+    bool backends;           /* with a view: for all of these */
     const char *sweep,
         *values[8]; /* with a view: a setting and its values, ended by NULL, a row each; or NULL */
     bool percent;   /* shares were published, and frames a second as `rate` */
@@ -41,6 +43,9 @@ const char *table_choice(int index);
 
 /* How many scenes it has, and their paths. */
 size_t table_scenes(const Table *table, const char *const **scenes);
+
+/* The --particles of one of several scenes, where the command line gives none. */
+size_t table_particles(const Table *table, size_t scene);
 
 /* The sweeps that make up its cases, views and backends as this program has them; how many. */
 int table_sweeps(const Table *table, Sweep sweeps[TABLE_SWEEPS + 1]);

@@ -100,14 +100,51 @@ static void step_follow(const Tree *tree, Scene *scene, const SceneSettings *set
               best->count, with);
 }
 
+/* What the emitters send out in their time, m3 (m2 in two dimensions); 0 where one goes on for ever. */
+static double poured_volume(const WorldDef *world)
+{
+    double volume = 0;
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].emit_count; i++) {
+            const Emit *emit = &world->fluids[f].emits[i];
+            const double across =
+                world->dimensions == 3 ? M_PI * emit->radius * emit->radius : 2 * emit->radius;
+            if (emit->duration == 0)
+                return 0;
+            volume += across * emit->speed * emit->duration;
+        }
+    return volume;
+}
+
+/* Of a scene that fills nothing at the start: so many in the end. */
+static bool set_poured(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
+                       Error *error)
+{
+    const size_t wanted = settings->particles;
+    const double volume = poured_volume(&scene->world);
+    const Best best = {.spacing = root(scene, volume / (double)wanted), .count = wanted};
+    if (volume <= 0)
+        return error_set(error,
+                         "--particles %zu: the scene fills nothing at the start, and its emitters have no "
+                         "`duration`; use --set particles.spacing=...",
+                         wanted);
+    if (!scene_fits_memory((double)wanted) || !scene_check_bounds(tree, scene, best.spacing, NULL))
+        return error_set(error, "--particles %zu: more than this machine can hold; use fewer", wanted);
+    if (best.spacing > greatest_spacing(scene))
+        return error_set(error, "--particles %zu: too few to fill this scene; use more", wanted);
+    if (wanted > (size_t)scene->world.most)
+        return error_set(error, "--particles %zu: more than particles.most, %d; use fewer or set it", wanted,
+                         scene->world.most);
+    step_follow(tree, scene, settings, &best, notes);
+    return true;
+}
+
 bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                          Error *error)
 {
     const size_t wanted = settings->particles;
     if (scene_fluid_volume(scene) <= 0)
-        return error_set(
-            error, "--particles %zu: the scene fills nothing at the start; use --set particles.spacing=...",
-            wanted);
+        return set_poured(tree, scene, settings, notes, error);
     const double guess =
         fmin(greatest_spacing(scene), root(scene, scene_fluid_volume(scene) / (double)wanted));
     if (!(guess > 1e-6) || !scene_fits_memory((double)wanted) ||
