@@ -2,6 +2,8 @@
    from the covariance of its neighbours, after Yu and Turk, Reconstructing surfaces of particle-based fluids
    using anisotropic kernels, 2013; or, of a particle with few neighbours, a ball on its way to the drop that
    it is: one of its own volume, spacing^3. Both fade with the neighbours' weights, so that nothing pops.
+   Ellipsoids beside a wall of the box have images behind it for neighbours: a level is as flat there as
+   elsewhere.
 
    That volume is not the solver's 1 / n: without neighbours to sum up, it is several times as large. */
 #ifndef SLOSH_ELLIPSOIDS_H

@@ -83,7 +83,6 @@ static void set_uniforms(const NarrowRange *filter, const Frame *frame)
         const GLuint program = i == 0 ? filter->along : filter->clean;
         glProgramUniform1f(program, FILTER_REACH_AT, reach);
         glProgramUniform1f(program, FILTER_RANGE_AT, range);
-        glProgramUniform1f(program, FILTER_RADIUS_AT, radius);
     }
     glProgramUniform1f(filter->normals, EDGE_STEP_AT,
                        0.5F * range); /* filtered, the brim of a gap of one range is nearer */

@@ -2,12 +2,13 @@
    surface, for comparison with blending. After: Truong, Yuksel, A narrow-range filter for screen-space fluid
    rendering, PACMCGIT 1 (1), 2018 (I3D).
 
-   A neighbour nearer to the eye than the range around a pixel's depth is left out, with the one opposite, so
-   that the mean does not lean; one farther than the range counts as if it were a radius behind the pixel.
-   What lies between widens the range for those beyond, on each side of a pass. The kernel has one size in the
-   world; passes along x and y, then a small one in two dimensions. Where we differ: means and ranges are of 1
-   / depth, in which a plane is linear on the screen and stays one; weights are (1 - q^2)^3, which end at 0,
-   instead of a cut Gaussian. */
+   A neighbour beyond the range around a pixel's depth is left out, with the one opposite, so that the mean
+   does not lean. What lies within widens the range for those beyond, on each side of a pass. The kernel has
+   one size in the world; passes along x and y, then a small one in two dimensions. Where we differ: what is
+   too far behind is left out as what is too near is (in the paper it counts as if it were a radius behind,
+   which lifts a level seen at a slant towards its far end); means and ranges are of 1 / depth, in which a
+   plane is linear on the screen and stays one; weights are (1 - q^2)^3, which end at 0, instead of a cut
+   Gaussian. */
 #ifndef SLOSH_NARROW_RANGE_H
 #define SLOSH_NARROW_RANGE_H
 

@@ -6,7 +6,6 @@
 layout(binding = NEAREST_UNIT) uniform sampler2D depth_map;
 layout(location = FILTER_REACH_AT) uniform float filter_reach;   // half the kernel's width at a depth of 1 m, pixels
 layout(location = FILTER_RANGE_AT) uniform float filter_range;   // m
-layout(location = FILTER_RADIUS_AT) uniform float filter_radius; // m
 layout(location = FILTER_AXIS_AT) uniform ivec2 along;           // the axis
 layout(location = 0) out float filtered;
 
@@ -18,15 +17,13 @@ float nearness(float middle, ivec2 pixel)
     return z < 0.0 ? 1e9 : z < 1e29 ? (middle - z) / z : -1e9;
 }
 
-// What counts of t; what lies between `limits` does, and widens them. False: nothing, it is another surface before this one.
-bool admit(inout float t, inout vec2 limits, float range, float clamped)
+// Whether t counts: what lies between `limits` does, and widens them; the rest is another surface. Of a pair of which one does not the other
+// counts for nothing, or it would pull a surface that is seen at a slant towards the side where there is more of it.
+bool admit(float t, inout vec2 limits, float range)
 {
-    if (t > limits.y)
+    if (t < limits.x || t > limits.y)
         return false;
-    if (t < limits.x)
-        t = clamped;
-    else
-        limits = vec2(min(limits.x, t - range), max(limits.y, t + range));
+    limits = vec2(min(limits.x, t - range), max(limits.y, t + range));
     return true;
 }
 
@@ -37,7 +34,7 @@ const ivec2 steps[12] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, 
 
 vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
 {
-    float range = filter_range / middle, clamped = -filter_radius / (middle + filter_radius);
+    float range = filter_range / middle;
     vec2 limits = vec2(-range, range), sums = vec2(0.0, 1.0);
     for (int i = 0; i < 12; i++) {
         ivec2 offset = steps[i];
@@ -45,7 +42,7 @@ vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
             continue;
         float one = nearness(middle, pixel + offset), other = nearness(middle, pixel - offset);
         float w = 1.0 - float(offset.x * offset.x + offset.y * offset.y) / 9.0;
-        bool first = admit(one, limits, range, clamped), second = admit(other, limits, range, clamped);
+        bool first = admit(one, limits, range), second = admit(other, limits, range);
         if (first && second)
             sums += w * w * w * vec2(one + other, 2.0);
     }
@@ -54,7 +51,7 @@ vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
 #else
 vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
 {
-    float range = filter_range / middle, clamped = -filter_radius / (middle + filter_radius);
+    float range = filter_range / middle;
     vec2 ahead = vec2(-range, range), back = ahead, sums = vec2(0.0, 1.0);
     float reach = filter_reach / middle, stride = max(ceil(reach / float(TAPS)), 1.0);
     int taps = min(int(ceil(reach / stride)) - 1, (along.x != 0 ? room.x : room.y) / int(stride));
@@ -62,7 +59,7 @@ vec2 sum_up(float middle, ivec2 pixel, ivec2 room)
         ivec2 offset = i * int(stride) * along;
         float one = nearness(middle, pixel + offset), other = nearness(middle, pixel - offset);
         float q = float(i) * stride / reach, w = 1.0 - q * q;
-        bool first = admit(one, ahead, range, clamped), second = admit(other, back, range, clamped);
+        bool first = admit(one, ahead, range), second = admit(other, back, range);
         if (first && second)
             sums += w * w * w * vec2(one + other, 2.0);
     }

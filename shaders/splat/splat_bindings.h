@@ -47,11 +47,10 @@
 #define NEAREST_DEPTH_AT  21
 #define FARTHEST_DEPTH_AT 22
 /* of the filter */
-#define FILTER_REACH_AT  23
-#define FILTER_RANGE_AT  24
-#define FILTER_RADIUS_AT 25
-#define FILTER_AXIS_AT   26
-#define EDGE_STEP_AT     27
+#define FILTER_REACH_AT 23
+#define FILTER_RANGE_AT 24
+#define FILTER_AXIS_AT  26
+#define EDGE_STEP_AT    27
 /* of particles in a crowd */
 #define SUPPORT_RADIUS_AT 28
 #define FULL_SUM_AT       29

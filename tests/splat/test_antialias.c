@@ -129,7 +129,7 @@ static void outlines_are_nearer_to_the_truth(void **state)
     expect_nearer("paper", &scene, 2.5);
     scene = scene_of(20);
     splat_def(&scene.def)->filter = SPLAT_NARROW_RANGE;
-    expect_nearer("filter", &scene, 2.5);
+    expect_nearer("filter", &scene, 2.4);
 }
 
 /* By rows: a level's outline is none of spheres. */

@@ -8,23 +8,50 @@ typedef struct Body {
     double axes[3][3]; /* takes the unit sphere to the ellipsoid, over the radius */
 } Body;
 
-/* Weight (Yu and Turk 2013, eq. 11) and offset in h of one particle seen from another. */
-static double weight_at(const SplatScene *scene, size_t i, size_t j, double d[3])
+enum { IMAGES = 8 };
+
+/* How much a wall mirrors, by the spacings to it: the constants of shaders/splat/ellipsoids.comp. */
+static double touch_of(double spacings)
 {
-    const float *from = &scene->particles->position[4 * i], *to = &scene->particles->position[4 * j];
-    for (int k = 0; k < 3; k++)
-        d[k] = ((double)to[k] - from[k]) / scene->state.support_radius;
-    const double q2 = dot3(d, d);
-    return q2 < 1 ? 1 - q2 * sqrt(q2) : 0; /* 0 for NaN */
+    const double t = fmin(fmax((spacings - 0.7) / 0.4, 0), 1);
+    return 1 - t * t * (3 - 2 * t);
 }
 
-/* Returns the sum of weights. */
-static double weighted_mean(const SplatScene *scene, size_t i, double mean[3])
+/* The share of a neighbour's image behind walls of the box, and its offset in h: `image` has bits of the axes
+   that they mirror. */
+static double image_of(const SplatScene *scene, size_t i, size_t j, int image, double d[3])
+{
+    const float *from = &scene->particles->position[4 * i], *to = &scene->particles->position[4 * j];
+    const double *box = scene->state.box_size, h = scene->state.support_radius;
+    double share = 1;
+    for (int k = 0; k < 3; k++) {
+        const double low = k == 1 ? 0 : -box[k] / 2, high = low + box[k];
+        const double way = ((double)from[k] < (low + high) / 2 ? low : high) - from[k];
+        const bool walled =
+            splat_def(&scene->def)->shape == SPLAT_ELLIPSOID && !(k == 2 && scene->frame.slab > 0);
+        d[k] = ((double)to[k] - from[k]) / h;
+        if (!(image >> k & 1))
+            continue;
+        share *= walled ? touch_of(fabs(way) / scene->state.spacing) : 0;
+        d[k] = 2 * way / h - d[k];
+    }
+    return share;
+}
+
+/* Weight (Yu and Turk 2013, eq. 11) and offset in h of one particle, or its image, seen from another. */
+static double weight_at(const SplatScene *scene, size_t i, size_t j, int image, double d[3])
+{
+    const double share = image_of(scene, i, j, image, d), q2 = dot3(d, d);
+    return share > 0 && q2 < 1 ? share * (1 - q2 * sqrt(q2)) : 0; /* 0 for NaN */
+}
+
+/* Returns the sum of weights; `crowd`: that without images. */
+static double weighted_mean(const SplatScene *scene, size_t i, double mean[3], double *crowd)
 {
     double sum = 0, d[3];
-    for (size_t j = 0; j < scene->particles->count; j++) {
-        const double w = weight_at(scene, i, j, d);
-        sum += w;
+    for (size_t n = 0; n < IMAGES * scene->particles->count; n++) {
+        const double w = weight_at(scene, i, n / IMAGES, n % IMAGES, d);
+        sum += w, *crowd += n % IMAGES == 0 ? w : 0;
         for (int k = 0; k < 3 && w > 0; k++)
             mean[k] += w * d[k];
     }
@@ -36,8 +63,8 @@ static double weighted_mean(const SplatScene *scene, size_t i, double mean[3])
 static void covariance(const SplatScene *scene, size_t i, const double mean[3], double sum, double c[3][3])
 {
     double d[3];
-    for (size_t j = 0; j < scene->particles->count; j++) {
-        const double w = weight_at(scene, i, j, d);
+    for (size_t n = 0; n < IMAGES * scene->particles->count; n++) {
+        const double w = weight_at(scene, i, n / IMAGES, n % IMAGES, d);
         for (int k = 0; k < 9 && w > 0; k++)
             c[k / 3][k % 3] += w / sum * (d[k / 3] - mean[k / 3]) * (d[k % 3] - mean[k % 3]);
     }
@@ -76,13 +103,13 @@ static Body body_wanted(const SplatScene *scene, size_t i, bool flat)
 {
     Body body = {0};
     double mean[3] = {0};
-    const double sum = weighted_mean(scene, i, mean), pi = acos(-1);
+    const double sum = weighted_mean(scene, i, mean, &body.crowd), pi = acos(-1);
     const double drop = scene->state.spacing * (flat ? sqrt(1 / pi) : cbrt(3 / (4 * pi)));
-    const double share = share_of(scene, sum - 1, flat),
+    const double share = share_of(scene, body.crowd - 1, flat),
                  alone = splat_def(&scene->def)->drops ? drop : scene->frame.particle_radius;
     covariance(scene, i, mean, sum, body.axes);
     round_off(body.axes, share, flat);
-    body.crowd = sum - 1;
+    body.crowd -= 1;
     body.radius = alone + share * (scene->frame.particle_radius - alone);
     for (int k = 0; k < 3; k++)
         body.centre[k] = scene->particles->position[4 * i + (size_t)k] +
@@ -108,7 +135,7 @@ static void compare(const SplatScene *scene, size_t i, bool flat)
     for (int k = 0; k < 3; k++) {
         for (int l = 0; l < 3; l++) {
             unit[k][l] = dot3(a[k], wanted.axes[l]);
-            if (!(fabs(unit[k][l] - (k == l)) < 2e-4))
+            if (!(fabs(unit[k][l] - (k == l)) < 4e-4))
                 fail_msg("particle %zu, weights %g: A times axes %d %d is %g", i, wanted.crowd, k, l,
                          unit[k][l]);
         }
@@ -144,7 +171,7 @@ static void scatter(Particles *particles)
         particles_add(particles, 1.1 + 0.3 * sin(12.9 * i), 1.1 + 0.2 * sin(78.2 * i),
                       0.6 + 0.1 * sin(37.7 * i), 1, 0);
     for (int i = 0; i < 20; i++)
-        particles_add(particles, -1 + 0.21 * i, 0, -0.5, 1, 0);
+        particles_add(particles, -1 + 0.21 * i, 0.85, -0.35, 1, 0);
     for (int i = 0; i < 8; i++)
         particles_add(particles, -0.9, 0.9, 0.4, 1, 0);
 }
@@ -203,7 +230,7 @@ static void in_two_dimensions(void **state)
     scene.state.box_size[2] = 0.1;
     for (int i = 0; i < 300; i++)
         particles_add(scene.particles, 0.9 * sin(12.9898 * i), 0.5 + 0.5 * sin(78.233 * i), 0, 1, 0);
-    particles_add(scene.particles, -5, 0, 0, 1, 0); /* alone */
+    particles_add(scene.particles, -5, 0.4, 0, 1, 0); /* alone */
     shape_all(&scene);
     for (size_t i = 0; i < scene.particles->count; i++) {
         const float *shape = &splat_shapes[12 * i];

@@ -56,9 +56,12 @@ static double way_of(const Through *sight)
     return sqrt(dot3(sight->way, sight->way)) * (sight->leave - sight->enter);
 }
 
+/* How far the top may be beside its level, in spacings: measured 0.052, the mean 0.021 below; and within half
+   a spacing of the sides, where the last bumps have nothing beyond to be smoothed with, 0.201. */
+static const double TOP = 0.06, RIM = 0.25;
+
 typedef struct Tally {
-    int panes, top, none;
-    double squares; /* of the top's height beside the level, in spacings */
+    int panes, top, rim, none;
 } Tally;
 
 /* The least way to a side. */
@@ -81,12 +84,14 @@ static void check_depth(const Through *sight, double depth, int x, int y, Tally 
         tally->panes++;
         if (fabs(-depth - sight->enter) > 1e-5)
             fail_msg("pixel %d %d: pane at %g m, not %g", x, y, -depth, sight->enter);
-    } else if (enters > SPACING && leaves < -2 * SPACING && from_walls(sight, to_level) > 2.5 * SPACING) {
-        tally->top++;
+    } else if (enters > 0 && leaves < 0) {
+        const bool rim = from_walls(sight, to_level) < 0.5 * SPACING;
         const double above = (height_at(sight, depth) - LEVEL) / SPACING;
-        tally->squares += above * above;
-        if (fabs(above) > 0.25)
+        tally->top += !rim, tally->rim += rim;
+        if (depth > 0 && depth < 1e29 && fabs(above) > (rim ? RIM : TOP))
             fail_msg("pixel %d %d: %g spacings above the level", x, y, above);
+        if (!rim && (depth < 0 || depth > 1e29))
+            fail_msg("pixel %d %d: %g m, where the top is", x, y, depth);
     }
 }
 
@@ -100,10 +105,9 @@ static void the_surface_is_the_walls_and_the_level(void **state)
         const Through sight = sight_of(&scene, i % SIDE, i / SIDE);
         check_depth(&sight, pixels[i].shown_depth, i % SIDE, i / SIDE, &tally);
     }
-    if (sqrt(tally.squares / tally.top) > 0.1)
-        fail_msg("the top is %g spacings (rms) beside the level", sqrt(tally.squares / tally.top));
-    if (tally.panes < 2000 || tally.top < 400 || tally.none < 5000)
-        fail_msg("compared: %d of panes, %d of the top, %d beside", tally.panes, tally.top, tally.none);
+    if (tally.panes < 2000 || tally.top < 2000 || tally.rim < 200 || tally.none < 5000)
+        fail_msg("compared: %d of panes, %d of the top, %d of its rim, %d beside", tally.panes, tally.top,
+                 tally.rim, tally.none);
     free(pixels);
     free(scene.particles);
 }
