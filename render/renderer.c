@@ -163,6 +163,15 @@ static ParticleWants wants_of(const ViewDef *def)
     return wants;
 }
 
+/* And what is computed for foam, which is not the state's: derived_trapped_air. */
+static ParticleWants made_for(const ViewDef *def)
+{
+    ParticleWants wants = wants_of(def);
+    if (view_has_foam(def))
+        wants.scalars |= SCALAR_BIT(SCALAR_TRAPPED_AIR);
+    return wants;
+}
+
 unsigned renderer_attributes(const ViewDef *def)
 {
     const unsigned fluid =
@@ -175,7 +184,7 @@ unsigned renderer_attributes(const ViewDef *def)
 
 static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
 {
-    const ParticleWants wants = wants_of(def);
+    const ParticleWants wants = made_for(def);
     if (!derived_follow(&renderer->derived, &wants, error))
         return false;
     if (!view_def_ranges(def) || renderer->ranges.find)
@@ -306,7 +315,7 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
                                         renderer->target.height, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
-        const ParticleWants wants = wants_of(def);
+        const ParticleWants wants = made_for(def);
         renderer->said = *said;
         renderer->def = *def;
         renderer->world = *subject.world;
@@ -465,10 +474,16 @@ static bool derives(const ViewDef *def)
            wants_attributes(&wants) & PARTICLE_SCALAR(SCALAR_BORN);
 }
 
-static void derive(Renderer *renderer, const ParticleWants *wants, ParticleBuffers *particles)
+static DerivedSpace space_of(const Renderer *renderer, const ParticleBuffers *particles)
 {
     DerivedSpace space = {.flat = frame_slab(particles) > 0};
     memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
+    return space;
+}
+
+static void derive(Renderer *renderer, const ParticleWants *wants, ParticleBuffers *particles)
+{
+    const DerivedSpace space = space_of(renderer, particles);
     derived_fill(&renderer->derived, wants, &space, particles);
 }
 
@@ -546,6 +561,20 @@ static bool has_foam(const Renderer *renderer, const Frame *frame)
     return view_has_foam(&renderer->def) && frame->clear > 0 && !(frame->slab > 0);
 }
 
+static void draw_foam(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
+{
+    const DerivedSpace space = space_of(renderer, particles);
+    ParticleAttribute air = {0};
+    GL_STAGE(frame->timer, STAGE_SCALARS)
+    {
+        air = derived_trapped_air(&renderer->derived, &space, particles, foam_slowest(&renderer->def));
+    }
+    GL_STAGE(frame->timer, STAGE_FOAM)
+    {
+        foam_draw(&renderer->foam, particles, &air, frame);
+    }
+}
+
 static void draw_view(Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
 {
     const bool foam = has_foam(renderer, frame);
@@ -556,10 +585,7 @@ static void draw_view(Renderer *renderer, const ParticleBuffers *particles, Fram
         }
     view_draw(renderer->view, particles, frame);
     if (foam)
-        GL_STAGE(frame->timer, STAGE_FOAM)
-        {
-            foam_draw(&renderer->foam, particles, frame);
-        }
+        draw_foam(renderer, particles, frame);
     if (renderer->def.legend) /* which waits for what it tells */
         frame->note = view_note(renderer->view, frame->behind);
 }

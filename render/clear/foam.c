@@ -47,9 +47,13 @@ void foam_destroy(Foam *foam)
     *foam = (Foam){0};
 }
 
+double foam_slowest(const ViewDef *def)
+{
+    return SPEED_FROM / def->foam;
+}
+
 void foam_want(ParticleWants *wants)
 {
-    wants->scalars |= SCALAR_BIT(SCALAR_TRAPPED_AIR);
     wants->attributes |= PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_ID);
 }
 
@@ -107,11 +111,14 @@ static void list(Foam *foam, const ParticleBuffers *particles, const Frame *fram
     glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
 }
 
-void foam_draw(Foam *foam, const ParticleBuffers *particles, const Frame *frame)
+void foam_draw(Foam *foam, const ParticleBuffers *state, const ParticleAttribute *air, const Frame *frame)
 {
+    ParticleBuffers with = *state;
+    const ParticleBuffers *const particles = &with;
     const bool solids = frame->world->solid_count > 0;
     const GLuint program = foam->draw[solids];
-    if (particles->count == 0 || !particles->scalar[SCALAR_TRAPPED_AIR].buffer || !particles->velocity.buffer)
+    with.scalar[SCALAR_TRAPPED_AIR] = *air;
+    if (particles->count == 0 || !air->buffer || !particles->velocity.buffer)
         return;
     follow(foam, frame);
     copy_depth(&foam->surface, frame, "foam, surface");

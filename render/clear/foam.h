@@ -32,14 +32,18 @@ typedef struct Foam {
 bool foam_create(Foam *foam, Error *error);
 void foam_destroy(Foam *foam);
 
-/* Adds what foam is made of. */
+/* Adds what foam is made of, but for the trapped air, of which it needs that of fast particles only. */
 void foam_want(ParticleWants *wants);
+
+/* The speed below which a particle does not foam, m/s. */
+double foam_slowest(const ViewDef *def);
 
 /* Before the view draws: keeps the depth of solids, where there are some. */
 void foam_begin(Foam *foam, const Frame *frame);
 
-/* Behind the view: draws over the target's colour. Draws nothing where the state lacks what foam is
-   made of. */
-void foam_draw(Foam *foam, const ParticleBuffers *particles, const Frame *frame);
+/* Behind the view: draws over the target's colour. `air`: SCALAR_TRAPPED_AIR of particles that are not slower
+   than foam_slowest. Draws nothing where the state lacks what foam is made of. */
+void foam_draw(Foam *foam, const ParticleBuffers *particles, const ParticleAttribute *air,
+               const Frame *frame);
 
 #endif

@@ -400,6 +400,31 @@ static bool due(bool wanted, unsigned program, const Recipe *recipe, const Parti
     return wanted && program && particles->count > 0 && has(recipe, particles);
 }
 
+/* Nowhere where there is no memory for it. */
+static ParticleAttribute make_scalar(Making *making, Scalar scalar, double slowest)
+{
+    Derived *derived = making->derived;
+    const Recipe *recipe = &scalar_recipes[scalar];
+    const unsigned program = derived->scalar_program[scalar];
+    if (!reserve(derived, &derived->scalar_buffer[scalar], &derived->scalar_capacity[scalar],
+                 making->particles->count, 4, scalar_list[scalar].name))
+        return (ParticleAttribute){0};
+    if (recipe->meets)
+        glProgramUniform1f(program, SLOWEST_AT, (float)slowest);
+    return make(making, recipe, program, derived->scalar_buffer[scalar], 4);
+}
+
+ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
+                                      const ParticleBuffers *particles, double slowest)
+{
+    const Scalar air = SCALAR_TRAPPED_AIR;
+    Making making = {derived, space, particles, false, {0}};
+    if (particles->scalar[air].buffer ||
+        !due(true, derived->scalar_program[air], &scalar_recipes[air], particles))
+        return particles->scalar[air];
+    return make_scalar(&making, air, slowest);
+}
+
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles)
 {
@@ -410,10 +435,7 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
         if (particles->scalar[s].buffer ||
             !due(wanted_scalars(wants) & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
             continue;
-        if (!reserve(derived, &derived->scalar_buffer[s], &derived->scalar_capacity[s], count, 4,
-                     scalar_list[s].name))
-            continue;
-        particles->scalar[s] = make(&making, &scalar_recipes[s], program, derived->scalar_buffer[s], 4);
+        particles->scalar[s] = make_scalar(&making, (Scalar)s, 0);
     }
     if (wants->vectors & VECTOR_BIT(VECTOR_VELOCITY))
         particles->vector[VECTOR_VELOCITY] = particles->velocity;

@@ -15,6 +15,18 @@ layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // of the box'
 layout(location = NOW_AT) uniform float now;                      // of the state, s
 layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // of the box, in its axes, rad/s
 
+#ifdef MEETS
+layout(location = SLOWEST_AT) uniform float slowest; // m/s: nothing is summed up for what is slower
+bool asked_for(uint i)
+{
+    vec3 velocity = velocity_of(i);
+    bool slower = dot(velocity, velocity) < slowest * slowest;
+    return !slower;
+}
+#else
+#define asked_for(i) true
+#endif
+
 #ifdef NEAR
 layout(binding = OTHERS_UNIT) uniform samplerBuffer other_texels; // derived_pack.comp
 
@@ -121,7 +133,7 @@ void main()
     uint i = number_of(at);
     vec3 place = place_of(at);
     Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0);
-    if (in_grid(at))
+    if (in_grid(at) && asked_for(i))
         sums = sums_of(i, place);
     float near = sums.count;
     mat3 correct = correction(sums.moment), gradient = sums.velocity * correct;

@@ -27,5 +27,6 @@
 #define DIGIT_AT           23
 #define NOW_AT             24
 #define BIRTHS_COUNT_AT    25
+#define SLOWEST_AT         26
 
 #endif
