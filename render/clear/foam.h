@@ -43,7 +43,6 @@ void foam_begin(Foam *foam, const Frame *frame);
 
 /* Behind the view: draws over the target's colour. `air`: SCALAR_TRAPPED_AIR of particles that are not slower
    than foam_slowest. Draws nothing where the state lacks what foam is made of. */
-void foam_draw(Foam *foam, const ParticleBuffers *particles, const ParticleAttribute *air,
-               const Frame *frame);
+void foam_draw(Foam *foam, const ParticleBuffers *state, const ParticleAttribute *air, const Frame *frame);
 
 #endif
