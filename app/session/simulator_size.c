@@ -3,7 +3,7 @@
    with each step, which makes no sound; else in few steps. */
 #include "app/recording/box_command.h"
 #include "app/session/simulator_state.h"
-#include "sim/world/resize.h"
+#include "sim/world/world_state.h"
 
 #include <math.h>
 #include <string.h>

@@ -91,6 +91,10 @@ bool world_move(World **world, const char *backend, Error *error);
    that time twice the memory. False with the reason: nothing has changed. */
 bool world_rebuild(World **world, const WorldDef *def, Error *error);
 
+/* Whether the box may become that of `def` where the world stands: without solids, and inside the cells that
+   were made for it. Else the world is to be made anew. */
+bool world_resizes(const World *world, const WorldDef *def);
+
 /* From the next step on its box is as large as that of the def, and its solids are those of the def, where
    the hand has them: at once, where only that differs; else as world_rebuild does. Particles that a smaller
    box leaves outside come to its walls. */
