@@ -1,0 +1,69 @@
+/* Whose cells are whose, at first and as the fluid moves. */
+#include "sim/dist/ranks_state.h"
+#include "sim/dist/reduce.h"
+
+enum { BALANCE_EVERY = 20 /* looks at the shares: frames */ };
+
+/* Shares are made anew where the slowest rank takes so many times the mean. */
+static const double UNEVEN = 1.05;
+
+static bool balances = true;
+
+void ranks_balance(bool on)
+{
+    balances = on;
+}
+
+bool is_own(const Dist *dist, const Constants *constants, const float *x)
+{
+    return dist_owner(dist, cpu_cell_of(constants, x)) == dist_rank(dist);
+}
+
+void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial)
+{
+    for (size_t cell = 0; initial->count == 0 && cell < constants->cells.count; cell++)
+        ranks->weight[cell] = 1;
+    for (size_t i = 0; i < initial->count; i++)
+        ranks->weight[cpu_cell_of(constants, initial->position + 3 * i)]++;
+    dist_balance(ranks->dist, ranks->weight, true);
+}
+
+/* What its cells cost: particles, each as much as the rank's took. */
+static void weigh(Ranks *ranks)
+{
+    const Cpu *cpu = ranks->cpu;
+    const uint8_t *foreign = dist_foreign(ranks->dist);
+    const double each = ranks->cpu_time / (double)(cpu->owned > 0 ? cpu->owned : 1);
+    for (size_t cell = 0; cell < cpu->constants->cells.count; cell++)
+        ranks->weight[cell] = 0;
+    for (size_t i = 0; i < cpu->count; i++) {
+        const uint32_t cell =
+            cpu_cell_of(cpu->constants, (float[]){cpu->now.x[i], cpu->now.y[i], cpu->now.z[i]});
+        if (cpu_owns(cpu, i) && !foreign[cell])
+            ranks->weight[cell] += each;
+    }
+}
+
+void share_anew(Ranks *ranks)
+{
+    const double begin = MPI_Wtime();
+    weigh(ranks);
+    dist_balance(ranks->dist, ranks->weight, false);
+    ranks->due = false;
+    ranks->cpu_time = 0;
+    ranks->figures.balances++;
+    ranks->figures.balance += MPI_Wtime() - begin;
+}
+
+void look_at_shares(Ranks *ranks)
+{
+    double time[2] = {ranks->cpu_time, ranks->cpu_time};
+    if (!balances || dist_size(ranks->dist) == 1 || ++ranks->looks < BALANCE_EVERY)
+        return;
+    ranks->looks = 0;
+    reduce_sum(&time[0], 1);
+    reduce_most(&time[1], 1);
+    ranks->due = time[1] > UNEVEN * time[0] / dist_size(ranks->dist);
+    if (!ranks->due)
+        ranks->cpu_time = 0;
+}
