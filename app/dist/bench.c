@@ -1,4 +1,5 @@
 /* What the parts of a step take, a rank: measured, and written for the model of cost. */
+#include "app/lab/bench.h"
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
@@ -9,6 +10,7 @@
 #include <mpi.h>
 #include <stdlib.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 enum { DEFAULT_FRAMES = 20 };
 
@@ -27,6 +29,7 @@ static const char *const names[FIGURES] = {"compute", "exchange", "balance",  "w
 
 typedef struct DistBench {
     const Args *args;
+    const DistOptions *options;
     Stand stand;
     uint64_t steps;
     double seconds;  /* of all steps */
@@ -155,6 +158,12 @@ static double a_particle(const DistBench *bench, double bytes)
     return count > 0 ? bytes * bench->stand.size / count : 0;
 }
 
+static const char *host(void)
+{
+    static char name[256];
+    return gethostname(name, sizeof name - 1) == 0 ? name : "";
+}
+
 static void print_row(const char *name, const RankBench *r)
 {
     printf("  %-5s %9.3f %9.3f %9.3f %9.3f %9.0f %9.0f %9.1f %9.1f\n", name, 1e3 * r->compute,
@@ -171,6 +180,7 @@ static void print(const DistBench *bench)
            bench->args->scenes[0], info->count, plural(info->count), bench->stand.scene.world.method, size,
            plural((size_t)size), info->threads, plural((size_t)info->threads),
            1e3 * bench->seconds / (double)bench->steps, (unsigned long long)bench->steps, info->time);
+    printf("  %s, %s\n", bench_processor(), host());
     printf("  a step, ms:                                       particles          sent\n");
     printf("  %-5s %9s %9s %9s %9s %9s %9s %9s %9s\n", "rank", "compute", "exchange", "balance", "wait",
            "owned", "ghosts", "kB", "messages");
@@ -200,12 +210,13 @@ static bool write_json(const DistBench *bench, Error *error)
     for (int r = 0; r < bench->stand.size; r++)
         json_array_append_new(ranks, figures_json(&bench->rank[r]));
     json_t *json =
-        json_pack("{s:s, s:s, s:i, s:i, s:i, s:I, s:I, s:f, s:f, s:f, s:f, s:f, s:o, s:o}", "scene",
-                  bench->args->scenes[0], "method", bench->stand.scene.world.method, "dimensions",
-                  bench->stand.scene.world.dimensions, "ranks", bench->stand.size, "threads", info->threads,
-                  "particles", (json_int_t)info->count, "steps", (json_int_t)bench->steps, "time", info->time,
-                  "step", bench->seconds / (double)bench->steps, "imbalance", imbalance(bench),
-                  "bytes_per_particle", a_particle(bench, bench->mean.bytes), "resident_per_particle",
+        json_pack("{s:s, s:s, s:s, s:s, s:i, s:i, s:i, s:I, s:I, s:f, s:f, s:b, s:f, s:f, s:f, s:o, s:o}",
+                  "scene", bench->args->scenes[0], "processor", bench_processor(), "host", host(), "method",
+                  bench->stand.scene.world.method, "dimensions", bench->stand.scene.world.dimensions, "ranks",
+                  bench->stand.size, "threads", info->threads, "particles", (json_int_t)info->count, "steps",
+                  (json_int_t)bench->steps, "time", info->time, "step", bench->seconds / (double)bench->steps,
+                  "balance", bench->options->balance, "imbalance", imbalance(bench), "bytes_per_particle",
+                  a_particle(bench, bench->mean.bytes), "resident_per_particle",
                   a_particle(bench, bench->mean.resident), "mean", figures_json(&bench->mean), "rank", ranks);
     const bool ok = json_file_write(json, bench->args->json, error);
     json_decref(json);
@@ -228,11 +239,11 @@ static int report(const DistBench *bench, Error *error)
     return code;
 }
 
-int dist_bench(const Args *args)
+int dist_bench(const Args *args, const DistOptions *options)
 {
     static DistBench bench; /* a scene is large */
     Error error = {{0}};
-    bench = (DistBench){.args = args};
+    bench = (DistBench){.args = args, .options = options};
     stand_begin(&bench.stand);
     int code = check_options(args, &error) ? stand_open(&bench.stand, args, "bench", &error) : EXIT_USAGE;
     if (code == 0)

@@ -2,12 +2,13 @@
 #ifndef SLOSH_DIST_CMD_H
 #define SLOSH_DIST_CMD_H
 
+#include "app/dist/options.h"
 #include "app/session/args.h"
 
 int dist_run(const Args *args);
 
 /* What the parts of a step take a rank, with --json as a file for dist_model. */
-int dist_bench(const Args *args);
+int dist_bench(const Args *args, const DistOptions *options);
 
 /* Files of dist_bench: what the model of cost fitted to them says, of them and of a run that nobody made. On
    one rank. */

@@ -1,6 +1,7 @@
 /* slosh-dist: slosh run on MPI ranks. */
 #include "app/base/exit_code.h"
 #include "app/dist/cmd.h"
+#include "app/dist/options.h"
 #include "sim/dist/ranks.h"
 #include "sim/gl/backends.h"
 
@@ -9,9 +10,11 @@
 #include <string.h>
 
 static const char usage[] =
-    "usage: mpirun -n RANKS slosh-dist run SCENE -o OUT.h5part [OPTIONS]\n"
-    "the scene on that many ranks, to the same bits as slosh run on one; options as in `slosh help run`\n\n"
-    "usage: mpirun -n RANKS slosh-dist bench SCENE [--particles N] [--time S] [--frames N] [--json FILE]\n"
+    "usage: mpirun -n RANKS slosh-dist run SCENE -o OUT.h5part [--balance on|off] [OPTIONS]\n"
+    "the scene on that many ranks, to the same bits as slosh run on one; options as in `slosh help run`;\n"
+    "--balance off: shares of the ranks stay as they began, and do not follow the time that each takes\n\n"
+    "usage: mpirun -n RANKS slosh-dist bench SCENE [--particles N] [--time S] [--frames N] [--balance on|off]\n"
+    "                                          [--json FILE]\n"
     "what a step takes a rank: compute, exchange, balance, wait; measured from --time on (0), over --frames (20)\n\n"
     "usage: slosh-dist model RUN.json... [--beside RUN.json...]\n"
     "the model of cost fitted to such files, of 1 and 2 ranks say; what it says of them and of those beside, which\n"
@@ -34,6 +37,7 @@ static int complain(const char *why)
 static int command(int argc, char *argv[])
 {
     static Args args;
+    DistOptions options;
     Error error = {{0}};
     if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0)) {
         if (first())
@@ -44,9 +48,10 @@ static int command(int argc, char *argv[])
         return first() ? dist_model(argc - 2, argv + 2) : 0;
     if (argc < 2 || (strcmp(argv[1], "run") != 0 && strcmp(argv[1], "bench") != 0))
         return complain(usage);
-    if (!args_parse(argc, argv, &args, &error))
+    if (!dist_options(&argc, argv, &options, &error) || !args_parse(argc, argv, &args, &error))
         return complain(error.message);
-    return args.command == COMMAND_RUN ? dist_run(&args) : dist_bench(&args);
+    ranks_balance(options.balance);
+    return args.command == COMMAND_RUN ? dist_run(&args) : dist_bench(&args, &options);
 }
 
 int main(int argc, char *argv[])

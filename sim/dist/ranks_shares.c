@@ -2,10 +2,10 @@
 #include "sim/dist/ranks_state.h"
 #include "sim/dist/reduce.h"
 
-enum { BALANCE_EVERY = 20 /* looks at the shares: frames */ };
-
-/* Shares are made anew where the slowest rank takes so many times the mean. */
-static const double UNEVEN = 1.05;
+/* Shares are made anew where the slowest rank takes so many times the mean, and the time so lost since they
+   were made last is more than what making them takes: particles that change hands cost about as much again.
+ */
+static const double UNEVEN = 1.05, TAKES = 2;
 
 static bool balances = true;
 
@@ -21,19 +21,21 @@ bool is_own(const Dist *dist, const Constants *constants, const float *x)
 
 void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial)
 {
+    const double begin = MPI_Wtime();
     for (size_t cell = 0; initial->count == 0 && cell < constants->cells.count; cell++)
         ranks->weight[cell] = 1;
     for (size_t i = 0; i < initial->count; i++)
         ranks->weight[cpu_cell_of(constants, initial->position + 3 * i)]++;
     dist_balance(ranks->dist, ranks->weight, true);
+    ranks->took = MPI_Wtime() - begin;
 }
 
-/* What its cells cost: particles, each as much as the rank's took. */
+/* What its cells cost: particles, each as much as the rank's took in a step. */
 static void weigh(Ranks *ranks)
 {
     const Cpu *cpu = ranks->cpu;
     const uint8_t *foreign = dist_foreign(ranks->dist);
-    const double each = ranks->cpu_time / (double)(cpu->owned > 0 ? cpu->owned : 1);
+    const double each = ranks->cpu_time / (ranks->worked > 0 ? ranks->worked : 1);
     for (size_t cell = 0; cell < cpu->constants->cells.count; cell++)
         ranks->weight[cell] = 0;
     for (size_t i = 0; i < cpu->count; i++) {
@@ -50,20 +52,19 @@ void share_anew(Ranks *ranks)
     weigh(ranks);
     dist_balance(ranks->dist, ranks->weight, false);
     ranks->due = false;
-    ranks->cpu_time = 0;
+    ranks->cpu_time = ranks->worked = 0;
     ranks->figures.balances++;
-    ranks->figures.balance += MPI_Wtime() - begin;
+    ranks->took = MPI_Wtime() - begin;
+    ranks->figures.balance += ranks->took;
 }
 
 void look_at_shares(Ranks *ranks)
 {
-    double time[2] = {ranks->cpu_time, ranks->cpu_time};
-    if (!balances || dist_size(ranks->dist) == 1 || ++ranks->looks < BALANCE_EVERY)
+    double most[2] = {ranks->cpu_time, ranks->took}, mean = ranks->cpu_time;
+    if (!balances || dist_size(ranks->dist) == 1)
         return;
-    ranks->looks = 0;
-    reduce_sum(&time[0], 1);
-    reduce_most(&time[1], 1);
-    ranks->due = time[1] > UNEVEN * time[0] / dist_size(ranks->dist);
-    if (!ranks->due)
-        ranks->cpu_time = 0;
+    reduce_most(most, 2);
+    reduce_sum(&mean, 1);
+    mean /= dist_size(ranks->dist);
+    ranks->due = most[0] > UNEVEN * mean && (most[0] - mean) / ranks->cpu->threads > TAKES * most[1];
 }

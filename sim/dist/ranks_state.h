@@ -26,9 +26,10 @@ typedef struct Ranks {
     ParticleColumns kept;  /* of the last mark */
     size_t kept_count, kept_room;
     double *weight;  /* of each cell: room */
-    int looks;       /* marks since the last look at the shares */
     bool due;        /* shares are to be made anew at the next grid */
-    double cpu_time; /* s of this rank's computing since the last look */
+    double took;     /* s: to make them, the last time */
+    double cpu_time; /* s of this rank's computing since then, of all its threads, */
+    double worked;   /* and particles that it computed, each in each step */
     float *came;     /* places of particles that emitters sent out since the grid, on any rank */
     size_t came_count, came_room;
     RanksFigures figures;

@@ -71,6 +71,7 @@ void ranks_grid(void *state)
     computed(ranks, begin);
     ranks->fresh = rows_named(ranks->cpu, "position id fluid");
     ranks->came_count = 0;
+    ranks->worked += (double)ranks->cpu->owned;
 }
 
 void ranks_pose(void *state, const SolidPose *pose)

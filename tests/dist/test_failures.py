@@ -1,23 +1,16 @@
 """What goes wrong on one rank of slosh-dist ends all, with a line that says it and whole snapshots; what only looks wrong, ranks
-without particles, does not. And what bench and model say."""
-import json
+without particles, does not."""
 import os
-import pathlib
 import resource
 import signal
 import subprocess
-import sys
-import tempfile
 import time
 import unittest
 
 import h5py
 
-SLOSH, DIST, MPIRUN = (sys.argv.pop(1) for _ in range(3))
-RANKS = dict(OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-             OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none",
-             OMPI_MCA_btl="self,vader", OMPI_MCA_pml="ob1",
-             OMPI_MCA_odls_base_sigkill_timeout="0")  # s that mpirun gives the other ranks, twice
+from ranks import SLOSH, RanksCase
+
 LONG = ["dam_break", "--particles", "500", "--every", "0.02", "--quiet", "--threads", "1"]
 
 
@@ -27,22 +20,10 @@ def columns(path):
                 for step in file.values()]
 
 
-class Failures(unittest.TestCase):
+class Failures(RanksCase):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
+        super().setUp()
         self.path = self.folder / "out.h5part"
-
-    def start(self, ranks, *args):
-        ran = subprocess.Popen([MPIRUN, "-n", str(ranks), DIST, *map(str, args)], env=os.environ | RANKS, text=True,
-                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.addCleanup(ran.kill)
-        return ran
-
-    def end(self, ran):
-        out, errors = ran.communicate(timeout=20)
-        return ran.returncode, out, errors
 
     def ranks_of(self, ran):
         """Processes of a run whose file is begun; the first rank is the one that has it open."""
@@ -98,29 +79,6 @@ class Failures(unittest.TestCase):
         self.assertEqual(len([line for line in errors.splitlines() if "File too large" in line]), 1, errors)
         self.ended(pids)
         self.goes_on()
-
-    def test_bench_and_model(self):
-        files = []
-        for ranks in (1, 2):
-            files.append(self.folder / f"{ranks}.json")
-            code, out, errors = self.end(self.start(ranks, "bench", "dam_break", "--particles", "1000", "--frames", "2", "--threads",
-                                                    "1", "--json", files[-1]))
-            self.assertEqual(code, 0, errors)
-            self.assertIn("imbalance", out)
-            run = json.loads(files[-1].read_text())
-            self.assertEqual(sum(rank["owned"] for rank in run["rank"]), run["particles"])
-            self.assertEqual([rank["ghosts"] > 0 and rank["sent"] > 0 and rank["messages"] >= 1 for rank in run["rank"]],
-                             [ranks > 1] * ranks)
-            parts = sum(run["mean"][name] for name in ("compute", "exchange", "balance", "wait"))
-            self.assertLessEqual(parts, 1.01 * run["step"])
-            self.assertGreater(parts, 0.5 * run["step"])
-        said = subprocess.run([DIST, "model", *files], env=os.environ | RANKS, capture_output=True, text=True, timeout=20)
-        self.assertEqual(said.returncode, 0, said.stderr)
-        self.assertIn("PREDICTION", said.stdout)
-        self.assertRegex(said.stdout, r"predicted +4096 +4096 +1e\+09 ")
-        said = subprocess.run([DIST, "model", files[0]], env=os.environ | RANKS, capture_output=True, text=True, timeout=20)
-        self.assertEqual((said.returncode, said.stdout), (2, ""))
-        self.assertIn("more than one rank", said.stderr)
 
 
 if __name__ == "__main__":

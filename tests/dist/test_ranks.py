@@ -1,20 +1,13 @@
 """slosh-dist gives the bits of slosh run on 1, 2, 3 and 4 ranks: each method, a box that moves, solids, emitters and drains,
 periodic sides, adaptive steps, a rank with hardly a particle, trouble that is gone back from, and runs that go on on other
 ranks."""
-import os
-import pathlib
 import subprocess
-import sys
-import tempfile
 import unittest
 
 import h5py
 import numpy
 
-SLOSH, DIST, MPIRUN = (sys.argv.pop(1) for _ in range(3))
-RANKS = dict(OMPI_MCA_rmaps_base_oversubscribe="1", OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-             OMPI_MCA_mpi_yield_when_idle="1", OMPI_MCA_hwloc_base_binding_policy="none",
-             OMPI_MCA_btl="self,vader", OMPI_MCA_pml="ob1")
+from ranks import DIST, ENVIRONMENT, MPIRUN, SLOSH, RanksCase
 
 
 def states(path):
@@ -27,12 +20,7 @@ def states(path):
                    {name: step[name][:][order].tobytes() for name in step})
 
 
-class Ranks(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-
+class Ranks(RanksCase):
     def run_one(self, *args, name="one"):
         path = self.folder / f"{name}.h5part"
         subprocess.run([SLOSH, "run", *args, "-o", path, "--quiet", "--threads", "1"], check=True, capture_output=True, timeout=60)
@@ -41,7 +29,7 @@ class Ranks(unittest.TestCase):
     def dist(self, ranks, *args, name="ranks"):
         path = self.folder / f"{name}.h5part"
         done = subprocess.run([MPIRUN, "-n", str(ranks), DIST, "run", *args, "-o", path, "--quiet", "--threads", "1"],
-                              env=os.environ | RANKS, capture_output=True, text=True, timeout=60)
+                              env=ENVIRONMENT, capture_output=True, text=True, timeout=60)
         return path, done
 
     def check(self, *args, ranks=(3,)):
