@@ -14,4 +14,8 @@ int dist_bench(const Args *args, const DistOptions *options);
    one rank. */
 int dist_model(int count, char *const paths[]);
 
+/* Files of dist_bench on different numbers of ranks, and -o and --json: strong and weak scaling. On one rank.
+   The words end with NULL. */
+int dist_scaling(int count, char *const words[]);
+
 #endif

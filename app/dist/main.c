@@ -16,6 +16,8 @@ static const char usage[] =
     "usage: mpirun -n RANKS slosh-dist bench SCENE [--particles N] [--time S] [--frames N] [--balance on|off]\n"
     "                                          [--json FILE]\n"
     "what a step takes a rank: compute, exchange, balance, wait; measured from --time on (0), over --frames (20)\n\n"
+    "usage: slosh-dist scaling RUN.json... [-o OUT.svg|.png] [--json FILE]\n"
+    "strong and weak scaling of what bench --json wrote on different numbers of ranks: a table, a chart\n\n"
     "usage: slosh-dist model RUN.json... [--beside RUN.json...]\n"
     "the model of cost fitted to such files, of 1 and 2 ranks say; what it says of them and of those beside, which\n"
     "it has not seen, next to what was measured; and its prediction for 10^9 particles on 4,096 ranks\n";
@@ -46,6 +48,8 @@ static int command(int argc, char *argv[])
     }
     if (argc > 2 && strcmp(argv[1], "model") == 0)
         return first() ? dist_model(argc - 2, argv + 2) : 0;
+    if (argc > 2 && strcmp(argv[1], "scaling") == 0)
+        return first() ? dist_scaling(argc - 2, argv + 2) : 0;
     if (argc < 2 || (strcmp(argv[1], "run") != 0 && strcmp(argv[1], "bench") != 0))
         return complain(usage);
     if (!dist_options(&argc, argv, &options, &error) || !args_parse(argc, argv, &args, &error))

@@ -1,45 +1,15 @@
 /* The model of cost, fitted to files of slosh-dist bench. */
 #include "app/base/exit_code.h"
 #include "app/dist/cmd.h"
-#include "app/scaling/cost.h"
+#include "app/dist/sample.h"
 
-#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Sample {
-    const char *path;
-    CostSample cost;
-    double step; /* s, measured */
-    int dimensions;
-} Sample;
-
 static const double FAR_PARTICLES = 1e9;
 enum { FAR_RANKS = 4096 };
-
-static bool read_sample(const char *path, Sample *sample, Error *error)
-{
-    json_error_t wrong;
-    CostSample *cost = &sample->cost;
-    double cores = 0;
-    sample->path = path;
-    json_t *json = json_load_file(path, 0, &wrong);
-    if (!json)
-        return error_set(error, "%s:%d: %s; give files that slosh-dist bench --json wrote", path, wrong.line,
-                         wrong.text);
-    const int read =
-        json_unpack_ex(json, &wrong, 0, "{s:i, s:i, s:F, s:F, s:{s:F, s:F, s:F, s:F, s:F, s:F, s:F, s:F}}",
-                       "ranks", &cost->ranks, "dimensions", &sample->dimensions, "particles",
-                       &cost->particles, "step", &sample->step, "mean", "compute", &cost->compute, "exchange",
-                       &cost->exchange, "balance", &cost->balance, "wait", &cost->wait, "ghosts",
-                       &cost->ghosts, "sent", &cost->bytes, "messages", &cost->messages, "cores", &cores);
-    cost->cores = (int)lround(cores * cost->ranks);
-    json_decref(json);
-    return read == 0 ||
-           error_set(error, "%s: %s; give files that slosh-dist bench --json wrote", path, wrong.text);
-}
 
 /* Files before "--beside", of which there are `fitted`, and behind it. */
 static int read_samples(int count, char *const paths[], Sample *samples, int *fitted, Error *error)
@@ -49,7 +19,7 @@ static int read_samples(int count, char *const paths[], Sample *samples, int *fi
     for (int k = 0; k < count; k++)
         if (strcmp(paths[k], "--beside") == 0 && *fitted < 0)
             *fitted = read;
-        else if (!read_sample(paths[k], &samples[read++], error))
+        else if (!sample_read(paths[k], &samples[read++], error))
             return -1;
     if (*fitted < 0)
         *fitted = read;
@@ -73,7 +43,7 @@ static bool fit(const Sample *samples, int fitted, CostModel *model, Error *erro
         return false;
     }
     for (int k = 0; k < fitted; k++)
-        costs[k] = samples[k].cost;
+        costs[k] = samples[k].run.cost;
     const bool ok = fitted > 0 ? cost_fit(costs, fitted, samples[0].dimensions, model, error)
                                : error_set(error, "slosh-dist model: no file to fit");
     free(costs);
@@ -113,13 +83,13 @@ static void print_head(void)
 static void print_beside(const CostModel *model, const Sample *sample, bool fitted)
 {
     const CostSample said =
-        cost_predict(model, sample->cost.particles, sample->cost.ranks, sample->cost.cores);
+        cost_predict(model, sample->run.cost.particles, sample->run.cost.ranks, sample->run.cost.cores);
     const double step = cost_step(&said);
     printf(" %s%s\n", sample->path, fitted ? "" : ", which the fit has not seen");
-    print_cost("measured", &sample->cost, sample->step);
+    print_cost("measured", &sample->run.cost, sample->run.step);
     print_cost("the model", &said, step);
-    if (sample->step > 0)
-        printf("  the model's step is %+.0f %% off\n", 100 * (step / sample->step - 1));
+    if (sample->run.step > 0)
+        printf("  the model's step is %+.0f %% off\n", 100 * (step / sample->run.step - 1));
 }
 
 int dist_model(int count, char *const paths[])

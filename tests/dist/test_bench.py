@@ -33,6 +33,32 @@ class Bench(RanksCase):
         self.assertEqual((code, out), (2, ""))
         self.assertIn("more than one rank", errors)
 
+    def test_scaling(self):
+        files, rates = [], {}
+        for ranks, particles in ((1, 1000), (2, 1000), (1, 500)):
+            path, run = self.bench(f"{ranks}.{particles}", ranks, "--particles", particles, "--frames", 2)
+            files.append(path)
+            rates[path.name] = run["particles"] / run["step"]
+        chart, figures = self.folder / "scaling.svg", self.folder / "scaling.out.json"
+        code, out, errors = self.alone("scaling", *files, "-o", chart, "--json", figures)
+        self.assertEqual(code, 0, errors)
+        strong, weak = json.loads(figures.read_text())["series"]
+        self.assertEqual([strong["scaling"], weak["scaling"]], ["strong", "weak"])
+        for series in (strong, weak):
+            one, two = series["runs"]
+            self.assertEqual([one["ranks"], two["ranks"]], [1, 2])
+            gain = rates["2.1000.json"] / rates["1.1000.json" if series is strong else "1.500.json"]
+            self.assertAlmostEqual(two["speedup"], gain)
+            self.assertAlmostEqual(two["efficiency"], gain * one["cores"] / two["cores"])
+            self.assertIn(f"{two['speedup']:.2f}", out)
+        picture = chart.read_text()
+        for words in ("strong scaling", "weak scaling", "exchange"):
+            self.assertIn(words, picture)
+        code, out, errors = self.alone("scaling", files[0], files[0], "-o", self.folder / "none.svg")
+        self.assertEqual((code, out), (2, ""))
+        self.assertIn("no two runs", errors)
+        self.assertFalse((self.folder / "none.svg").exists())
+
     def test_shares_follow_the_load(self):
         """Behind the dam's break, where half of the box has hardly a particle any more."""
         most = {}
