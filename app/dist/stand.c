@@ -3,6 +3,8 @@
 
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
+#include "app/base/physical.h"
+#include "app/dist/memory.h"
 #include "sim/dist/ranks.h"
 
 #include <mpi.h>
@@ -57,10 +59,26 @@ static void tell_of_binding(const Stand *stand, int threads)
     stand_say(stand, words);
 }
 
+/* What a rank will need, before it takes it. */
+static bool has_room(const Stand *stand, const Args *args, double physical, Error *error)
+{
+    char words[256];
+    const DistMemory memory = memory_look(&stand->scene, physical);
+    if (!memory_fits(&memory, stand->size, error))
+        return false;
+    snprintf(words, sizeof words, "about %.2g GB of memory a rank, of %.3g GB that one on %s may have",
+             1e-9 * memory.needed, 1e-9 * memory.allowed, memory.machine);
+    if (!args->quiet)
+        stand_say(stand, words);
+    return true;
+}
+
 int stand_open(Stand *stand, const Args *args, const char *command, Error *error)
 {
     Notes notes;
     SceneSettings settings = args->settings;
+    const double physical = physical_bytes();
+    physical_leave();
     if (!scene_load(args->scenes[0], &settings, &stand->scene, &notes, error))
         return EXIT_USAGE;
     WorldDef def = stand->scene.world;
@@ -69,6 +87,8 @@ int stand_open(Stand *stand, const Args *args, const char *command, Error *error
                   command, def.backend, command);
         return EXIT_USAGE;
     }
+    if (!has_room(stand, args, physical, error))
+        return EXIT_USAGE;
     if (stand->rank == 0)
         notes_print(&notes, stderr);
     snprintf(def.backend, sizeof def.backend, "%s", RANKS_BACKEND);

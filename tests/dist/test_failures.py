@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from ranks import SLOSH, RanksCase
+from ranks import DIST, ENVIRONMENT, MPIRUN, SLOSH, RanksCase
 
 LONG = ["dam_break", "--particles", "500", "--every", "0.02", "--quiet", "--threads", "1"]
 
@@ -48,6 +48,18 @@ class Failures(RanksCase):
         one = self.folder / "one.h5part"
         subprocess.run([SLOSH, "run", *LONG, "--time", until, "-o", one], check=True, capture_output=True, timeout=30)
         self.assertTrue(columns(self.path) == columns(one), "other states than those of one process")
+
+    def test_a_scene_that_does_not_fit_is_refused_before_the_start(self):
+        """By one rank in one line; with fewer particles it says what each needs."""
+        for particles, fits in ((4e6, False), (2000, True)):
+            ran = subprocess.run([MPIRUN, "-n", "2", "bash", "-c", 'ulimit -v 1200000; exec "$@"', "-", DIST, "run", "dam_break",
+                                  "--particles", f"{particles:.0f}", "--time", "0.01", "--threads", "1", "-o", self.path],
+                                 env=ENVIRONMENT, capture_output=True, text=True, timeout=30)
+            said = [line for line in ran.stderr.splitlines() if "GB" in line]
+            self.assertEqual(len(said), 1, ran.stderr)
+            self.assertRegex(said[0], r"GB of memory a rank, of 1.23 GB" if fits else
+                             r"particles on 2 ranks need about 1.\d+ GB a rank, and one on .* may have 1.23 GB; use more machines")
+            self.assertEqual((ran.returncode, self.path.exists()), (0, True) if fits else (2, False), ran.stderr)
 
     def test_more_ranks_than_particles(self):
         few = ["dam_break", "--particles", "20", "--time", "0.05", "--every", "0.02", "--quiet", "--threads", "1"]
