@@ -6,12 +6,6 @@ vec3 with_water_line(vec3 shaded, float share)
     return mix(shaded, 1.3 * background, 0.5 * share);
 }
 
-// At a pane behind the fluid, whose top ends there and is next to clear, the rim mirrors the fluid itself.
-vec3 with_far_line(vec3 shaded, vec3 albedo, float share)
-{
-    return shaded * mix(vec3(1.0), pow(max(albedo, 1e-4), vec3(0.25)), share);
-}
-
 // Half its width, in pixels.
 float water_line_width()
 {

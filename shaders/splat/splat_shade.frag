@@ -113,8 +113,6 @@ float thickness_in_box(vec3 ray, float depth)
 #endif
 
 #ifdef PANES
-const float far_slack = 2.0; // spacings, along the ray
-
 // Of a pixel of a pane: whether what is above it on the screen is none, and is no speck in it. The fluid's lower ends are at the box's.
 float line_share(ivec2 pixel)
 {
@@ -122,14 +120,6 @@ float line_share(ivec2 pixel)
     bool ends = texelFetch(nearest_map, min(pixel + up, last), 0).x >= 0.0 &&
                 texelFetch(nearest_map, min(pixel + 5 * up, last), 0).x >= 0.0;
     return ends ? 0.7 : 0.0;
-}
-
-// Of a pixel of the top: whether it ends above on the screen, at a wall that the ray would leave the box by.
-float far_line_share(ivec2 pixel, vec3 ray, float depth)
-{
-    ivec2 up = ivec2(0, int(2.0 * water_line_width() + 0.5)), last = textureSize(nearest_map, 0) - 1;
-    bool ends = texelFetch(nearest_map, min(pixel + up, last), 0).x >= 1e29;
-    return ends && within_box(ray).leave - depth < far_slack * particle_spacing ? 1.0 : 0.0;
 }
 #endif
 
@@ -182,13 +172,12 @@ void main()
 #ifdef MIXING
     cover = cover_at(pixel, depth, albedo, normal);
 #endif
-    vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
-    Surface s = surface_at(ray, depth, normal, albedo);
+    Surface s = surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo);
     color = vec4(shaded(s), cover);
 #ifdef PANES
-    int rounds = glass == 2u ? 1 : 0; // software drivers skip loops only
+    int rounds = glass == 2u && pane ? 1 : 0; // software drivers skip loops only
     for (int i = 0; i < rounds; i++)
-        color.rgb = pane ? with_water_line(color.rgb, line_share(pixel)) : with_far_line(color.rgb, albedo, far_line_share(pixel, ray, depth));
+        color.rgb = with_water_line(color.rgb, line_share(pixel));
 #endif
 #endif
 }
