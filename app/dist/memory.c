@@ -1,6 +1,5 @@
 #include "app/dist/memory.h"
 
-#include "app/dist/stand.h"
 #include "sim/matter/boundary.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
@@ -85,19 +84,17 @@ static double limit_of(int resource)
                : (double)INFINITY;
 }
 
-static double allowed_here(double physical)
+static double allowed_here(double physical, int ranks)
 {
-    int ranks, processors;
-    stand_machine(&ranks, &processors);
     return fmin(fmin(physical, cgroup_bytes()) / ranks, fmin(limit_of(RLIMIT_AS), limit_of(RLIMIT_DATA)));
 }
 
-DistMemory memory_look(const Scene *scene, double physical)
+DistMemory memory_look(const Scene *scene, double physical, int here)
 {
     struct {
         double bytes;
         int rank;
-    } least = {allowed_here(physical), 0};
+    } least = {allowed_here(physical, here), 0};
     DistMemory memory = {.particles = particles_of(&scene->world)};
     int ranks;
     MPI_Comm_size(MPI_COMM_WORLD, &ranks);

@@ -12,9 +12,9 @@ typedef struct DistMemory {
 } DistMemory;
 
 /* What a rank may have: its part of its machine's memory (of the cgroup's, where that is less), or the limit
-   that the shell or the batch system set (ulimit -v, -d). `physical`: bytes of this machine. Collective; the
-   same on all ranks. */
-DistMemory memory_look(const Scene *scene, double physical);
+   that the shell or the batch system set (ulimit -v, -d). `physical`: bytes of this machine, which has
+   `here` ranks. Collective; the same on all ranks. */
+DistMemory memory_look(const Scene *scene, double physical, int here);
 
 /* False with how much is missing, and what helps. */
 bool memory_fits(const DistMemory *memory, int ranks, Error *error);

@@ -3,9 +3,10 @@
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/dist/cmd.h"
+#include "app/dist/share.h"
 #include "app/dist/stand.h"
-#include "app/output/snapshot.h"
 #include "app/session/snapshot_series.h"
+#include "sim/dist/dist.h"
 #include "sim/dist/ranks.h"
 
 #include <math.h>
@@ -21,21 +22,10 @@ static const double ROUNDING = 1e-6;
 typedef struct DistRun {
     const Args *args;
     Stand stand;
-    Snapshot *file; /* of the first rank */
+    Snapshot *file; /* that all write */
     double next;    /* number of the next snapshot */
     double began;   /* s */
 } DistRun;
-
-/* What one rank found wrong alone: all end. What is in the file stays. */
-static _Noreturn void end_all(DistRun *run, const Error *error)
-{
-    fprintf(stderr, "%s\n", error->message);
-    snapshot_series_left(run->file, run->args->output);
-    snapshot_close(run->file);
-    fflush(stderr);
-    MPI_Abort(MPI_COMM_WORLD, EXIT_FAILED);
-    abort();
-}
 
 /* What slosh run has and this has not. */
 static bool check_options(const Args *args, Error *error)
@@ -56,24 +46,22 @@ static bool reached(const DistRun *run, double time)
            world_sound(run->stand.world);
 }
 
-/* The others bring their particles to the first rank. */
-static void add_snapshot(DistRun *run)
+static bool add_snapshot(DistRun *run, Error *error)
 {
-    Error error = {{0}};
     if (!reached(run, run->next * run->args->every))
-        return;
-    if (run->stand.rank > 0)
-        world_read(run->stand.world, &(ParticleArrays){.position = NULL});
-    else if (!snapshot_append(run->file, run->stand.world, &error))
-        end_all(run, &error);
+        return true;
+    if (!snapshot_append(run->file, run->stand.world, error))
+        return false;
     run->next = fmax(run->next, floor(run->stand.info.time / run->args->every + 1e-6)) + 1;
+    return true;
 }
 
-/* False when the simulation broke, on all ranks. */
+/* False when the simulation broke or the file cannot be written, on all ranks. */
 static bool simulate(DistRun *run, Progress *progress, Error *error)
 {
     for (;;) {
-        add_snapshot(run);
+        if (!add_snapshot(run, error))
+            return false;
         if (reached(run, run->args->time) || stand_interrupted())
             return true;
         world_stop_at(run->stand.world, run->next * run->args->every);
@@ -93,24 +81,23 @@ static void report(const DistRun *run)
 }
 
 /* --resume, where the file is there: the world as it is at the file's end, whoever wrote it on how many
- * ranks. */
-static void resume(DistRun *run)
+   ranks. */
+static bool resume(DistRun *run, Error *error)
 {
     WorldState state = {.count = 0};
-    Error error = {{0}};
-    bool busy;
-    if (run->stand.rank == 0 &&
-        !(run->file = snapshot_resume(run->args->output, &run->stand.scene, "", &state, &busy, &error)))
-        end_all(run, &error);
+    run->file = snapshot_resume_shared(run->args->output, &run->stand.scene, dist_share(), &state, error);
+    if (!run->file)
+        return false;
     ranks_spread(&state, &run->stand.scene.world);
-    if (!world_load(run->stand.world, &state, &error))
-        end_all(run, &error);
+    if (!world_load(run->stand.world, &state, error))
+        dist_die("%s", error->message);
     world_state_free(&state);
     world_info(run->stand.world, &run->stand.info);
     run->next = floor(run->stand.info.time / run->args->every + 1e-6) + 1;
     if (run->stand.rank == 0 && !run->args->quiet)
         fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshot%s\n", run->args->output,
                 run->stand.info.time, snapshot_steps(run->file), plural(snapshot_steps(run->file)));
+    return true;
 }
 
 /* As the first rank sees it. */
@@ -124,11 +111,13 @@ static bool is_there(const DistRun *run)
 static int go(DistRun *run, Error *error)
 {
     Progress progress;
-    if (run->args->resume && is_there(run))
-        resume(run);
-    else if (run->stand.rank == 0 &&
-             !(run->file = snapshot_create(run->args->output, &run->stand.scene, error)))
-        end_all(run, error);
+    const bool goes_on = run->args->resume && is_there(run);
+    if (!goes_on)
+        run->file = snapshot_create_shared(run->args->output, &run->stand.scene, dist_share(), error);
+    if (goes_on ? !resume(run, error) : !run->file) {
+        stand_say(&run->stand, error->message);
+        return EXIT_FAILED;
+    }
     progress_begin(&progress, stderr, "run", run->args->quiet || run->stand.rank > 0);
     const bool done = simulate(run, &progress, error);
     progress_end(&progress);

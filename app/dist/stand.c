@@ -63,7 +63,9 @@ static void tell_of_binding(const Stand *stand, int threads)
 static bool has_room(const Stand *stand, const Args *args, double physical, Error *error)
 {
     char words[256];
-    const DistMemory memory = memory_look(&stand->scene, physical);
+    int here, processors;
+    stand_machine(&here, &processors);
+    const DistMemory memory = memory_look(&stand->scene, physical, here);
     if (!memory_fits(&memory, stand->size, error))
         return false;
     snprintf(words, sizeof words, "about %.2g GB of memory a rank, of %.3g GB that one on %s may have",

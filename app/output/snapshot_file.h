@@ -61,9 +61,11 @@ hid_t snapshot_access(void);
 bool snapshot_count_names(hid_t file, size_t *steps);
 
 /* A Snapshot that appends states of a world to a file that has so many whole steps, and takes over its lock,
-   which is then no longer the caller's. NULL with the reason. */
+   which is then no longer the caller's. `share`: of app/output/snapshot_share.h, or NULL. NULL with the
+   reason. */
+struct SnapshotShare;
 Snapshot *snapshot_continue(const char *path, const WorldDef *world, size_t steps, OutputLock *lock,
-                            Error *error);
+                            const struct SnapshotShare *share, Error *error);
 
 /* The text attribute of the root in new memory; NULL when there is none. */
 char *snapshot_root_text(const SnapshotReader *reader, const char *name);

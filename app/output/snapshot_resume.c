@@ -1,5 +1,6 @@
 /* A run goes on where its file ends. */
 #include "app/output/snapshot_file.h"
+#include "app/output/snapshot_share.h"
 #include "app/scene/keys.h"
 
 #include <stdio.h>
@@ -184,7 +185,21 @@ Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand
     OutputLock lock = {.state = OUTPUT_UNLOCKED};
     *busy = !output_lock(&lock, path, error);
     const size_t steps = *busy ? 0 : read_end(path, scene, hand, state, error);
-    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, &scene->world, steps, &lock, error) : NULL;
+    Snapshot *snapshot = steps > 0 ? snapshot_continue(path, &scene->world, steps, &lock, NULL, error) : NULL;
+    output_unlock(&lock);
+    return snapshot;
+}
+
+Snapshot *snapshot_resume_shared(const char *path, const Scene *scene, const SnapshotShare *share,
+                                 WorldState *state, Error *error)
+{
+    OutputLock lock = {.state = OUTPUT_UNLOCKED};
+    size_t steps = 0;
+    if (share->first && output_lock(&lock, path, error))
+        steps = read_end(path, scene, "", state, error);
+    share->tell(&steps, sizeof steps);
+    const bool read = share->agree(!share->first || steps > 0, error);
+    Snapshot *snapshot = read ? snapshot_continue(path, &scene->world, steps, &lock, share, error) : NULL;
     output_unlock(&lock);
     return snapshot;
 }

@@ -19,6 +19,11 @@ void ranks_figures(RanksFigures *figures)
     told->figures = (RanksFigures){.compute = 0};
 }
 
+size_t ranks_owned(void)
+{
+    return told ? told->cpu->owned : 0;
+}
+
 /* ---- begin and end ---- */
 
 static void ranks_destroy(void *state)
@@ -171,6 +176,7 @@ const Backend backend_ranks = {
     .guide = ranks_guide,
     .sums = ranks_sums,
     .read = ranks_read,
+    .held = ranks_held,
     .energy = ranks_energy,
     .emit = ranks_emit,
     .drain = ranks_drain,

@@ -6,8 +6,8 @@
 #include "sim/world/backend.h"
 #include "sim/world/world_state.h"
 
-/* Its name in a def; slosh-dist puts it in the place of "cpu". backend_add it first. All reads of the
-   particles (world_read, snapshots) are collective; each rank gets what it has arrays for. */
+/* Its name in a def; slosh-dist puts it in the place of "cpu". backend_add it first. Reads of the
+   particles (world_read) give each rank its own, ranks_owned of them. */
 #define RANKS_BACKEND "ranks"
 extern const Backend backend_ranks;
 
@@ -22,6 +22,9 @@ typedef struct RanksFigures {
 
 /* Of the last world that was made; this rank's own. Not collective. */
 void ranks_figures(RanksFigures *figures);
+
+/* Particles that this rank owns in the last world that was made. */
+size_t ranks_owned(void);
 
 /* A state that the first rank has becomes that of all: of the def's worlds. Collective. */
 void ranks_spread(WorldState *state, const WorldDef *def);

@@ -1,45 +1,18 @@
-/* States that are read by all, kept by each rank, and gone back to. */
+/* States that are read and kept by each rank, saved by all, and gone back to. */
 #include "sim/dist/ranks_state.h"
 #include "sim/dist/reduce.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARRAYS = sizeof(ParticleArrays) / sizeof(void *) };
-
-/* Bytes of a particle in array k of a ParticleArrays. */
-static size_t array_size(int k)
-{
-    const size_t at = (size_t)k * sizeof(void *);
-    const bool four = at == offsetof(ParticleArrays, position) || at == offsetof(ParticleArrays, velocity);
-    return four ? 4 * sizeof(float) : sizeof(float);
-}
-
-/* One array, gathered where it is wanted. */
-static void read_one(Ranks *ranks, int k, void *all)
-{
-    void *local[ARRAYS] = {NULL};
-    ParticleArrays arrays;
-    local[k] = some(ranks, ranks->cpu->owned, array_size(k));
-    memset(local[k], 0, ranks->cpu->owned * array_size(k));
-    memcpy(&arrays, local, sizeof arrays);
-    cpu_read(ranks->cpu, &arrays);
-    reduce_gather(local[k], ranks->cpu->owned, array_size(k), all);
-    free(local[k]);
-}
-
 bool ranks_read(void *state, const ParticleArrays *out)
 {
-    void *all[ARRAYS];
-    double wanted[ARRAYS];
-    memcpy(all, out, sizeof all);
-    for (int k = 0; k < ARRAYS; k++)
-        wanted[k] = all[k] != NULL;
-    reduce_most(wanted, ARRAYS);
-    for (int k = 0; k < ARRAYS; k++)
-        if (wanted[k] > 0)
-            read_one(state, k, all[k]);
-    return true;
+    return cpu_read(((Ranks *)state)->cpu, out);
+}
+
+size_t ranks_held(const void *state)
+{
+    return ((const Ranks *)state)->cpu->owned;
 }
 
 bool ranks_save(void *state, const ParticleColumns *to)

@@ -85,6 +85,7 @@ void ranks_sums(void *state, WorldSums *sums);
 /* ---- states that are read, kept, and gone back to: ranks_keep.c ---- */
 
 bool ranks_read(void *state, const ParticleArrays *out);
+size_t ranks_held(const void *state);
 bool ranks_save(void *state, const ParticleColumns *to);
 bool ranks_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 bool ranks_mark(void *state, Error *error);

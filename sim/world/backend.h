@@ -76,6 +76,7 @@ typedef struct Backend {
     void (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums);           /* all members but those that need the box's pose */
     bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
+    size_t (*held)(const void *state); /* particles that `read` gives; NULL: all of the world's */
     /* Begins to gather what sim/world/gauge.h says, with the gravity in the box's frame, m/s2; false when it
        cannot. Then whether it has come, without waiting: sums of the gauge, the mean divided. */
     bool (*gauge)(void *state, const double gravity[3]);

@@ -500,11 +500,12 @@ void world_sums(World *world, WorldSums *sums)
 static bool read_born(World *world, const ParticleArrays *out)
 {
     ParticleArrays all = *out;
-    uint32_t *id = malloc((world->count + 1) * sizeof *id);
+    const size_t count = world->backend->held ? world->backend->held(world->state) : world->count;
+    uint32_t *id = malloc((count + 1) * sizeof *id);
     all.id = id;
     all.scalar[SCALAR_BORN] = NULL;
     const bool read = id && world->backend->read(world->state, &all);
-    for (size_t i = 0; read && i < world->count; i++) {
+    for (size_t i = 0; read && i < count; i++) {
         out->scalar[SCALAR_BORN][i] = births_time(&world->births, id[i]);
         if (out->id)
             out->id[i] = id[i];

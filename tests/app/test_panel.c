@@ -448,7 +448,8 @@ static void test_buttons_are_the_commands(void **state)
     Desk *desk = session_open(&session, "box_slosh", 1280, 720, 13);
     for (const PlayCommandRow *row = play_command_rows; row->name; row++) {
         const bool button = row->flags & PLAY_BUTTON;
-        assert_true((desk_find(desk, row->name) != NULL) == button);
+        if ((desk_find(desk, row->name) != NULL) != button)
+            fail_msg("command %s: %s", row->name, button ? "no button" : "a button");
         if (!button)
             continue;
         session.command = PLAY_NONE;
