@@ -22,14 +22,8 @@ void images_find(vec3 x)
         }
 }
 
-// Does `meet` for each image of the particle at x.
-#define EACH_IMAGE(x, image, meet)                                     \
-    for (int walls = first_walls; walls <= last_walls; walls++) {      \
-        Image image;                                                   \
-        if (image_of(x, walls, image)) {                               \
-            meet;                                                      \
-        }                                                              \
-    }
+// For each image of the particle at x. On one line, as GLSL 3.30 wants it.
+#define EACH_IMAGE(x, image, meet) for (int walls = first_walls; walls <= last_walls; walls++) { Image image; if (image_of(x, walls, image)) { meet; } }
 
 // Whether particle i at x stands in the buckets itself.
 bool meet_neighbours(int i, vec3 x)
