@@ -246,6 +246,7 @@ bool world_resizes(const World *world, const WorldDef *def)
     return world->def.solid_count == 0 && def->solid_count == 0 && cells_hold(&world->constants, def);
 }
 
+/* Into a box that has become smaller along an axis. */
 static void bring_in(WorldState *state, const WorldDef *def, int axis)
 {
     const ParticleColumns *p = &state->particles;

@@ -5,25 +5,21 @@
 uniform usampler2DArray buckets; // four particles a texel: their indices + 1; 0: none
 
 void meet(int j); // what the pass makes of particle j, another one, of any distance
-void meet_images(int j); // what it makes of j, itself among them, that its images see: EACH_IMAGE
+void meet_images(int j); // what it makes of j, itself among them, that its images see
 
-// The walls with the first and the last image of the particle that sees fluid: made anew for each neighbour, since a list of
-// images in a fragment shader's own memory is slow on hardware.
-int first_walls = 0, last_walls = -1;
+// The images of the particle in the walls.
+Image images[26];
+int image_count = 0;
 
-void images_find(vec3 x)
+void images_make(vec3 x)
 {
     int end = images_end(x);
-    Image image;
-    for (int walls = 1; walls < end; walls++)
-        if (image_of(x, walls, image)) {
-            first_walls = last_walls < 0 ? walls : first_walls;
-            last_walls = walls;
-        }
+    for (int walls = 1; walls < end; walls++) {
+        Image image;
+        if (image_of(x, walls, image))
+            images[image_count++] = image;
+    }
 }
-
-// For each image of the particle at x. On one line, as GLSL 3.30 wants it.
-#define EACH_IMAGE(x, image, meet) for (int walls = first_walls; walls <= last_walls; walls++) { Image image; if (image_of(x, walls, image)) { meet; } }
 
 // Whether particle i at x stands in the buckets itself.
 bool meet_neighbours(int i, vec3 x)
@@ -31,7 +27,7 @@ bool meet_neighbours(int i, vec3 x)
     int middle = cell_index(cell_of(x));
     uint own = uint(i + 1);
     bool placed = false;
-    images_find(x);
+    images_make(x);
     for (int row = first_row; row < last_row; row++) {
         int first = middle + cell_index(ivec3(-1, row % 3 - 1, row / 3 - 1));
         for (int cell = first; cell < first + 3; cell++) {
@@ -47,13 +43,13 @@ bool meet_neighbours(int i, vec3 x)
                         placed = true;
                     else
                         meet(int(entry) - 1);
-                    if (last_walls > 0)
+                    if (image_count > 0)
                         meet_images(int(entry) - 1);
                 }
             }
         }
     }
-    if (!placed && last_walls > 0)
+    if (!placed && image_count > 0)
         meet_images(i);
     return placed;
 }

@@ -26,7 +26,8 @@ void meet(int j) { add(here - of_particle(position, j).xyz); }
 void meet_images(int j)
 {
     vec3 x = of_particle(position, j).xyz;
-    EACH_IMAGE(here, image, add(image.x - x))
+    for (int k = 0; k < image_count; k++)
+        add(images[k].x - x);
 }
 
 void main()

@@ -24,16 +24,13 @@ float push_of(float term, float r)
     return pressure_scale * (t * t) * (pressure_term + term) / r;
 }
 
-vec3 pushed_image(Image image, vec4 other)
-{
-    vec3 d = image.x - other.xyz;
-    return image.sign * (push_of(other.w, max(length(d), 1e-6 * support)) * d);
-}
-
 void meet_images(int j)
 {
     vec4 other = of_particle(near, j);
-    EACH_IMAGE(here, image, force += pushed_image(image, other))
+    for (int k = 0; k < image_count; k++) {
+        vec3 d = images[k].x - other.xyz;
+        force += images[k].sign * (push_of(other.w, max(length(d), 1e-6 * support)) * d);
+    }
 }
 
 void meet(int j)

@@ -22,7 +22,6 @@ static __attribute__((format(printf, 2, 3))) void put(Text *to, const char *form
         to->used += (size_t)size;
 }
 
-/* Ten digits give a float back to the bit. */
 static void put_ints(Text *to, const char *name, int count, const int *values)
 {
     put(to, "const ivec%d %s = ivec%d(", count, name, count);
@@ -30,6 +29,7 @@ static void put_ints(Text *to, const char *name, int count, const int *values)
         put(to, "%d%s", values[k], k + 1 < count ? ", " : ");\n");
 }
 
+/* Ten digits give a float back to the bit. */
 static void put_float(Text *to, const char *name, float value)
 {
     put(to, "const float %s = %.9e;\n", name, (double)value);
