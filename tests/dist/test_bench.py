@@ -32,6 +32,10 @@ class Bench(RanksCase):
         code, out, errors = self.alone("model", files[0])
         self.assertEqual((code, out), (2, ""))
         self.assertIn("more than one rank", errors)
+        missing = self.folder / "missing.json"
+        code, out, errors = self.alone("scaling", missing)
+        self.assertEqual((code, out), (2, ""))
+        self.assertTrue(errors.startswith(f"unable to open {missing}: "), errors)
 
     def test_scaling(self):
         files, rates = [], {}
