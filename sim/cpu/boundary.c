@@ -235,8 +235,14 @@ void cpu_boundary_restore(Cpu *cpu)
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3])
 {
     const Constants *s = cpu->constants;
+    WayBounds way = way_bounds(before, x);
     bool held = false;
-    for (int k = 0; k < s->solid_count; k++)
-        held |= solid_guard(&s->solids[k], &steps[k], s->dimensions, before, x, v);
+    for (int k = 0; k < s->solid_count; k++) {
+        if (solid_step_beside(&steps[k], s->dimensions, &way) ||
+            !solid_guard(&s->solids[k], &steps[k], s->dimensions, before, x, v))
+            continue;
+        held = true;
+        way = way_bounds(before, x);
+    }
     return held;
 }

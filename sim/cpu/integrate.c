@@ -18,10 +18,13 @@ static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float 
     const SolidStep *solids = drift->step->solids;
     const float before[3] = {p->x[i], p->y[i], p->z[i]}, mass = s->mass[p->fluid[i]];
     float free[3] = {v[0], v[1], v[2]};
+    WayBounds way = way_bounds(before, x);
     bool by_solid = false, by_wall = false;
     for (int k = 0; solids && k < s->solid_count; k++)
-        if (solid_guard(&s->solids[k], &solids[k], s->dimensions, before, x, v)) {
+        if (!solid_step_beside(&solids[k], s->dimensions, &way) &&
+            solid_guard(&s->solids[k], &solids[k], s->dimensions, before, x, v)) {
             by_solid = true;
+            way = way_bounds(before, x);
             cpu_feel_guard(felt ? &felt[1 + k] : NULL, mass, x, v, free);
         }
     if (walls_near(inside, x)) {

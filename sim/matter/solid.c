@@ -251,6 +251,21 @@ double solid_reach(const SolidDef *solid)
     }
 }
 
+void solid_half(const SolidDef *solid, double half[3])
+{
+    const double reach = solid_reach(solid);
+    for (int k = 0; k < 3; k++)
+        half[k] = reach;
+    if (solid->kind == SOLID_CYLINDER) {
+        half[0] = half[2] = solid->radius;
+        half[1] = 0.5 * solid->height;
+    }
+    for (int k = 0; k < 3 && solid->kind == SOLID_BOX; k++)
+        half[k] = 0.5 * solid->size[k];
+    for (int k = 0; k < 3 && solid->kind == SOLID_MESH && solid->mesh.shape; k++)
+        half[k] = solid->mesh.scale * solid->mesh.shape->half[k];
+}
+
 /* How far its motions carry it along the axis, m. */
 static double way_along(const SolidDef *solid, int axis)
 {

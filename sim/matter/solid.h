@@ -127,6 +127,9 @@ bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, 
 /* Radius of a ball about the origin of the solid's own frame that holds the solid, m. */
 double solid_reach(const SolidDef *solid);
 
+/* Half the edges of a block along the axes of the solid's own frame, about its origin, that holds it, m. */
+void solid_half(const SolidDef *solid, double half[3]);
+
 /* The same of a mesh of that size: x about its middle, m; INFINITY and 0 without a shape. */
 double mesh_use_distance(const MeshUse *mesh, const double x[3]);
 double mesh_use_reach(const MeshUse *mesh);

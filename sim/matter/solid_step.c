@@ -33,11 +33,30 @@ void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose)
     solid_pose_of(&at, pose);
 }
 
+void solid_step_stand(const SolidDef *solid, const SolidPose *pose, SolidStep *step)
+{
+    const double slack = 1e-5 * solid_reach(solid); /* of roundings, and more than hold() has */
+    double half[3];
+    solid_half(solid, half);
+    *step = (SolidStep){.begin = *pose, .end = *pose, .still = true};
+    for (int k = 0; k < 3; k++) {
+        const double reach = slack + fabsf(pose->r[k][0]) * half[0] + fabsf(pose->r[k][1]) * half[1] +
+                             fabsf(pose->r[k][2]) * half[2];
+        step->low[k] = (float)(pose->x[k] - reach);
+        step->high[k] = (float)(pose->x[k] + reach);
+    }
+}
+
 void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step)
 {
-    solid_pose_at(solid, begin, &step->begin);
+    SolidPose at;
+    solid_pose_at(solid, begin, &at);
+    if (!solid_moves(solid)) {
+        solid_step_stand(solid, &at, step);
+        return;
+    }
+    *step = (SolidStep){.begin = at};
     solid_pose_at(solid, end, &step->end);
-    step->still = !solid_moves(solid);
     for (int k = 0; k < 3; k++) {
         const float dt = (float)(end - begin);
         step->change[k] = (step->end.v[k] - step->begin.v[k]) / dt;

@@ -16,7 +16,8 @@ typedef struct SolidPose {
 /* What one solid does from one pose to the next. */
 typedef struct SolidStep {
     SolidPose begin, end;
-    bool still;      /* it has no motion */
+    bool still; /* it has no motion: all of it lies between `low` and `high` in the box's frame, m */
+    float low[3], high[3];
     float change[3]; /* of v, over the step: m/s2 */
     float alpha[3];  /* of w, over the step: rad/s2 */
 } SolidStep;
@@ -26,6 +27,9 @@ void solid_pose_of(const BoxState *at, SolidPose *pose);
 
 /* From `begin` to `end`, s. */
 void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step);
+
+/* Of one that stands at `pose` throughout. */
+void solid_step_stand(const SolidDef *solid, const SolidPose *pose, SolidStep *step);
 
 /* Gives both halves of a step the rates of the whole. */
 void solid_step_mean(SolidStep *first, SolidStep *second);
@@ -40,6 +44,30 @@ void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3]);
 
 /* The acceleration of the solid's matter at x, by the rates of the step. */
 void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3]);
+
+/* A particle's way from one place to another: the block about it, m, in the box's frame. */
+typedef struct WayBounds {
+    float low[3], high[3];
+} WayBounds;
+
+static inline WayBounds way_bounds(const float before[3], const float x[3])
+{
+    WayBounds way;
+    for (int k = 0; k < 3; k++) {
+        way.low[k] = before[k] < x[k] ? before[k] : x[k];
+        way.high[k] = before[k] > x[k] ? before[k] : x[k];
+    }
+    return way;
+}
+
+/* True where solid_guard would find nothing to do, as for nearly all particles beside what stands still. */
+static inline bool solid_step_beside(const SolidStep *step, int dimensions, const WayBounds *way)
+{
+    bool beside = false;
+    for (int k = 0; k < dimensions; k++)
+        beside |= (way->high[k] < step->low[k]) | (way->low[k] > step->high[k]);
+    return beside & step->still;
+}
 
 /* Keeps a particle that went from `before` to x out of the solid, on the side from which it came, however
    thin the solid is there, and takes its velocity into the surface away; true if it had to. */

@@ -177,7 +177,7 @@ static void hold_make(const Cpu *cpu, Hold *hold)
     hold->box = walls_far(&s->walls, 0);
     hold->solids = s->solid_count > 0;
     for (int k = 0; k < s->solid_count; k++)
-        hold->standing[k] = (SolidStep){.begin = cpu->solid[k].end, .end = cpu->solid[k].end, .still = true};
+        solid_step_stand(&s->solids[k], &cpu->solid[k].end, &hold->standing[k]);
 }
 
 /* True where it had to. From a solid's surface no further than into the box: a wall would push it into the

@@ -245,6 +245,36 @@ static void the_guard_lets_nothing_through(void **state)
     assert_true(held > COUNT * STEPS / 2);
 }
 
+/* Ways of all lengths about shapes that stand, turned: what is told to lie beside has nothing to be held for,
+   and most of what the guard leaves alone is told so. */
+static void what_lies_beside_is_not_held(void **state)
+{
+    (void)state;
+    uint32_t seed = 5;
+    for (int k = 0; k < SHAPES; k++)
+        for (int dimensions = shapes[k].kind == SOLID_CYLINDER ? 3 : 2; dimensions <= 3; dimensions++) {
+            int told = 0, left = 0;
+            SolidStep step;
+            solid_step_make(&shapes[k], 0, 0.01, &step);
+            for (int n = 0; n < 20000; n++) {
+                double from[3], way[3];
+                random_point(&seed, dimensions, 2.5, from);
+                random_point(&seed, dimensions, n % 2 ? 1 : 0.05, way);
+                const float before[3] = {(float)from[0], (float)from[1], (float)from[2]};
+                float x[3], v[3] = {0};
+                for (int i = 0; i < 3; i++)
+                    x[i] = (float)(from[i] + way[i]);
+                const WayBounds bounds = way_bounds(before, x);
+                const bool beside = solid_step_beside(&step, dimensions, &bounds);
+                const bool held = solid_guard(&shapes[k], &step, dimensions, before, x, v);
+                assert_false(beside && held);
+                told += beside;
+                left += !held;
+            }
+            assert_true(told > left / 2);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +283,7 @@ int main(void)
         cmocka_unit_test(layers_fill_the_matter),
         cmocka_unit_test(layers_weigh_as_a_lattice_does),
         cmocka_unit_test(the_guard_lets_nothing_through),
+        cmocka_unit_test(what_lies_beside_is_not_held),
     };
     return cmocka_run_group_tests_name("sim.solid", tests, NULL, NULL);
 }

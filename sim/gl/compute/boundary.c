@@ -127,7 +127,7 @@ void compute_pose(void *state, const SolidPose *pose)
     Compute *c = state;
     SolidStep steps[SOLIDS_MAX] = {0};
     for (int k = 0; k < c->constants->solid_count; k++)
-        steps[k] = (SolidStep){.begin = pose[k], .end = pose[k], .still = true};
+        solid_step_stand(&c->constants->solids[k], &pose[k], &steps[k]);
     steps_set(c, steps);
     c->boundary.due = true;
 }
