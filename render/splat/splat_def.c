@@ -49,7 +49,7 @@ const Key splat_keys[] = {
            "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
     CHOICE_OF("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, splat_shape_names, AT(shape),
            "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie; "
-           "auto: ellipsoid for water and jelly, else perspective"),
+           "auto: ellipsoid, but perspective with a level or opaque with weights other than w1w2"),
     CHOICE_OF("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, splat_sprite_names, AT(sprite),
            "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
     CHOICE_OF("view.splat.show", L | KEY_INDEX | KEY_REBUILD, splat_show_names, AT(show), "a stage of the way to the picture"),
@@ -62,7 +62,7 @@ const Key splat_keys[] = {
     BOOLEAN("view.splat.drops", L | KEY_REBUILD, AT(drops), "a particle with few neighbours shrinks to a drop of its own volume"),
     CHOICE_OF("view.splat.filter", L | KEY_INDEX | KEY_REBUILD, splat_filter_names, AT(filter),
            "narrow_range: smooth the depth on the screen and take the normals from it, after Truong and Yuksel 2018; "
-           "auto: for water and jelly"),
+           "auto: narrow_range where auto makes the shape ellipsoid"),
     NUMBER("view.splat.filter_size", L | O, "radii", 0, 100, AT(filter_size), "half the width of the filter"),
     NUMBER("view.splat.filter_range", L | O, "radii", 0, 100, AT(filter_range),
            "the filter takes what lies farther in front or behind for another surface"),
@@ -86,9 +86,10 @@ SplatDef *splat_def(const ViewDef *def)
     return view_own(def, &view_splat);
 }
 
+/* One surface: what shows spheres by themselves, or a level of their field, is left as it is. */
 static bool smooth(const SplatDef *def)
 {
-    return def->shading != SPLAT_PHONG && !(def->level > 0);
+    return !(def->level > 0) && (def->shading != SPLAT_PHONG || def->weights == SPLAT_W1W2);
 }
 
 SplatShape splat_shape(const SplatDef *def)

@@ -153,6 +153,31 @@ static void strange_pictures(void **state)
     free(scene.particles);
 }
 
+/* `auto` is one smooth surface, opaque or clear, but where spheres or a level are asked for. */
+static void what_auto_makes(void **state)
+{
+    (void)state;
+    static const struct {
+        SplatDef def;
+        bool smooth;
+    } cases[] = {
+        {{.shading = SPLAT_PHONG, .weights = SPLAT_W1W2}, true},
+        {{.shading = SPLAT_WATER, .weights = SPLAT_W1W2}, true},
+        {{.shading = SPLAT_WATER, .weights = SPLAT_W1}, true},
+        {{.shading = SPLAT_PHONG, .weights = SPLAT_W1}, false},
+        {{.shading = SPLAT_PHONG, .weights = SPLAT_W1W2, .level = 0.1F}, false},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        SplatDef def = cases[i].def;
+        def.shape = SPLAT_SHAPE_AUTO, def.filter = SPLAT_FILTER_AUTO;
+        assert_int_equal(splat_shape(&def), cases[i].smooth ? SPLAT_ELLIPSOID : SPLAT_PERSPECTIVE);
+        assert_int_equal(splat_filter(&def), cases[i].smooth ? SPLAT_NARROW_RANGE : SPLAT_NO_FILTER);
+        def.shape = SPLAT_PAPER, def.filter = SPLAT_NO_FILTER;
+        assert_int_equal(splat_shape(&def), SPLAT_PAPER);
+        assert_int_equal(splat_filter(&def), SPLAT_NO_FILTER);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +185,7 @@ int main(void)
         cmocka_unit_test_teardown(the_same_with_each_shading, no_gl_errors),
         cmocka_unit_test_teardown(outlines_stay, no_gl_errors),
         cmocka_unit_test_teardown(strange_pictures, no_gl_errors),
+        cmocka_unit_test(what_auto_makes),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
