@@ -558,11 +558,11 @@ bool snapshot_file_has(const char *path, Scalar scalar)
     return has;
 }
 
-/* No step reads it. */
+/* As ParticleColumns says. */
 static void not_known(SnapshotStep *step, int k)
 {
     for (size_t i = 0; i < step->count; i++)
-        step->own[k].values[i] = NAN;
+        step->own[k].values[i] = step->own[k].place >= COLUMNS_SHOWN ? NAN : 0;
 }
 
 bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
@@ -579,7 +579,7 @@ bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *s
         (!snapshot_step_born(step) || !read_field(group, born, H5T_IEEE_F32LE, step->count, step->born)))
         missing = born;
     for (int k = 0; k < step->own_count && !missing; k++)
-        if (group >= 0 && step->own[k].place >= COLUMNS_SHOWN &&
+        if (group >= 0 && step->own[k].place >= COLUMNS_LEFT &&
             H5Lexists(group, step->own[k].name, H5P_DEFAULT) <= 0)
             not_known(step, k);
         else if (group < 0 ||

@@ -7,6 +7,7 @@
 #define SLOSH_BOX_STEP_H
 
 #include "sim/box/box_motion.h"
+#include "sim/box/place.h"
 
 /* With D = R1^T R0 - I, x1 = (I + D) (x0 + (v0 + omega0 x x0) dt - shift),
    v1 = (I + D) (v0 + omega0 x x0) - velocity_change - omega1 x x1.
@@ -42,23 +43,26 @@ static inline void box_cross(const float a[3], const float b[3], float out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Applies the step to one particle. */
-static inline void box_advance(const BoxStep *step, float x[3], float v[3])
+/* Applies the step to one particle. `left`: what rounding leaves of its place (sim/box/place.h), or NULL. */
+static inline void box_advance(const BoxStep *step, float x[3], float left[3], float v[3])
 {
     if (step->still) {
         for (int k = 0; k < 3; k++)
-            x[k] += v[k] * step->dt;
+            place_move(&x[k], left ? &left[k] : NULL, v[k] * step->dt);
         return;
     }
     float swirl[3], w[3], y[3];
     box_cross(step->omega0, x, swirl);
     for (int k = 0; k < 3; k++) {
         w[k] = v[k] + swirl[k];
-        y[k] = x[k] + (w[k] * step->dt - step->shift[k]);
+        y[k] = x[k];
+        place_move(&y[k], left ? &left[k] : NULL, w[k] * step->dt - step->shift[k]);
     }
-    for (int k = 0; k < 3; k++)
-        x[k] =
-            y[k] + (step->rotation[k][0] * y[0] + step->rotation[k][1] * y[1] + step->rotation[k][2] * y[2]);
+    for (int k = 0; k < 3; k++) {
+        x[k] = y[k];
+        place_move(&x[k], left ? &left[k] : NULL,
+                   step->rotation[k][0] * y[0] + step->rotation[k][1] * y[1] + step->rotation[k][2] * y[2]);
+    }
     box_cross(step->omega1, x, swirl);
     for (int k = 0; k < 3; k++)
         v[k] = w[k] +

@@ -6,6 +6,8 @@
 #ifndef SLOSH_PERIODIC_H
 #define SLOSH_PERIODIC_H
 
+#include "sim/box/place.h"
+
 #include <math.h>
 #include <stdbool.h>
 
@@ -15,13 +17,13 @@ typedef struct Periodic {
     float low[3], size[3]; /* m, of all axes */
 } Periodic;
 
-/* Puts x (m) into the box along the periodic axes. */
-static inline void periodic_wrap(const Periodic *periodic, float x[3])
+/* Puts x (m) into the box along the periodic axes. `left`: what rounding leaves of it, or NULL. */
+static inline void periodic_wrap(const Periodic *periodic, float x[3], float left[3])
 {
     for (int k = 0; k < 3; k++) {
         const float size = periodic->size[k], from = x[k] - periodic->low[k];
         if (periodic->axis[k] && !(from >= 0 && from < size))
-            x[k] -= size * floorf(from / size);
+            place_move(&x[k], left ? &left[k] : NULL, -size * floorf(from / size));
     }
 }
 

@@ -36,7 +36,7 @@ static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float 
 }
 
 /* How often the guards held a particle of the run [begin, end). */
-static size_t drift_run(const Drift *drift, size_t begin, size_t end, Push *felt)
+static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Push *felt, const bool wide)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
@@ -45,11 +45,19 @@ static size_t drift_run(const Drift *drift, size_t begin, size_t end, Push *felt
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        box_advance(drift->step, x, v);
-        if (solids || walls_near(&inside, x))
+        float left[3] = {0};
+        for (int k = 0; wide && k < 3; k++)
+            left[k] = p->own[COLUMNS_LEFT + k][i];
+        box_advance(drift->step, x, wide ? left : NULL, v);
+        if (solids || walls_near(&inside, x)) {
+            const float free[3] = {x[0], x[1], x[2]};
             held += guard(drift, &inside, i, x, v, felt);
+            place_put(free, x, wide ? left : NULL);
+        }
         if (periodic)
-            periodic_wrap(&cpu->constants->periodic, x);
+            periodic_wrap(&cpu->constants->periodic, x, wide ? left : NULL);
+        for (int k = 0; wide && k < 3; k++)
+            p->own[COLUMNS_LEFT + k][i] = left[k];
         p->x[i] = x[0];
         p->y[i] = x[1];
         p->z[i] = x[2];
@@ -66,7 +74,8 @@ static void drift_range(void *context, size_t begin, size_t end)
     Push *felt = drift->cpu->forces ? cpu_felt(drift->cpu, begin) : NULL;
     size_t held = 0;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
-        held += drift_run(drift, i, stop, felt);
+        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, felt, true)
+                                            : drift_run(drift, i, stop, felt, false);
     if (held)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }

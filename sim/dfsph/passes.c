@@ -263,21 +263,29 @@ static void density_motion(const CpuRange *range)
 }
 
 /* A step's move is a part of a spacing: no guard of solids looks at it. */
-static void density_end(const CpuRange *range)
+static inline void density_end_run(const CpuRange *range, const bool wide)
 {
     const CpuParticles *p = &range->cpu->now;
+    float *const x[3] = {p->x, p->y, p->z};
     const float dt2 = range->input->dt * range->input->dt, most = MOVE_MOST * range->cpu->constants->spacing;
     for (size_t i = range->begin; i < range->end; i++) {
         const float move[3] = {p->ax[i] * dt2, p->ay[i] * dt2, p->az[i] * dt2};
         const float length = sqrtf(move[0] * move[0] + move[1] * move[1] + move[2] * move[2]);
         const float share = length > most ? most / length : 1;
-        p->x[i] += share * move[0];
-        p->y[i] += share * move[1];
-        p->z[i] += share * move[2];
+        for (int k = 0; k < 3; k++)
+            place_move(&x[k][i], wide ? &p->own[COLUMNS_LEFT + k][i] : NULL, share * move[k]);
         p->ax[i] = p->own[OTHER][i];
         p->ay[i] = p->own[OTHER + 1][i];
         p->az[i] = p->own[OTHER + 2][i];
     }
+}
+
+static void density_end(const CpuRange *range)
+{
+    if (range->cpu->constants->wide)
+        density_end_run(range, true);
+    else
+        density_end_run(range, false);
 }
 
 /* --- solvers: an iteration --- */
@@ -477,7 +485,8 @@ const Pass dfsph_density_push =
     SOLVE("density push", pushes[1], "density_push", PUSH_READS, "pressure_term acceleration change");
 const Pass dfsph_density_rate = SOLVE("density rate", rates[1], "density_rate", RATE_READS, "residual miss");
 const Pass dfsph_density_end =
-    SOLVE("density end", ends[1], "density_end", "position acceleration other", "position acceleration");
+    SOLVE("density end", ends[1], "density_end", "position remainder acceleration other",
+          "position remainder acceleration");
 
 static bool many_viscous(const Constants *constants)
 {

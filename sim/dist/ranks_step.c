@@ -26,7 +26,7 @@ static uint64_t rows_named(const Cpu *cpu, const char *list)
 static Touched look_at(const Cpu *cpu, const Pass *pass)
 {
     Touched touched = {.pass = pass,
-                       .reads = rows_named(cpu, pass->reads),
+                       .reads = rows_named(cpu, pass->reads) & ~rows_named(cpu, "remainder"), /* of its own */
                        .writes = rows_named(cpu, pass->writes),
                        .whole = true};
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {

@@ -18,9 +18,10 @@ static bool of_fluid(const Cpu *cpu, size_t i)
 
 /* In the middle of the flight, in its axes. The velocity of a step is its way over dt, so that what rests has
    none: places fall by g dt^2, not half of it. A shift alone would turn with the box: hence omega. */
-static void predict_body(const CpuRange *range)
+static inline void predict_run(const CpuRange *range, const bool wide)
 {
     const CpuParticles *p = &range->cpu->now;
+    float *const x[3] = {p->x, p->y, p->z};
     const float dt = range->input->dt, *g = range->input->gravity;
     float shift[3], swirl[3];
     for (int k = 0; k < 3; k++)
@@ -30,10 +31,17 @@ static void predict_body(const CpuRange *range)
         p->vx[i] += dt * g[0] - swirl[0];
         p->vy[i] += dt * g[1] - swirl[1];
         p->vz[i] += dt * g[2] - swirl[2];
-        p->x[i] += shift[0];
-        p->y[i] += shift[1];
-        p->z[i] += shift[2];
+        for (int k = 0; k < 3; k++)
+            place_move(&x[k][i], wide ? &p->own[COLUMNS_LEFT + k][i] : NULL, shift[k]);
     }
+}
+
+static void predict_body(const CpuRange *range)
+{
+    if (range->cpu->constants->wide)
+        predict_run(range, true);
+    else
+        predict_run(range, false);
 }
 
 static const CpuPass predict = {.loops = {{predict_body}}};
@@ -43,8 +51,8 @@ const Pass pbf_predict = {
     .stage = STAGE_INTEGRATE,
     .cpu = &predict,
     .shader = "pbf/predict",
-    .reads = "position velocity",
-    .writes = "position velocity",
+    .reads = "position remainder velocity",
+    .writes = "position remainder velocity",
 };
 
 /* --- begin --- */
@@ -194,18 +202,27 @@ static bool held(const Hold *hold, const float from[3], float x[3])
 }
 
 /* Where what the pairs add up to, kg m, takes particle i. */
-static void move_one(const Hold *hold, size_t i)
+static inline void move_one(const Hold *hold, size_t i, const bool wide)
 {
     const CpuParticles *p = &hold->cpu->now;
     const float w = p->own[INVERSE_MASS][i], from[3] = {p->x[i], p->y[i], p->z[i]},
                 spacing = hold->cpu->constants->spacing;
     float way[3] = {w * p->ax[i], w * p->ay[i], w * p->az[i]};
     shorten(way, WAY_LONGEST * spacing);
-    const float free[3] = {from[0] + way[0], from[1] + way[1], from[2] + way[2]};
-    float x[3] = {free[0], free[1], free[2]};
-    if (held(hold, from, x))
+    float x[3] = {from[0], from[1], from[2]}, left[3] = {0};
+    for (int k = 0; k < 3; k++) {
+        if (wide)
+            left[k] = p->own[COLUMNS_LEFT + k][i];
+        place_move(&x[k], wide ? &left[k] : NULL, way[k]);
+    }
+    const float free[3] = {x[0], x[1], x[2]};
+    if (held(hold, from, x)) {
+        place_put(free, x, wide ? left : NULL);
         for (int k = 0; k < 3; k++) /* a difference of places has fewer digits */
             way[k] = x[k] != free[k] ? x[k] - from[k] : way[k];
+    }
+    for (int k = 0; wide && k < 3; k++)
+        p->own[COLUMNS_LEFT + k][i] = left[k];
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     for (int k = 0; k < 3; k++)
         p->own[MOVED + k][i] += way[k];
@@ -217,8 +234,12 @@ static void move_body(const CpuRange *range)
     Hold hold;
     hold_make(range->cpu, &hold);
     cpu_pairs(range, &pbf_push);
+    const bool wide = range->cpu->constants->wide;
     for (size_t i = range->begin; i < range->end; i++)
-        move_one(&hold, i);
+        if (wide)
+            move_one(&hold, i, true);
+        else
+            move_one(&hold, i, false);
 }
 
 /* Of a neighbour {x, k}; 1/m of it besides. */
@@ -241,8 +262,8 @@ const Pass pbf_move = {
     .stage = STAGE_SOLVE,
     .cpu = &move,
     .shader = "pbf/move",
-    .reads = "position id fluid term residual factor inverse_mass change applied moved way",
-    .writes = "position term acceleration change applied moved way",
+    .reads = "position remainder id fluid term residual factor inverse_mass change applied moved way",
+    .writes = "position remainder term acceleration change applied moved way",
 };
 
 /* --- an iteration: number density --- */

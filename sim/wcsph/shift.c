@@ -9,7 +9,7 @@
 
 /* By chi c (h / 2) dt V0 sum F x_ij, with corrected gradients sum (1 + (S_i + S_j) / 2) F x_ij of
    sim/wcsph/pairs_corrected.c, along no axis further than a tenth of a spacing. */
-static void shift_body(const CpuRange *range)
+static inline void shift_run(const CpuRange *range, const bool wide)
 {
     const Constants *s = range->cpu->constants;
     const CpuParticles *p = &range->cpu->now;
@@ -24,11 +24,19 @@ static void shift_body(const CpuRange *range)
             longest = fmaxf(longest, fabsf(scale * p->own[UNEVEN + k][i]));
         const float times = longest > most ? scale * (most / longest) : scale;
         for (int k = 0; k < 3; k++)
-            x[k][i] += times * p->own[UNEVEN + k][i];
+            place_move(&x[k][i], wide ? &p->own[COLUMNS_LEFT + k][i] : NULL, times * p->own[UNEVEN + k][i]);
         for (int k = 0; p->own[CARRIED] && k < 3; k++)
             v[k][i] += times * p->own[CARRIED + k][i];
         p->compression[i] += part * p->own[FULL][i] * (p->own[DENSE][i] - p->compression[i]);
     }
+}
+
+static void shift_body(const CpuRange *range)
+{
+    if (range->cpu->constants->wide)
+        shift_run(range, true);
+    else
+        shift_run(range, false);
 }
 
 static const CpuPass shift = {.loops = {{shift_body}}};
@@ -38,7 +46,7 @@ const Pass wcsph_shift = {
     .stage = STAGE_FORCE,
     .cpu = &shift,
     .shader = "wcsph/shift",
-    .reads = "position velocity compression uneven full dense carried",
-    .writes = "position velocity compression",
+    .reads = "position remainder velocity compression uneven full dense carried",
+    .writes = "position remainder velocity compression",
     .needed = wcsph_shifts,
 };

@@ -13,7 +13,8 @@
 struct Constants; /* sim/world/constants.h */
 struct WorldDef;  /* sim/matter/world_def.h */
 
-enum { COLUMNS_OWN = 31, COLUMNS_KEPT = 25, COLUMNS_SHOWN = 28, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_OWN = 34, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_KEPT = 25, COLUMNS_LEFT = 28, COLUMNS_SHOWN = 31 }; /* of ParticleColumns.own */
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {
@@ -31,7 +32,8 @@ typedef struct ParticleColumns {
     float *tension;       /* the same, N/m; of cohesion scaled */
     float *kind;          /* its fluid as a number: pairs of one fluid have the same */
     float *own[COLUMNS_OWN];   /* of the method: as its rows say; from COLUMNS_KEPT on what terms keep; from
-                                  COLUMNS_SHOWN on no step reads it, and NaN is what is not known */
+                                  COLUMNS_LEFT on columns_left, where 0 is what is not known; from
+                                  COLUMNS_SHOWN on what no step reads, where that is NaN */
     float *term[COLUMNS_TERM]; /* of terms that methods share (sim/world/method.h): the same */
 } ParticleColumns;
 
@@ -69,8 +71,14 @@ int column_own(const ColumnDef *column);
 /* Whether a method, by its rows (NULL: none), saves some of its own. */
 bool columns_save_own(const ColumnDef *own);
 
-/* Those of every method, ended by a NULL name. */
-extern const ColumnDef columns_common[];
+/* Those of every method; what rounding leaves of places in wide boxes (sim/box/place.h). Each is ended by a
+   NULL name. */
+extern const ColumnDef columns_common[], columns_left[];
+
+/* Whether the def's worlds have the latter: the box is more than COLUMNS_WIDE spacings wide along an axis,
+   from where on the last digit of a place is 8e-6 spacings. Others do without 24 bytes a particle. */
+enum { COLUMNS_WIDE = 128 };
+bool columns_wide(const struct WorldDef *def);
 
 /* Some rows of the table. */
 typedef struct ColumnRows {

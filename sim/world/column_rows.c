@@ -24,6 +24,24 @@ const ColumnDef columns_common[] = {
     {0},
 };
 
+static bool wide(const Constants *constants)
+{
+    return constants->wide;
+}
+
+const ColumnDef columns_left[] = {
+    {"remainder", "m", .at = COLUMN_OWN(COLUMNS_LEFT), 3, COLUMN_FLOAT, KEPT, .needed = wide},
+    {0},
+};
+
+bool columns_wide(const WorldDef *def)
+{
+    double widest = 0;
+    for (int k = 0; k < def->dimensions; k++)
+        widest = def->box_size[k] > widest ? def->box_size[k] : widest;
+    return widest > COLUMNS_WIDE * def->spacing;
+}
+
 static void add_rows(ColumnRows *rows, const ColumnDef *from, unsigned flags,
                      const struct Constants *constants)
 {
@@ -36,6 +54,8 @@ ColumnRows columns_saved(const WorldDef *def)
 {
     ColumnRows rows = {0};
     add_rows(&rows, columns_common, COLUMN_SAVED, NULL);
+    if (columns_wide(def))
+        add_rows(&rows, columns_left, COLUMN_SAVED, NULL);
     add_rows(&rows, method_find(def->method)->columns, COLUMN_SAVED, NULL);
     for (const Term *const *term = shared_terms; *term; term++)
         if ((*term)->named(def))
@@ -57,6 +77,7 @@ ColumnRows column_rows(const ColumnDef *own, unsigned flags, const struct Consta
 {
     ColumnRows rows = {0};
     add_rows(&rows, columns_common, flags, constants);
+    add_rows(&rows, columns_left, flags, constants);
     add_rows(&rows, own, flags, constants);
     for (const Term *const *term = shared_terms; *term; term++)
         add_rows(&rows, (*term)->columns, flags, constants);

@@ -371,6 +371,7 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     own_set(constants, def);
     walls_place(&constants->walls, def->dimensions, def->box_size, def->periodic, def->spacing);
     constants->dimensions = def->dimensions;
+    constants->wide = columns_wide(def);
     constants->emits = flow_emits(def);
     constants->drains = def->drain_count > 0;
     constants->solid_count = def->solid_count;

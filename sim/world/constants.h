@@ -74,6 +74,7 @@ typedef struct Constants {
     int dimensions;
     bool emits, drains; /* fluid may come; go */
     bool accelerations; /* are kept: sim/change */
+    bool wide;          /* what rounding leaves of places is: columns_wide */
     int solid_count;
     SolidDef solids[SOLIDS_MAX];
     Boundary boundary; /* of the solids */

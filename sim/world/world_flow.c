@@ -53,7 +53,7 @@ static void let_in(World *world, int fluid, const Emit *emit, double begin, doub
             world->backend->grid(world->state); /* who is where now */
         emit_place(emit, def->dimensions, def->spacing, k, end, &layer);
         for (size_t i = 0; i < layer.count; i++)
-            periodic_wrap(&world->constants.periodic, layer.position + 3 * i);
+            periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
         size_t most = world->capacity - world->count;
         if (born + layer.count > IDS)
             most = 0;

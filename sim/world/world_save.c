@@ -227,12 +227,14 @@ static bool as_initial(const WorldState *state, InitialState *initial)
     return position;
 }
 
-/* Cells that are too many change no bit: particles are found and summed by cells of one lattice. */
+/* Cells that are too many change no bit: particles are found and summed by cells of one lattice. Columns
+ * would.
+ */
 static bool cells_hold(const Constants *constants, const WorldDef *def)
 {
     const CellGrid *cells = &constants->cells;
     const double h = (double)constants->support_radius;
-    bool hold = true;
+    bool hold = columns_wide(def) == constants->wide;
     for (int k = 0; k < def->dimensions; k++) {
         const double low = k == 1 ? 0 : -0.5 * def->box_size[k];
         hold &= def->periodic[k] || (low >= (cells->first[k] + 1) * h &&
@@ -254,8 +256,13 @@ static void bring_in(WorldState *state, const WorldDef *def, int axis)
     const float slack = 1e-3F * (float)def->spacing;
     const float low = axis == 1 ? 0 : -0.5F * (float)def->box_size[axis],
                 high = low + (float)def->box_size[axis];
-    for (size_t i = 0; i < state->count; i++)
-        along[axis][i] = fmaxf(low + slack, fminf(along[axis][i], high - slack));
+    float *left = p->own[COLUMNS_LEFT + axis];
+    for (size_t i = 0; i < state->count; i++) {
+        const float x = along[axis][i];
+        along[axis][i] = fmaxf(low + slack, fminf(x, high - slack));
+        if (left && along[axis][i] != x)
+            left[i] = 0;
+    }
 }
 
 static void place(World *world, const double size[3])

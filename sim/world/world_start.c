@@ -34,7 +34,7 @@ static void hold(const Constants *constants, const Seeds *seeds, size_t count)
     for (size_t i = 0; i < count; i++) {
         float *x = seeds->position + 3 * i, v[3] = {0};
         walls_guard(&constants->walls, x, v);
-        periodic_wrap(&constants->periodic, x);
+        periodic_wrap(&constants->periodic, x, NULL);
     }
 }
 

@@ -262,6 +262,22 @@ class Resume(CommandTest):
             self.assertEqual(*values)
             self.assertGreater(len(set(c for _, c in values[0])), 10)
 
+    def test_places_in_a_wide_box(self):
+        """What rounding leaves of them is in the file; a file of before has none, and goes on too."""
+        wide = ('run', 'dam_break_2d', '--set', 'box.size=[4, 0.9]', '--particles', '300', '--every', '0.02', '--quiet')
+        self.assertEqual(self.slosh(*wide, '-o', 'whole.h5part', '--time', '0.06')[0], 0)
+        self.assertEqual(self.slosh(*wide, '-o', 'b.h5part', '--time', '0.02')[0], 0)
+        shutil.copy(self.path('b.h5part'), self.path('before.h5part'))
+        self.assertEqual(self.slosh(*wide, '-o', 'b.h5part', '--time', '0.06', '--resume')[0], 0)
+        self.same('whole.h5part', 'b.h5part')
+        with h5py.File(self.path('before.h5part'), 'r+') as file:
+            for step in file.values():
+                for k in range(3):
+                    del step[f'remainder_{k}']
+        self.assertEqual(self.slosh(*wide, '-o', 'before.h5part', '--time', '0.06', '--resume')[0], 0)
+        with h5py.File(self.path('before.h5part')) as file:
+            self.assertTrue((file['Step#3']['remainder_0'][:] != 0).any())
+
     def test_what_comes_and_goes(self):
         """Emitters, a drain, a moving solid and a moving box; the first state is empty."""
         self.write('scene.yaml', FLOW)

@@ -55,6 +55,17 @@ class Ranks(RanksCase):
         for method in ("wcsph", "dfsph", "pbf"):
             self.check("dam_break", "--method", method, "--particles", "500", "--time", "0.06", "--every", "0.03")
 
+    def test_places_in_a_wide_box(self):
+        """What rounding leaves of them goes with them, and a run that goes on on other ranks has it."""
+        for method in ("wcsph", "pbf"):
+            scene = ["dam_break_2d", "--set", "box.size=[4, 0.9]", "--method", method, "--particles", "400", "--every", "0.05"]
+            one = self.run_one(*scene, "--time", "0.1")
+            self.assertEqual(self.dist(2, *scene, "--time", "0.05")[1].returncode, 0)
+            path, done = self.dist(3, *scene, "--time", "0.1", "--resume")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(list(states(path)), list(states(one)))
+            self.assertIn("remainder_0", list(states(path))[-1][2])
+
     def test_passes_behind_the_kick(self):
         """A shift that carries velocity reads that of ghosts as the kick left it."""
         self.check("box_slosh", "--method", "wcsph", "--set", "solver.shifting=0.2",

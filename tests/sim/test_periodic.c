@@ -198,7 +198,7 @@ static void a_shifted_cloud_moves_the_same_way(void **state)
 static float wrapped(const Periodic *periodic, float at)
 {
     float x[3] = {at, at, at};
-    periodic_wrap(periodic, x);
+    periodic_wrap(periodic, x, NULL);
     for (int k = 0; k < 2; k++) {
         const float from = x[k] - periodic->low[k], rounding = 1e-7F * periodic->size[k];
         assert_true(from >= -rounding && from <= periodic->size[k] + rounding);

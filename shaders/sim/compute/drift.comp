@@ -1,6 +1,7 @@
 // Free flight from one pose of the box into the next (sim/box/box_step.h), then the last guard of solids and walls.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
+#include "sim/place.glsl"
 #ifdef FELT
 #include "sim/felt.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
@@ -32,20 +33,23 @@ float folded(float way) { return 0.5 * spacing * way / (way + spacing); }
 uint fly(uint i)
 {
     uint times = 0u;
-    vec3 x = position[i].xyz, v = velocity[i].xyz;
+    vec3 x = position[i].xyz, v = velocity[i].xyz, left = left_of(i);
 #ifdef SOLIDS
     vec3 before = x;
 #endif
     float dt = drift_dt;
     if (still != 0) {
         precise vec3 way = v * dt; // the same bits as the CPU's
-        x += way;
+        place_move(x, left, way);
     } else {
-        vec3 w = v + cross(omega0, x), y = x + (w * dt - shift);
-        x = y + vec3(dot(rotation[0].xyz, y), dot(rotation[1].xyz, y), dot(rotation[2].xyz, y));
+        vec3 w = v + cross(omega0, x), y = x;
+        place_move(y, left, (w * dt - shift));
+        x = y;
+        place_move(x, left, vec3(dot(rotation[0].xyz, y), dot(rotation[1].xyz, y), dot(rotation[2].xyz, y)));
         v = w + vec3(dot(rotation[0].xyz, w), dot(rotation[1].xyz, w), dot(rotation[2].xyz, w)) -
             velocity_change - cross(omega1, x);
     }
+    vec3 flown = x;
 #ifdef SOLIDS
     if (solids_guard(before, x, v))
         times++;
@@ -79,11 +83,13 @@ uint fly(uint i)
     taken_by_walls = free - v;
     held_at = x;
 #endif
+    place_put(flown, x, left);
 #ifdef PERIODIC
     vec3 from = x - box_low;
-    x -= mix(vec3(0), box_whole * floor(from / box_whole), periodic);
+    place_move(x, left, -mix(vec3(0), box_whole * floor(from / box_whole), periodic));
 #endif
     position[i].xyz = x;
+    keep_left(i, left);
     velocity[i].xyz = v;
     return times;
 }

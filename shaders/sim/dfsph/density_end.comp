@@ -1,5 +1,6 @@
 // dfsph: places move by what the solver of density has found: density_end in sim/dfsph/passes.c.
 #include "sim/constants.glsl"
+#include "sim/place.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
 layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; }; // accelerations, k
@@ -12,5 +13,5 @@ void main()
         return;
     vec3 way = push[i].xyz * (dt * dt);
     float size = length(way), most = MOVE_MOST * spacing;
-    position[i].xyz += size > most ? most / size * way : way;
+    position[i].xyz = place_after(i, position[i].xyz, size > most ? most / size * way : way);
 }

@@ -6,6 +6,7 @@ layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 pos
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: what k grows by, times dt^2
 #include "sim/incompressible/push.glsl"
 #include "sim/own.glsl"
+#include "sim/place.glsl"
 #include "sim/scratch.glsl"
 #ifdef SOLIDS
 #define SOLID_BEGIN(k) solids[k].end // they stand
@@ -48,8 +49,12 @@ void main()
     vec3 from = near[i].xyz;
     own_term = near[i].w;
     walk_pairs(i, from);
-    vec3 way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), free = from + way, x = free;
+    vec3 way = shortened(gradient * whole / fluids[FLUID_OF(i)].mass), x = from, left = left_of(i);
+    place_move(x, left, way);
+    vec3 free = x;
     hold_back(from, x);
+    place_put(free, x, left);
+    keep_left(i, left);
     way = mix(way, x - from, notEqual(x, free)); // a difference of places has fewer digits
     position[i].xyz = x;
     for (uint a = 0u; a < 3u; a++)

@@ -1,5 +1,6 @@
 // pbf: what gravity does to a free flight, in its middle: predict_body in sim/pbf/passes.c.
 #include "sim/constants.glsl"
+#include "sim/place.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(location = PASS_DT_AT) uniform float dt;
@@ -11,5 +12,5 @@ void main()
         return;
     vec3 fall = 0.5 * dt * dt * kick_gravity;
     velocity[i].xyz += dt * kick_gravity - cross(felt_omega, fall);
-    position[i].xyz += fall;
+    position[i].xyz = place_after(i, position[i].xyz, fall);
 }

@@ -53,6 +53,8 @@ ComputeOwn compute_own_of(const Constants *s)
 {
     ComputeOwn own = {0};
     add_kept(s, s->method->columns, NULL, &own);
+    if (s->wide)
+        add_kept(s, columns_left, NULL, &own);
     for (const Term *const *term = shared_terms; *term; term++)
         add_kept(s, (*term)->columns, *term, &own);
     return own;

@@ -48,6 +48,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         {s->no_slip, "NO_SLIP"},
         {s->lid, "LID"},
         {s->method->leaps, "LEAPS"},
+        {s->wide, "WIDE"},
     };
     size_t used = 0;
     if (s->periodic.any)

@@ -131,6 +131,9 @@ bool fragment_save(void *state, const ParticleColumns *to)
     if (!download(f, &copy))
         return false;
     columns_copy(&saved, &copy, to, NULL, 0, f->count);
+    for (int k = COLUMNS_LEFT; k < COLUMNS_SHOWN; k++) /* it keeps none */
+        if (to->own[k])
+            memset(to->own[k], 0, f->count * sizeof(float));
     columns_destroy(&copy);
     return true;
 }
