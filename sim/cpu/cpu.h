@@ -127,7 +127,10 @@ bool cpu_grow(Cpu *cpu, size_t capacity);
 /* Where its own particles, ghosts and boundary particles stand, after a change without a grid. */
 void cpu_find(Cpu *cpu);
 
+/* The grid; its two parts: the cell of each particle, in `spare_cell`; the particles sorted by these. */
 void cpu_grid(void *state);
+void cpu_cells(Cpu *cpu);
+void cpu_sort(Cpu *cpu);
 void cpu_run_pass(void *state, const Pass *pass, const PassInput *input);
 void cpu_drift(void *state, const BoxStep *step);
 

@@ -48,8 +48,9 @@ uint32_t cpu_cell_of(const Constants *constants, const float x[3])
 }
 
 /* Neighbours in the last order are mostly in the same cell: an atomic a run of them, not one a particle. */
-static void take_places(Cpu *cpu, size_t begin, size_t end)
+static void take_places(void *state, size_t begin, size_t end)
 {
+    Cpu *cpu = state;
     const uint32_t *cell = cpu->spare_cell;
     for (size_t i = begin, stop; i < end; i = stop) {
         for (stop = i + 1; stop < end && cell[stop] == cell[i];)
@@ -61,7 +62,7 @@ static void take_places(Cpu *cpu, size_t begin, size_t end)
     }
 }
 
-static void count_cells(void *state, size_t begin, size_t end)
+static void find_cells(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
     const CellMap map = cell_map(cpu->constants);
@@ -72,7 +73,6 @@ static void count_cells(void *state, size_t begin, size_t end)
         cpu->spare_cell[i] =
             aside ? (uint32_t)cpu->constants->cells.count : cell_at(&map, p->x[i], p->y[i], p->z[i]);
     }
-    take_places(cpu, begin, end);
 }
 
 static void place_particles(void *state, size_t begin, size_t end)
@@ -130,13 +130,17 @@ void cpu_find(Cpu *cpu)
     cpu->fluid_before[cpu->count] = (uint32_t)fluid;
 }
 
-void cpu_grid(void *state)
+void cpu_cells(Cpu *cpu)
 {
-    Cpu *cpu = state;
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
+}
+
+void cpu_sort(Cpu *cpu)
+{
     const size_t cells = cpu->constants->cells.count;
 
     memset(cpu->cell_start, 0, (cells + 2) * sizeof *cpu->cell_start);
-    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, count_cells, cpu);
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, take_places, cpu);
     for (size_t cell = 0; cell <= cells; cell++)
         cpu->cell_start[cell + 1] += cpu->cell_start[cell];
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, place_particles, cpu);
@@ -148,4 +152,10 @@ void cpu_grid(void *state)
     cpu->lists.ready = false;
     if (cpu->owned_at)
         cpu_find(cpu);
+}
+
+void cpu_grid(void *state)
+{
+    cpu_cells(state);
+    cpu_sort(state);
 }

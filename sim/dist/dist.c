@@ -144,9 +144,10 @@ Dist *dist_init(const Constants *constants)
     dist->wide = layers(constants);
     dist->owner = calloc(cells, sizeof *dist->owner);
     dist->foreign = calloc(cells + 1, sizeof *dist->foreign);
+    dist->shown = calloc(cells + 1, sizeof *dist->shown);
     dist->border = calloc(cells, sizeof *dist->border);
     dist->objects.cell = calloc(cells, sizeof *dist->objects.cell);
-    if (!dist->owner || !dist->foreign || !dist->border || !dist->objects.cell)
+    if (!dist->owner || !dist->foreign || !dist->shown || !dist->border || !dist->objects.cell)
         dist_die("no memory for %zu cells; use a larger spacing or a smaller box", cells);
     if (dist->size > 1)
         set_up(dist);
@@ -161,8 +162,8 @@ void dist_end(Dist *dist)
         Zoltan_Comm_Destroy(&dist->plan);
     if (dist->zoltan)
         Zoltan_Destroy(&dist->zoltan);
-    void *const all[] = {dist->owner, dist->foreign, dist->border,  dist->objects.cell,
-                         dist->sets,  dist->seen,    dist->send_at, dist->ghost_at,
+    void *const all[] = {dist->owner, dist->foreign, dist->shown,   dist->border,   dist->objects.cell,
+                         dist->sets,  dist->seen,    dist->send_at, dist->ghost_at, dist->ranges,
                          dist->to,    dist->out,     dist->in};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
@@ -238,8 +239,9 @@ static void look_around(Dist *dist, uint32_t cell)
     if (dist->seen_count == first)
         return;
     dist->sets = grown(dist->sets, dist->set_count + 1, &dist->set_room, sizeof *dist->sets);
-    dist->sets[dist->set_count++] = (Seen){(uint32_t)first, (uint32_t)(dist->seen_count - first)};
+    dist->shown[cell] = 1;
     dist->border[cell] = (uint32_t)dist->set_count;
+    dist->sets[dist->set_count++] = (Seen){(uint32_t)first, (uint32_t)(dist->seen_count - first)};
 }
 
 static void find_owners(Dist *dist)
@@ -254,7 +256,7 @@ static void find_owners(Dist *dist)
     }
     dist->set_count = dist->seen_count = 0;
     for (uint32_t cell = 0; cell < cells->count; cell++) {
-        dist->border[cell] = 0;
+        dist->shown[cell] = 0;
         if (!dist->foreign[cell] && inner(cells, cell))
             look_around(dist, cell);
     }

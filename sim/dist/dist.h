@@ -22,14 +22,14 @@ Dist *dist_init(const Constants *constants);
    where the cell is the rank's own, or with `known` the same on all ranks. */
 void dist_balance(Dist *dist, const double *weight, bool known);
 
-/* Particles that stand in cells of others go there. There are no ghosts before. */
+/* Behind cpu_cells: particles that stand in cells of others go there. There are no ghosts before. */
 void dist_migrate(Dist *dist, Cpu *cpu);
 
-/* Brings the ghosts, for the grid that is made next. Of ghosts places, ids and fluids are there, and nothing
+/* Brings the ghosts, with their cells, for cpu_sort. Of ghosts places, ids and fluids are there, and nothing
  * else. */
 void dist_halo(Dist *dist, Cpu *cpu);
 
-/* Behind cpu_grid, which put the ghosts and those that others see in other places. */
+/* Behind cpu_sort, which put the ghosts and those that others see in other places. */
 void dist_follow(Dist *dist, Cpu *cpu);
 
 /* Ghosts get what their owners have now: of the rows of cpu->all whose bits are wanted; with `motion`

@@ -8,41 +8,40 @@ enum { TAG_PARTICLES = 4711, TAG_GHOSTS, TAG_VALUES };
 /* Of a ghost, before the grid. */
 typedef struct Ghost {
     float x[3];
-    uint32_t id, fluid;
+    uint32_t id, fluid, cell;
 } Ghost;
 
+/* Cells are known of those that are there. */
 static void reserve_particles(Cpu *cpu, size_t count)
 {
-    if (count > cpu->capacity && !cpu_grow(cpu, count + count / 8 + 1024))
+    if (count <= cpu->capacity)
+        return;
+    if (!cpu_grow(cpu, count + count / 8 + 1024))
         dist_die("no memory for %zu particles; use more ranks or a larger spacing", count);
+    cpu_cells(cpu);
 }
 
+/* The last particle takes the place of each ghost; that one may be a ghost too. */
 void dist_drop(Dist *dist, Cpu *cpu)
 {
     if (!dist->plan)
         return;
     Zoltan_Comm_Destroy(&dist->plan);
     dist->plan = NULL;
-    for (size_t i = cpu->count; i-- > 0;) {
-        if (!cpu->ghost[i] || cpu->now.fluid[i] >= FLUIDS_MAX)
+    for (const uint8_t *next = cpu->ghost;
+         (next = memchr(next, 1, cpu->count - (size_t)(next - cpu->ghost)));) {
+        const size_t i = (size_t)(next - cpu->ghost);
+        if (cpu->now.fluid[i] >= FLUIDS_MAX) {
+            cpu->ghost[i] = 0;
             continue;
+        }
         columns_move(&cpu->sorted, &cpu->now, --cpu->count, i);
         cpu->ghost[i] = cpu->ghost[cpu->count];
     }
-    memset(cpu->ghost, 0, cpu->count);
     dist->ghost_count = dist->send_count = 0;
-    cpu_find(cpu);
 }
 
 /* ---- particles that move ---- */
-
-static void find_cells(void *context, size_t begin, size_t end)
-{
-    Cpu *cpu = context;
-    const CpuParticles *p = &cpu->now;
-    for (size_t i = begin; i < end; i++)
-        cpu->spare_cell[i] = cpu_cell_of(cpu->constants, (float[]){p->x[i], p->y[i], p->z[i]});
-}
 
 static size_t record_size(const ColumnRows *rows)
 {
@@ -95,20 +94,16 @@ static void carry(Dist *dist, ZOLTAN_COMM_OBJ *plan, int tag, size_t count, size
     dist->sent.messages += (size_t)messages;
 }
 
-/* Takes those that leave out of the arrays, into dist->out. */
+/* Takes those that leave out of the arrays, the last first, into dist->out. */
 static size_t take_leavers(Dist *dist, Cpu *cpu, size_t size)
 {
-    size_t count = 0;
-    for (size_t i = 0; i < cpu->count; i++)
-        count += cpu->now.fluid[i] < FLUIDS_MAX && dist->foreign[cpu->spare_cell[i]];
+    const size_t count = dist_pick(dist, cpu, dist->foreign);
     dist_reserve(&dist->to, &dist->to_room, count * sizeof *dist->to);
     dist_reserve(&dist->out, &dist->out_room, count * size);
-    count = 0;
-    for (size_t i = cpu->count; i-- > 0;) {
-        if (cpu->now.fluid[i] >= FLUIDS_MAX || !dist->foreign[cpu->spare_cell[i]])
-            continue;
-        dist->to[count] = dist->owner[cpu->spare_cell[i]];
-        pack_one(cpu, &cpu->sorted, i, dist->out + count++ * size);
+    for (size_t k = count; k-- > 0;) {
+        const size_t i = cpu->rank[k];
+        dist->to[k] = dist->owner[cpu->spare_cell[i]];
+        pack_one(cpu, &cpu->sorted, i, dist->out + k * size);
         columns_move(&cpu->sorted, &cpu->now, --cpu->count, i);
         cpu->spare_cell[i] = cpu->spare_cell[cpu->count];
     }
@@ -120,49 +115,50 @@ void dist_migrate(Dist *dist, Cpu *cpu)
 {
     int come;
     const size_t size = record_size(&cpu->sorted);
+    const CpuParticles *p = &cpu->now;
     if (dist->size == 1)
         return;
-    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
     const size_t leave = take_leavers(dist, cpu, size);
     ZOLTAN_COMM_OBJ *plan = make_plan(dist, leave, TAG_PARTICLES, &come);
     dist_reserve(&dist->in, &dist->in_room, (size_t)come * size);
     carry(dist, plan, TAG_PARTICLES, leave, size, "particles");
     Zoltan_Comm_Destroy(&plan);
     reserve_particles(cpu, cpu->count + (size_t)come);
-    for (int k = 0; k < come; k++)
-        unpack_one(cpu, &cpu->sorted, cpu->count + (size_t)k, dist->in + (size_t)k * size);
-    cpu->count += (size_t)come;
+    for (int k = 0; k < come; k++) {
+        const size_t i = cpu->count++;
+        unpack_one(cpu, &cpu->sorted, i, dist->in + (size_t)k * size);
+        cpu->spare_cell[i] = cpu_cell_of(cpu->constants, (float[]){p->x[i], p->y[i], p->z[i]});
+        cpu->ghost[i] = 0;
+    }
     cpu->owned += (size_t)come;
-    memset(cpu->ghost, 0, cpu->count);
 }
 
 /* ---- ghosts ---- */
 
 static const Seen *who_sees(const Dist *dist, const Cpu *cpu, size_t i)
 {
-    const uint32_t border = dist->border[cpu->spare_cell[i]];
-    return border > 0 && cpu->now.fluid[i] < FLUIDS_MAX ? &dist->sets[border - 1] : NULL;
+    return &dist->sets[dist->border[cpu->spare_cell[i]]];
 }
 
 /* Those that others see: where they stand, whom they go to, and what goes. */
 static void send_ghosts(Dist *dist, Cpu *cpu)
 {
     const CpuParticles *p = &cpu->now;
+    const size_t shown = dist_pick(dist, cpu, dist->shown);
     size_t count = 0;
-    for (size_t i = 0; i < cpu->count; i++) {
-        const Seen *seen = who_sees(dist, cpu, i);
-        count += seen ? seen->count : 0;
-    }
+    for (size_t n = 0; n < shown; n++)
+        count += who_sees(dist, cpu, cpu->rank[n])->count;
     dist_reserve(&dist->to, &dist->to_room, count * sizeof *dist->to);
     dist_reserve(&dist->send_at, &dist->send_room, count * sizeof *dist->send_at);
     dist_reserve(&dist->out, &dist->out_room, count * sizeof(Ghost));
     count = 0;
-    for (size_t i = 0; i < cpu->count; i++) {
+    for (size_t n = 0; n < shown; n++) {
+        const uint32_t i = cpu->rank[n];
         const Seen *seen = who_sees(dist, cpu, i);
-        for (uint32_t k = 0; seen && k < seen->count; k++, count++) {
-            const Ghost ghost = {{p->x[i], p->y[i], p->z[i]}, p->id[i], p->fluid[i]};
+        const Ghost ghost = {{p->x[i], p->y[i], p->z[i]}, p->id[i], p->fluid[i], cpu->spare_cell[i]};
+        for (uint32_t k = 0; k < seen->count; k++, count++) {
             dist->to[count] = dist->seen[seen->first + k];
-            dist->send_at[count] = (uint32_t)i;
+            dist->send_at[count] = i;
             memcpy(dist->out + count * sizeof ghost, &ghost, sizeof ghost);
         }
     }
@@ -180,6 +176,7 @@ static void append_ghosts(Dist *dist, Cpu *cpu)
         p->x[i] = ghost.x[0], p->y[i] = ghost.x[1], p->z[i] = ghost.x[2];
         p->id[i] = ghost.id;
         p->fluid[i] = (uint8_t)ghost.fluid;
+        cpu->spare_cell[i] = ghost.cell;
         dist->ghost_at[k] = (uint32_t)i;
     }
 }
@@ -189,7 +186,6 @@ void dist_halo(Dist *dist, Cpu *cpu)
     int come;
     if (dist->size == 1)
         return;
-    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
     send_ghosts(dist, cpu);
     dist->plan = make_plan(dist, dist->send_count, TAG_GHOSTS, &come);
     dist->ghost_count = (size_t)come;
@@ -200,18 +196,21 @@ void dist_halo(Dist *dist, Cpu *cpu)
     append_ghosts(dist, cpu);
 }
 
-/* Where they stand behind the grid. The grid's ranks are of no use any more. */
+/* Behind the grid; a cell has few places. */
+static uint32_t place_now(const Cpu *cpu, uint32_t before)
+{
+    uint32_t place = cpu->cell_start[cpu->spare_cell[before]];
+    while (cpu->order[place] != before)
+        place++;
+    return place;
+}
+
 void dist_follow(Dist *dist, Cpu *cpu)
 {
-    uint32_t *place = cpu->rank;
-    if (dist->size == 1)
-        return;
-    for (size_t i = 0; i < cpu->count; i++)
-        place[cpu->order[i]] = (uint32_t)i;
     for (size_t k = 0; k < dist->send_count; k++)
-        dist->send_at[k] = place[dist->send_at[k]];
+        dist->send_at[k] = place_now(cpu, dist->send_at[k]);
     for (size_t k = 0; k < dist->ghost_count; k++)
-        dist->ghost_at[k] = place[dist->ghost_at[k]];
+        dist->ghost_at[k] = place_now(cpu, dist->ghost_at[k]);
 }
 
 /* ---- their values ---- */

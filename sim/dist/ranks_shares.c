@@ -30,7 +30,7 @@ void share_first(Ranks *ranks, const Constants *constants, const InitialState *i
     ranks->took = MPI_Wtime() - begin;
 }
 
-/* What its cells cost: particles, each as much as the rank's took in a step. */
+/* Behind cpu_cells, what its cells cost: particles, each as much as the rank's took in a step. */
 static void weigh(Ranks *ranks)
 {
     const Cpu *cpu = ranks->cpu;
@@ -39,8 +39,7 @@ static void weigh(Ranks *ranks)
     for (size_t cell = 0; cell < cpu->constants->cells.count; cell++)
         ranks->weight[cell] = 0;
     for (size_t i = 0; i < cpu->count; i++) {
-        const uint32_t cell =
-            cpu_cell_of(cpu->constants, (float[]){cpu->now.x[i], cpu->now.y[i], cpu->now.z[i]});
+        const uint32_t cell = cpu->spare_cell[i];
         if (cpu_owns(cpu, i) && !foreign[cell])
             ranks->weight[cell] += each;
     }

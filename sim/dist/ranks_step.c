@@ -57,16 +57,21 @@ static void stale(Ranks *ranks, const char *names)
 void ranks_grid(void *state)
 {
     Ranks *ranks = state;
+    Clock begin = clock_now();
+    dist_drop(ranks->dist, ranks->cpu);
+    exchanged(ranks, begin);
+    begin = clock_now();
+    cpu_cells(ranks->cpu);
+    computed(ranks, begin);
     wait_for_others(ranks);
     if (ranks->due)
         share_anew(ranks);
-    Clock begin = clock_now();
-    dist_drop(ranks->dist, ranks->cpu);
+    begin = clock_now();
     dist_migrate(ranks->dist, ranks->cpu);
     dist_halo(ranks->dist, ranks->cpu);
     exchanged(ranks, begin);
     begin = clock_now();
-    cpu_grid(ranks->cpu);
+    cpu_sort(ranks->cpu);
     dist_follow(ranks->dist, ranks->cpu);
     computed(ranks, begin);
     ranks->fresh = rows_named(ranks->cpu, "position id fluid");
