@@ -3,10 +3,9 @@
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
-#include "app/lab/probe_chart.h"
+#include "app/command/run_probes.h"
 #include "app/metric/compression.h"
 #include "app/output/forces_log.h"
-#include "app/session/probe_series.h"
 #include "app/session/session.h"
 #include "app/session/snapshot_series.h"
 
@@ -96,13 +95,6 @@ static int complain(int code, const Error *error)
     return code;
 }
 
-/* The plot of --probes, also of a run that broke: of the rows that there are. */
-static int draw_probes(const Session *session, const Args *args, const Look *look, Error *error)
-{
-    const bool open = look->probes.table.figures != NULL;
-    return !open || probe_chart(args->probes, session->scene.title, error) ? 0 : complain(EXIT_FAILED, error);
-}
-
 static int finish(const Session *session, const Args *args, const Snapshot *file, const Look *look,
                   Error *error)
 {
@@ -118,7 +110,7 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
     session_report(session, args, &summary);
     if (!session_write_json(session, args, &summary, error))
         return complain(EXIT_FAILED, error);
-    const int code = draw_probes(session, args, look, error);
+    const int code = run_probes_draw(&look->probes, session, args, error) ? 0 : complain(EXIT_FAILED, error);
     return summary.stopped ? EXIT_INTERRUPTED : code;
 }
 
@@ -130,7 +122,8 @@ static int fail(const Session *session, const Args *args, const Snapshot *file, 
         .command = "run", .product = "snapshots", .products = file ? snapshot_steps(file) : 0};
     const int code = session_fail(session, args, &summary, error);
     snapshot_series_left(file, args->output);
-    draw_probes(session, args, look, &why);
+    if (!run_probes_draw(&look->probes, session, args, &why))
+        complain(code, &why);
     return code;
 }
 
@@ -179,36 +172,6 @@ static bool begin_forces(const Session *session, const Args *args, bool resumed,
                            resumed ? session->info.time : -1, error);
 }
 
-/* --probes: whether there are any, and the file could be; what to say where they are not asked for. */
-static bool check_probes(const Session *session, const Args *args, Error *error)
-{
-    const bool any = session->scene.probes.count > 0;
-    if (any && !args->probes && !args->quiet)
-        fprintf(stderr, "%s: its probes are not read; --probes FILE.csv writes them\n", session->scene.path);
-    if (!args->probes)
-        return true;
-    return any ? probe_chart_name(args->probes, error)
-               : error_set(error, "%.300s has no probes for --probes; slosh help keys says how to name some",
-                           session->scene.path);
-}
-
-/* Of --probes: that what is there may be replaced, or is gone on with. */
-static bool check_table(const Args *args, bool resumed, Error *error)
-{
-    char table[1024];
-    probe_chart_table(args->probes, table);
-    return probe_chart_check(args->probes, error) && (resumed || probe_table_check(table, error));
-}
-
-static bool begin_probes(Session *session, const Args *args, bool resumed, Look *look, Error *error)
-{
-    char table[1024];
-    if (!args->probes)
-        return true;
-    probe_chart_table(args->probes, table);
-    return probe_series_begin(&look->probes, session, table, resumed, error);
-}
-
 static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
@@ -217,11 +180,10 @@ static int run(Session *session, const Args *args, Error *error)
     bool busy = false;
     const bool resumed = args->resume && access(args->output, F_OK) == 0;
     const bool feels = args->forces || (args->probes && probe_list_feels(&session->scene.probes));
-    if (!check_probes(session, args, error) || (feels && !world_feel(session->world, error)))
+    if (!run_probes_check(session, args, error) || (feels && !world_feel(session->world, error)))
         return complain(EXIT_USAGE, error);
     if ((args->json && !json_file_check(args->json, error)) ||
-        (args->forces && !output_check(args->forces, error)) ||
-        (args->probes && !check_table(args, resumed, error)))
+        (args->forces && !output_check(args->forces, error)) || !run_probes_check_table(args, resumed, error))
         return complain(EXIT_FAILED, error);
     if (resumed) {
         file = resume(session, args, &busy, error);
@@ -232,7 +194,7 @@ static int run(Session *session, const Args *args, Error *error)
     }
     progress_begin(&progress, stderr, "run", args->quiet);
     bool done = begin_forces(session, args, resumed, &look, error) &&
-                begin_probes(session, args, resumed, &look, error) &&
+                run_probes_begin(&look.probes, session, args, resumed, error) &&
                 simulate(session, args, file, &look, &progress, error);
     progress_end(&progress);
     Error none = {{0}};

@@ -70,7 +70,7 @@ static double cores_each(const Stand *stand)
 {
     int here, processors;
     stand_machine(&here, &processors);
-    const int wanted = here * stand->info.threads;
+    const int wanted = here * stand->session.info.threads;
     return (double)(wanted < processors ? wanted : processors) / here;
 }
 
@@ -120,9 +120,10 @@ static int measure(DistBench *bench, Error *error)
 {
     Stand *stand = &bench->stand;
     const int frames = bench->args->frames > 0 ? bench->args->frames : DEFAULT_FRAMES;
-    const double early = bench->args->time_given ? bench->args->time - 1e-6 * stand->scene.world.dt : 0;
+    const double early =
+        bench->args->time_given ? bench->args->time - 1e-6 * stand->session.scene.world.dt : 0;
     RanksFigures before;
-    while (stand->info.time < early) {
+    while (stand->session.info.time < early) {
         if (stand_interrupted())
             return EXIT_INTERRUPTED;
         if (!stand_frame(stand, error))
@@ -130,7 +131,7 @@ static int measure(DistBench *bench, Error *error)
     }
     ranks_figures(&before);
     MPI_Barrier(MPI_COMM_WORLD);
-    const uint64_t first = stand->info.step;
+    const uint64_t first = stand->session.info.step;
     const double began = MPI_Wtime();
     for (int k = 0; k < frames; k++) {
         if (stand_interrupted())
@@ -139,7 +140,7 @@ static int measure(DistBench *bench, Error *error)
             return EXIT_FAILED;
     }
     bench->seconds = MPI_Wtime() - began;
-    bench->steps = stand->info.step - first;
+    bench->steps = stand->session.info.step - first;
     return gather(bench, error) ? 0 : EXIT_FAILED;
 }
 
@@ -154,7 +155,7 @@ static double imbalance(const DistBench *bench)
 
 static double a_particle(const DistBench *bench, double bytes)
 {
-    const double count = (double)bench->stand.info.count;
+    const double count = (double)bench->stand.session.info.count;
     return count > 0 ? bytes * bench->stand.size / count : 0;
 }
 
@@ -173,12 +174,12 @@ static void print_row(const char *name, const RankBench *r)
 
 static void print(const DistBench *bench)
 {
-    const WorldInfo *info = &bench->stand.info;
+    const WorldInfo *info = &bench->stand.session.info;
     const int size = bench->stand.size;
     char name[16];
     printf("%s: %zu particle%s, %s, on %d rank%s of %d thread%s: %.3f ms a step, %llu steps to %.3g s\n",
-           bench->args->scenes[0], info->count, plural(info->count), bench->stand.scene.world.method, size,
-           plural((size_t)size), info->threads, plural((size_t)info->threads),
+           bench->args->scenes[0], info->count, plural(info->count), bench->stand.session.scene.world.method,
+           size, plural((size_t)size), info->threads, plural((size_t)info->threads),
            1e3 * bench->seconds / (double)bench->steps, (unsigned long long)bench->steps, info->time);
     printf("  %s, %s\n", bench_processor(), host());
     printf("  a step, ms:                                       particles          sent\n");
@@ -205,19 +206,19 @@ static json_t *figures_json(const RankBench *of)
 
 static bool write_json(const DistBench *bench, Error *error)
 {
-    const WorldInfo *info = &bench->stand.info;
+    const WorldInfo *info = &bench->stand.session.info;
     json_t *ranks = json_array();
     for (int r = 0; r < bench->stand.size; r++)
         json_array_append_new(ranks, figures_json(&bench->rank[r]));
-    json_t *json =
-        json_pack("{s:s, s:s, s:s, s:s, s:i, s:i, s:i, s:I, s:I, s:f, s:f, s:b, s:f, s:f, s:f, s:o, s:o}",
-                  "scene", bench->args->scenes[0], "processor", bench_processor(), "host", host(), "method",
-                  bench->stand.scene.world.method, "dimensions", bench->stand.scene.world.dimensions, "ranks",
-                  bench->stand.size, "threads", info->threads, "particles", (json_int_t)info->count, "steps",
-                  (json_int_t)bench->steps, "time", info->time, "step", bench->seconds / (double)bench->steps,
-                  "balance", bench->options->balance, "imbalance", imbalance(bench), "bytes_per_particle",
-                  a_particle(bench, bench->mean.bytes), "resident_per_particle",
-                  a_particle(bench, bench->mean.resident), "mean", figures_json(&bench->mean), "rank", ranks);
+    json_t *json = json_pack(
+        "{s:s, s:s, s:s, s:s, s:i, s:i, s:i, s:I, s:I, s:f, s:f, s:b, s:f, s:f, s:f, s:o, s:o}", "scene",
+        bench->args->scenes[0], "processor", bench_processor(), "host", host(), "method",
+        bench->stand.session.scene.world.method, "dimensions", bench->stand.session.scene.world.dimensions,
+        "ranks", bench->stand.size, "threads", info->threads, "particles", (json_int_t)info->count, "steps",
+        (json_int_t)bench->steps, "time", info->time, "step", bench->seconds / (double)bench->steps,
+        "balance", bench->options->balance, "imbalance", imbalance(bench), "bytes_per_particle",
+        a_particle(bench, bench->mean.bytes), "resident_per_particle",
+        a_particle(bench, bench->mean.resident), "mean", figures_json(&bench->mean), "rank", ranks);
     const bool ok = json_file_write(json, bench->args->json, error);
     json_decref(json);
     return ok;
@@ -253,6 +254,6 @@ int dist_bench(const Args *args, const DistOptions *options)
     if (code == 0)
         code = report(&bench, &error);
     free(bench.rank);
-    world_destroy(bench.stand.world);
+    world_destroy(bench.stand.session.world);
     return code;
 }

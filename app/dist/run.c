@@ -1,102 +1,147 @@
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
+#include "app/base/json_file.h"
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/dist/cmd.h"
+#include "app/dist/probes.h"
 #include "app/dist/share.h"
 #include "app/dist/stand.h"
 #include "app/session/snapshot_series.h"
+#include "sim/base/stage.h"
 #include "sim/dist/dist.h"
 #include "sim/dist/ranks.h"
 
 #include <math.h>
 #include <mpi.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-/* A state this small part of a frame early is on time, as in app/session/session.c. */
-static const double ROUNDING = 1e-6;
 
 typedef struct DistRun {
     const Args *args;
     Stand stand;
-    Snapshot *file; /* that all write */
-    double next;    /* number of the next snapshot */
-    double began;   /* s */
+    Snapshot *file;      /* that all write */
+    double next;         /* number of the next snapshot */
+    double step_seconds; /* wall time of the steps, without what is written */
+    DistProbes probes;   /* of --probes */
 } DistRun;
 
 /* What slosh run has and this has not. */
 static bool check_options(const Args *args, Error *error)
 {
-    const char *refused = args->forces   ? "--forces"
-                          : args->probes ? "--probes"
-                          : args->device ? "--device"
-                          : args->json   ? "--json"
-                                         : NULL;
+    const char *refused = args->forces ? "--forces" : args->device ? "--device" : NULL;
     if (refused)
         return error_set(error, "slosh-dist run: it has no %s yet; use slosh run", refused);
     return snapshot_series_name(args->output, error);
 }
 
-static bool reached(const DistRun *run, double time)
-{
-    return run->stand.info.time >= time - ROUNDING * run->stand.scene.world.dt &&
-           world_sound(run->stand.world);
-}
-
 static bool add_snapshot(DistRun *run, Error *error)
 {
-    if (!reached(run, run->next * run->args->every))
+    const Session *session = &run->stand.session;
+    if (!session_reached(session, run->next * run->args->every))
         return true;
-    if (!snapshot_append(run->file, run->stand.world, error))
+    if (!snapshot_append(run->file, session->world, error))
         return false;
-    run->next = fmax(run->next, floor(run->stand.info.time / run->args->every + 1e-6)) + 1;
+    run->next = fmax(run->next, floor(session->info.time / run->args->every + 1e-6)) + 1;
     return true;
 }
 
-/* False when the simulation broke or the file cannot be written, on all ranks. */
+static bool frame(DistRun *run, Error *error)
+{
+    const double begin = wall_ms();
+    bool ok = true;
+    do
+        ok = stand_substep(&run->stand, error) && dist_probes_step(&run->probes, &run->stand, error);
+    while (ok && run->stand.session.info.within_frame);
+    run->step_seconds += (wall_ms() - begin) / 1000;
+    return ok && dist_probes_frame(&run->probes, &run->stand, error);
+}
+
+/* False when the simulation broke or a file cannot be written, on all ranks. */
 static bool simulate(DistRun *run, Progress *progress, Error *error)
 {
+    const Session *session = &run->stand.session;
     for (;;) {
         if (!add_snapshot(run, error))
             return false;
-        if (reached(run, run->args->time) || stand_interrupted())
+        if (session_reached(session, run->args->time) || stand_interrupted())
             return true;
-        world_stop_at(run->stand.world, run->next * run->args->every);
-        if (!stand_frame(&run->stand, error))
+        world_stop_at(session->world, run->next * run->args->every);
+        if (!frame(run, error))
             return false;
-        progress_update(progress, run->stand.info.time / run->args->time);
+        progress_update(progress, session->info.time / run->args->time);
     }
 }
 
-static void report(const DistRun *run)
+/* ---- what is said in the end, by the first rank ---- */
+
+static Summary summary_of(const DistRun *run)
 {
-    const double wall = MPI_Wtime() - run->began;
-    if (run->stand.rank == 0 && !run->args->quiet)
-        fprintf(stderr, "%zu particles on %d rank%s, %.3g s simulated in %.3g s: %s, %zu snapshots\n",
-                run->stand.info.count, run->stand.size, plural((size_t)run->stand.size), run->stand.info.time,
-                wall, run->args->output, snapshot_steps(run->file));
+    return (Summary){.command = "run",
+                     .product = "snapshots",
+                     .products = run->file ? snapshot_steps(run->file) : 0,
+                     .step_seconds = run->step_seconds,
+                     .probes = run->probes.probes ? &run->probes.series.table : NULL,
+                     .stopped = !session_reached(&run->stand.session, run->args->time)};
 }
+
+static bool write_json(const DistRun *run, Error *error)
+{
+    const Summary summary = summary_of(run);
+    if (!run->args->json)
+        return true;
+    json_t *json = session_json(&run->stand.session, run->args, &summary);
+    json_object_set_new(json, "ranks", json_integer(run->stand.size));
+    const bool written = json_file_write(json, run->args->json, error);
+    json_decref(json);
+    return written;
+}
+
+static int finish(const DistRun *run, Error *error)
+{
+    const Summary summary = summary_of(run);
+    bool ok = true;
+    if (run->stand.rank == 0) {
+        session_report(&run->stand.session, run->args, &summary);
+        ok = write_json(run, error);
+    }
+    if (!dist_share()->agree(ok, error)) {
+        stand_say(&run->stand, error->message);
+        return EXIT_FAILED;
+    }
+    return summary.stopped ? EXIT_INTERRUPTED : 0;
+}
+
+static int fail(const DistRun *run, const Error *error)
+{
+    const Summary summary = summary_of(run);
+    if (run->stand.rank == 0) {
+        session_fail(&run->stand.session, run->args, &summary, error);
+        snapshot_series_left(run->file, run->args->output);
+    }
+    return EXIT_FAILED;
+}
+
+/* ---- its begin ---- */
 
 /* --resume, where the file is there: the world as it is at the file's end, whoever wrote it on how many
    ranks. */
 static bool resume(DistRun *run, Error *error)
 {
     WorldState state = {.count = 0};
-    run->file = snapshot_resume_shared(run->args->output, &run->stand.scene, dist_share(), &state, error);
+    Session *session = &run->stand.session;
+    run->file = snapshot_resume_shared(run->args->output, &session->scene, dist_share(), &state, error);
     if (!run->file)
         return false;
-    ranks_spread(&state, &run->stand.scene.world);
-    if (!world_load(run->stand.world, &state, error))
+    ranks_spread(&state, &session->scene.world);
+    if (!world_load(session->world, &state, error))
         dist_die("%s", error->message);
     world_state_free(&state);
-    world_info(run->stand.world, &run->stand.info);
-    run->next = floor(run->stand.info.time / run->args->every + 1e-6) + 1;
+    world_info(session->world, &session->info);
+    run->next = floor(session->info.time / run->args->every + 1e-6) + 1;
     if (run->stand.rank == 0 && !run->args->quiet)
         fprintf(stderr, "%s: goes on from %.4g s, behind %zu snapshot%s\n", run->args->output,
-                run->stand.info.time, snapshot_steps(run->file), plural(snapshot_steps(run->file)));
+                session->info.time, snapshot_steps(run->file), plural(snapshot_steps(run->file)));
     return true;
 }
 
@@ -108,34 +153,46 @@ static bool is_there(const DistRun *run)
     return there;
 }
 
+static bool check_files(const DistRun *run, bool goes_on, Error *error)
+{
+    const Args *args = run->args;
+    const bool ok = run->stand.rank > 0 || !args->json || json_file_check(args->json, error);
+    return dist_share()->agree(ok, error) && dist_probes_check(&run->stand, args, goes_on, error);
+}
+
+static bool begin_file(DistRun *run, bool goes_on, Error *error)
+{
+    if (goes_on)
+        return resume(run, error);
+    run->file = snapshot_create_shared(run->args->output, &run->stand.session.scene, dist_share(), error);
+    return run->file != NULL;
+}
+
 static int go(DistRun *run, Error *error)
 {
     Progress progress;
+    Stand *stand = &run->stand;
     const bool goes_on = run->args->resume && is_there(run);
-    if (!goes_on)
-        run->file = snapshot_create_shared(run->args->output, &run->stand.scene, dist_share(), error);
-    if (goes_on ? !resume(run, error) : !run->file) {
-        stand_say(&run->stand, error->message);
-        return EXIT_FAILED;
+    if (!check_files(run, goes_on, error)) {
+        stand_say(stand, error->message);
+        return EXIT_USAGE;
     }
-    progress_begin(&progress, stderr, "run", run->args->quiet || run->stand.rank > 0);
-    const bool done = simulate(run, &progress, error);
+    if (!begin_file(run, goes_on, error))
+        return fail(run, error);
+    progress_begin(&progress, stderr, "run", run->args->quiet || stand->rank > 0);
+    bool done =
+        dist_probes_begin(&run->probes, stand, run->args, goes_on, error) && simulate(run, &progress, error);
     progress_end(&progress);
-    if (!done) {
-        stand_say(&run->stand, error->message);
-        if (run->stand.rank == 0)
-            snapshot_series_left(run->file, run->args->output);
-        return EXIT_FAILED;
-    }
-    report(run);
-    return reached(run, run->args->time) ? 0 : EXIT_INTERRUPTED;
+    Error none = {{0}};
+    done &= dist_probes_end(&run->probes, stand, run->args, done ? error : &none);
+    return done ? finish(run, error) : fail(run, error);
 }
 
 int dist_run(const Args *args)
 {
     static DistRun run; /* a scene is large */
     Error error = {{0}};
-    run = (DistRun){.args = args, .began = MPI_Wtime()};
+    run = (DistRun){.args = args};
     stand_begin(&run.stand);
     int code = check_options(args, &error) ? stand_open(&run.stand, args, "run", &error) : EXIT_USAGE;
     if (code == 0)
@@ -143,6 +200,7 @@ int dist_run(const Args *args)
     else
         stand_say(&run.stand, error.message);
     snapshot_close(run.file);
-    world_destroy(run.stand.world);
+    dist_probes_free(&run.probes);
+    world_destroy(run.stand.session.world);
     return code;
 }

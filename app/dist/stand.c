@@ -16,6 +16,7 @@ void stand_begin(Stand *stand)
 {
     MPI_Comm_rank(MPI_COMM_WORLD, &stand->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &stand->size);
+    stand->session.began_ms = wall_ms();
     interrupt_install();
 }
 
@@ -65,7 +66,7 @@ static bool has_room(const Stand *stand, const Args *args, double physical, Erro
     char words[256];
     int here, processors;
     stand_machine(&here, &processors);
-    const DistMemory memory = memory_look(&stand->scene, physical, here);
+    const DistMemory memory = memory_look(&stand->session.scene, physical, here);
     if (!memory_fits(&memory, stand->size, error))
         return false;
     snprintf(words, sizeof words, "about %.2g GB of memory a rank, of %.3g GB that one on %s may have",
@@ -81,9 +82,9 @@ int stand_open(Stand *stand, const Args *args, const char *command, Error *error
     SceneSettings settings = args->settings;
     const double physical = physical_bytes();
     physical_leave();
-    if (!scene_load(args->scenes[0], &settings, &stand->scene, &notes, error))
+    if (!scene_load(args->scenes[0], &settings, &stand->session.scene, &notes, error))
         return EXIT_USAGE;
-    WorldDef def = stand->scene.world;
+    WorldDef def = stand->session.scene.world;
     if (strcmp(def.backend, "cpu") != 0) {
         error_set(error, "slosh-dist %s: it has backend cpu alone, not %s; use slosh %s, or --backend cpu",
                   command, def.backend, command);
@@ -97,10 +98,10 @@ int stand_open(Stand *stand, const Args *args, const char *command, Error *error
     if (*world_threads(&def) == 0)
         *world_threads(&def) = threads_each();
     tell_of_binding(stand, *world_threads(&def));
-    stand->world = world_create(&def, error);
-    if (!stand->world)
+    stand->session.world = world_create(&def, error);
+    if (!stand->session.world)
         return EXIT_USAGE;
-    world_info(stand->world, &stand->info);
+    world_info(stand->session.world, &stand->session.info);
     return 0;
 }
 
@@ -111,15 +112,22 @@ bool stand_interrupted(void)
     return any;
 }
 
-bool stand_frame(Stand *stand, Error *error)
+bool stand_substep(Stand *stand, Error *error)
 {
     char words[256];
+    Session *session = &stand->session;
+    const bool ok = world_substep(session->world, NULL, error);
+    world_info(session->world, &session->info);
+    if (session_trouble_is_new(&session->told_trouble, &session->info.trouble))
+        stand_say(stand, session_trouble_text(&session->info.trouble, words));
+    return ok;
+}
+
+bool stand_frame(Stand *stand, Error *error)
+{
     bool ok = true;
-    do {
-        ok = world_substep(stand->world, NULL, error);
-        world_info(stand->world, &stand->info);
-        if (session_trouble_is_new(&stand->told, &stand->info.trouble))
-            stand_say(stand, session_trouble_text(&stand->info.trouble, words));
-    } while (ok && stand->info.within_frame);
+    do
+        ok = stand_substep(stand, error);
+    while (ok && stand->session.info.within_frame);
     return ok;
 }

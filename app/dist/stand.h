@@ -3,16 +3,12 @@
 #ifndef SLOSH_STAND_H
 #define SLOSH_STAND_H
 
-#include "app/scene/scene.h"
 #include "app/session/args.h"
 #include "app/session/session.h"
 
 typedef struct Stand {
-    Scene scene;  /* with the backend that its file names */
-    World *world; /* the caller destroys it */
-    WorldInfo info;
+    Session session; /* as of slosh run on each rank: its scene has the backend that the file names */
     int rank, size;
-    TroubleTold told;
 } Stand;
 
 /* Rank and size; Ctrl-C is polled from now on. */
@@ -21,7 +17,8 @@ void stand_begin(Stand *stand);
 /* 0, or the exit code and what is wrong. */
 int stand_open(Stand *stand, const Args *args, const char *command, Error *error);
 
-/* All steps of a frame, and what the sentinel found in them. */
+/* A step, and what the sentinel found in it; all steps of a frame. */
+bool stand_substep(Stand *stand, Error *error);
 bool stand_frame(Stand *stand, Error *error);
 
 /* Whether any rank was told to stop. */

@@ -273,6 +273,11 @@ static float *put_push(float *out, const Probe *probe, const Forces *felt)
     return out;
 }
 
+bool probes_near(const Probes *probes, const float x[3])
+{
+    return sensors_near(probes->sensors, x);
+}
+
 void probes_read(Probes *probes, const Cloud *cloud, const Forces *forces, float out[])
 {
     if (forces && forces->seconds > 0)

@@ -31,6 +31,9 @@ void probes_destroy(Probes *probes); /* NULL is allowed */
 int probes_columns(const Probes *probes);
 const ProbeColumn *probes_column(const Probes *probes, int column);
 
+/* False: no probe reads particles at x, m. */
+bool probes_near(const Probes *probes, const float x[3]);
+
 /* A number a column; NaN where there is no fluid to have one. A pressure there is 0, and so is a height.
    `forces`: means since the last reading, of world_forces; with no seconds the last ones stay, and before the
    first step there is no number. NULL where no probe is a force (probe_list_feels): else the world is to sum

@@ -351,6 +351,12 @@ static void read_one(const Sensors *s, int i, SensorReading *out)
         out->velocity[k] = wet && wants & SENSOR_VELOCITY ? value[2 + k] : (double)NAN;
 }
 
+bool sensors_near(const Sensors *s, const float x[3])
+{
+    const int cell = cell_of(s, x);
+    return cell >= 0 && s->start[cell] < s->start[cell + 1];
+}
+
 void sensors_read(Sensors *s, const Cloud *cloud, SensorReading *out)
 {
     memset(s->moments, 0, (size_t)s->count * sizeof *s->moments);

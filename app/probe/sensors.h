@@ -33,6 +33,9 @@ typedef struct SensorReading {
 Sensors *sensors_create(const Sensor *sensors, int count, const WorldDef *def);
 void sensors_destroy(Sensors *sensors); /* NULL is allowed */
 
+/* False: what is at x (m) is in no ball. */
+bool sensors_near(const Sensors *sensors, const float x[3]);
+
 /* Reads all of them, of particles in the order that they have. */
 void sensors_read(Sensors *sensors, const Cloud *cloud, SensorReading *out);
 

@@ -22,9 +22,10 @@ static const Forces *feel_now(ProbeSeries *series, const Session *session, Force
 static bool read_now(ProbeSeries *series, const Session *session, Error *error)
 {
     Forces now;
-    if (!cloud_read(&series->cloud, session->world))
+    if (!series->given && !cloud_read(&series->cloud, session->world))
         return no_memory(error);
-    probes_read(series->probes, &series->cloud, feel_now(series, session, &now), series->value);
+    probes_read(series->probes, series->given ? series->given : &series->cloud,
+                feel_now(series, session, &now), series->value);
     series->troubles = session->info.trouble.count;
     return probe_table_add(&series->table, session->info.time, series->value) || no_memory(error);
 }

@@ -7,7 +7,8 @@
 
 /* Zero-initialise it. */
 typedef struct ProbeSeries {
-    Probes *probes; /* NULL: none, and nothing below is in use */
+    Probes *probes;     /* NULL: none, and nothing below is in use */
+    const Cloud *given; /* the particles that any probe reads, in their order; NULL: those of the world, in */
     Cloud cloud;
     float *value; /* a row */
     ProbeTable table;

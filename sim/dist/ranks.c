@@ -24,6 +24,12 @@ size_t ranks_owned(void)
     return told ? told->cpu->owned : 0;
 }
 
+void ranks_cells(uint32_t *cell)
+{
+    for (size_t k = 0; told && k < told->cpu->owned; k++)
+        cell[k] = told->cpu->cell[cpu_owned(told->cpu, k)];
+}
+
 /* ---- begin and end ---- */
 
 static void ranks_destroy(void *state)

@@ -26,6 +26,10 @@ void ranks_figures(RanksFigures *figures);
 /* Particles that this rank owns in the last world that was made. */
 size_t ranks_owned(void);
 
+/* The cell of each of them, in the order in which world_read gives them. In one process they stand by their
+   cells, and by their ids in each. Of a world that has a grid. */
+void ranks_cells(uint32_t *cell);
+
 /* A state that the first rank has becomes that of all: of the def's worlds. Collective. */
 void ranks_spread(WorldState *state, const WorldDef *def);
 

@@ -1,6 +1,7 @@
 """slosh-dist gives the bits of slosh run on 1, 2, 3 and 4 ranks: each method, a box that moves, solids, emitters and drains,
 periodic sides, adaptive steps, a rank with hardly a particle, trouble that is gone back from, and runs that go on on other
 ranks."""
+import json
 import subprocess
 import unittest
 
@@ -92,6 +93,24 @@ class Ranks(RanksCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual([state[:2] for state in states(path)], [state[:2] for state in states(one)])
         self.assertEqual(list(states(path)), list(states(one)))
+
+    def test_probes_and_json(self):
+        """A table of probes byte by byte, gone on with on other ranks; of the summary all but times and looks at all particles."""
+        table, scene = {}, ["impact", "--particles", "400", "--every", "0.2", "--backend", "cpu"]
+        for name in ("one", "ranks"):
+            table[name] = ["--probes", self.folder / f"{name}.csv", "--json", self.folder / f"{name}.json"]
+        self.run_one(*scene, "--time", "0.6", *table["one"])
+        for ranks, more in ((2, ["--time", "0.2"]), (3, ["--time", "0.6", "--resume"])):
+            _, done = self.dist(ranks, *scene, *more, *table["ranks"])
+            self.assertEqual(done.returncode, 0, done.stderr)
+        one, ranks = ((self.folder / f"{name}.csv").read_text() for name in ("one", "ranks"))
+        self.assertTrue(any(row.split(",")[1] not in ("", "0") for row in one.splitlines()[2:]), "nothing hits the wall")
+        self.assertEqual(one, ranks)
+        one, ranks = (json.loads((self.folder / f"{name}.json").read_text()) for name in ("one", "ranks"))
+        self.assertEqual(ranks.pop("ranks"), 3)
+        for name in ("output", "wall_seconds", "real_time_factor", "step_seconds", "outcome", "compression", "limits", "probes"):
+            one.pop(name), ranks.pop(name, None)  # limits and probes: of what was gone on with alone
+        self.assertEqual(one, ranks)
 
     def test_what_is_not_there_is_refused(self):
         path, done = self.dist(2, "ducks", "--backend", "cpu", "--time", "0.01")
