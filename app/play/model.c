@@ -4,6 +4,7 @@
 #include "app/scene/live.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
+#include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
 #include "sim/world/world.h"
 
@@ -197,7 +198,7 @@ static void adopt(Model *model, const PlayScene *opened)
     model->has_particles = false;
     post_open(model);
     model->saves = model->messages = model->travels = model->solids = 0;
-    model->shut = 0;
+    model->shut = flow_shut(&opened->scene.world);
     model->told_fixed = model->asked_acceleration = false;
     model->told_script = SCRIPT_NONE;
     model->scenes_opened++;
@@ -313,7 +314,7 @@ void model_reset(Model *model)
     keep_session(model);
     hand_post_close(model->post); /* no report comes in between: it would move the box, and be forgotten */
     model->open.source->reset(&model->open);
-    model->shut = 0;
+    model->shut = flow_shut(&model->open.scene.world);
     post_open(model);
 }
 

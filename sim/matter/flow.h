@@ -54,6 +54,9 @@ static inline bool gate_shut(uint64_t shut, int gate)
 void gate_name(int gate, char name[GATE_NAME_SIZE]);
 int gate_find(const char *name);
 
+/* The gates that are shut at the start. */
+uint64_t flow_shut(const WorldDef *def);
+
 /* Of one emitter of that fluid. */
 Guide flow_guide(const WorldDef *def, int fluid, const Emit *emit);
 

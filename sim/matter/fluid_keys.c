@@ -98,6 +98,7 @@ const Key fluid_keys[] = {
     NUMBER("fluids[].emit[].speed", R | O, "m/s", 0, 1000, EMIT(speed), "of the fluid, in the box's frame"),
     NUMBER("fluids[].emit[].start", 0, "s", 0, 1e6, EMIT(start), "nothing comes before it"),
     NUMBER("fluids[].emit[].duration", 0, "s", 0, 1e6, EMIT(duration), "0: for ever"),
+    BOOLEAN("fluids[].emit[].shut", 0, EMIT(shut), "shut at the start, until its gate is opened in the window or by a recording"),
     INTEGER("particles.most", 0, 1, 2000000000, AT(most), "upper limit on particles: while it is reached emitters pause, and nothing is poured; a scene may begin with more"),
     LIST("drains", 0, 0, DRAINS_MAX, AT(drains), AT(drain_count), Fill, NULL,
          "where fluid leaves the scene"),
@@ -107,6 +108,7 @@ const Key fluid_keys[] = {
     VARIANT("drains[].ball", FILL(kind), FILL_BALL, "a ball"),
     VEC3("drains[].ball.centre", R, "m", -1000, 1000, FILL(centre), "its centre"),
     NUMBER("drains[].ball.radius", R | O, "m", 0, 1000, FILL(radius), "its radius"),
+    BOOLEAN("drains[].shut", 0, FILL(shut), "shut at the start, until its gate is opened in the window or by a recording"),
     KEYS_END,
 };
 /* clang-format on */

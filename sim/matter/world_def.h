@@ -41,6 +41,7 @@ typedef struct Fill {
     char below[FORMULA_SIZE];  /* it ends at this height (m), a formula of x and z, if one is given; or the
                                   name of the file that `heights` was read from */
     const FieldTable *heights; /* NULL: `below` is a formula or not given; column 0: m. For world_create */
+    bool shut;                 /* a drain: at the start */
 } Fill;
 
 /* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A
@@ -53,6 +54,7 @@ typedef struct Emit {
     double speed;        /* m/s */
     double start;        /* s */
     double duration;     /* s; 0: for ever */
+    bool shut;           /* at the start */
 } Emit;
 
 /* How a fluid's fills start: X(ENUM, name). */

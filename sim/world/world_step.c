@@ -1,6 +1,7 @@
 #include "sim/world/world.h"
 
 #include "sim/base/parallel.h"
+#include "sim/matter/flow.h"
 #include "sim/matter/viscosity.h"
 #include "sim/world/energy_watch.h"
 #include "sim/world/sentinel.h"
@@ -143,6 +144,7 @@ World *world_create(const WorldDef *def, Error *error)
     world->target = (BoxTarget){.orientation = {0, 0, 0, 1}};
     world->stepping = (StepState){.dt = def->dt / def->substeps, .refine = 1};
     world->trouble.retries = def->retries;
+    world->shut = flow_shut(def);
     box_at(world, &world->filter, 0, &world->box);
     world_settle(world);
     start_method(world);

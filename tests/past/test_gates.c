@@ -97,6 +97,24 @@ static void a_full_world_says_it_once(void **state)
     rig_close(&rig);
 }
 
+/* A scene may begin with some shut; a new start has them so again. */
+static void shut_by_the_scene(void **state)
+{
+    (void)state;
+    char text[1024];
+    const char *drains = strstr(scenes[0], "speed: 2");
+    Rig rig;
+    snprintf(text, sizeof text, "%.*sshut: true, %s", (int)(drains - scenes[0]), scenes[0], drains);
+    rig_open(&rig, text, 64 * MIB);
+    rig_ready(&rig);
+    assert_true(rig.status.shut == EMITTER && frames(&rig, 4).emitted == 0);
+    shut(&rig, 0);
+    assert_true(frames(&rig, 4).emitted > 0);
+    restart(&rig);
+    assert_true(frames(&rig, 4).emitted == 0);
+    rig_close(&rig);
+}
+
 static void a_line_of_a_recording(void **state)
 {
     (void)state;
@@ -134,6 +152,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(they_hold_and_let_go),
         cmocka_unit_test(a_full_world_says_it_once),
+        cmocka_unit_test(shut_by_the_scene),
         cmocka_unit_test(a_line_of_a_recording),
     };
     return cmocka_run_group_tests(tests, rig_setup, rig_teardown);
