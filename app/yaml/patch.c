@@ -220,8 +220,10 @@ static size_t above(const Patch *patch, size_t at)
 
 static char *by_block(const Patch *patch)
 {
-    const char *at = patch->setting;
+    char path[256];
+    const char *at = path;
     PathPart part;
+    snprintf(path, sizeof path, "%.*s", (int)strcspn(patch->setting, "="), patch->setting);
     if (!path_next(&at, &part) || part.index >= 0)
         return NULL;
     const Node *old = node_child(patch->before.root, part.key);

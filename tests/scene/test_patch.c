@@ -66,6 +66,9 @@ static void test_block(void **state)
 {
     (void)state;
     check("last[1].b=2", "last: [{a: 1}] # end\n", "last:\n  - {a: 1}\n  - {b: 2}\n", true);
+    check("fluids=[{name: z}]",
+          "fluids:\n  # first\n  - name: a # its name\n    colour: [1,\n      0, 0]\n  - {name: \"b, c\"}\n",
+          "fluids:\n  - {name: z}\n", true);
     check("solver.step={}", "solver:\n  step:\n    dt: 0.1   # s\n", "solver:\n  step: {}\n", true);
 }
 
