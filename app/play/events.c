@@ -113,21 +113,30 @@ static void drag_grip(Play *play)
         ask_settings(&play->asks, settings, grip_settings(&play->grip, &look, settings));
 }
 
+/* A finger and a solid are taken, and let go, where the mouse was then, not where it came to since. */
+static void take_and_act(Play *play, const WindowEvent *event)
+{
+    const bool touches = event->kind == WINDOW_BUTTON && play->touch.on && play->model.has_particles;
+    if (touches)
+        hands_look(play);
+    take_event(play, event);
+    act_all(play);
+    if (touches)
+        hands_look(play);
+}
+
 void events_take(Play *play)
 {
     WindowEvent event;
     const double began = meter_thread_cpu_ms();
     act_all(play); /* what the panel and the hand asked for during the last picture */
-    while (next_shake(play, &event)) {
-        take_event(play, &event);
-        act_all(play);
-    }
+    while (next_shake(play, &event))
+        take_and_act(play, &event);
     play->quit |= shaken_enough(play);
     window_poll(play->window);
     while (window_next(play->window, &event)) {
         event = on_layout(&event);
-        take_event(play, &event);
-        act_all(play);
+        take_and_act(play, &event);
     }
     drag_grip(play);
     if (play->model.has_particles)
