@@ -5,6 +5,7 @@
 #include "app/recipe/recipe.h"
 #include "app/scene/keys.h"
 #include "app/setting/save.h"
+#include "app/setting/settle.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,6 +45,7 @@ bool again_look(const Model *model, Again *out, Error *error)
     if (!parse(model, text, size, &settings, &out->filed, error))
         return false;
     out->now = model->open.scene;
+    settle_world(&out->now.world, model->shut);
     settle_views(&out->filed, &out->now);
     scene_differ(&out->filed, &out->now, &out->mine);
     return true;
@@ -206,6 +208,7 @@ static bool find_wanted(const Model *model, Renewal *renewal, Error *error)
     setting_list_join_scene(&renewal->settings, &recording->settings);
     setting_list_join(&renewal->settings, &renewal->again.mine.settings);
     setting_list_remove(&renewal->settings, &renewal->changed.settings);
+    setting_list_remove_around(&renewal->settings, &renewal->changed.settings);
     if (!setting_list_settings(&renewal->settings, &settings, error))
         return false;
     settings.particles = recording->settings.particles;
@@ -273,14 +276,13 @@ static bool takes(const char *setting)
 static bool is_live(const Renewal *renewal)
 {
     const SettingList *due = &renewal->due.settings;
-    const char *built = renewal->due.built;
-    bool views = is_of_view(built);
+    bool views = false;
     for (int i = 0; i < due->count; i++) {
         views |= is_of_view(due->set[i]);
         if (!takes(due->set[i]))
             return false;
     }
-    return !renewal->due.dead && !due->lacks && (!*built || is_of_view(built) || is_of_scene(built)) &&
+    return !renewal->due.dead && !due->lacks &&
            !(views && (shows_others(&renewal->again.now) || shows_others(&renewal->wanted)));
 }
 
@@ -312,7 +314,7 @@ static bool renew(Model *model, Renewal *renewal)
 {
     PlayScene *open = &model->open;
     const SettingList *due = &renewal->due.settings;
-    bool views = is_of_view(renewal->due.built);
+    bool views = false;
     for (int i = 0; i < due->count; i++) {
         views |= is_of_view(due->set[i]);
         if (!is_of_view(due->set[i]))
@@ -335,21 +337,28 @@ static AgainResult begin(Model *model, Renewal *renewal, Error *error)
                : AGAIN_FAILED;
 }
 
-/* A list has no value to be named by. */
+static bool says_solids(const SettingList *settings)
+{
+    bool says = false;
+    for (int i = 0; i < settings->count; i++)
+        says |= strncmp(settings->set[i], "solids=", strlen("solids=")) == 0;
+    return says;
+}
+
 static void tell(const Renewal *renewal, bool others, char words[320])
 {
     const Differ *changed = &renewal->changed;
     char of[190] = "";
     differ_words(&changed->settings, of, sizeof of);
-    snprintf(words, 320, "%s%s%s", changed->built, *changed->built && *of ? ", " : "", of);
+    snprintf(words, 320, "%s", of);
     if (!*words && others)
         snprintf(words, 320, "a file that it names");
     const size_t used = strlen(words);
     if (*renewal->dropped.message)
         snprintf(words + used, 320 - used, "; what was changed in the window is gone: %.160s",
                  renewal->dropped.message);
-    else if (*renewal->again.mine.built && !is_of_view(renewal->again.mine.built))
-        snprintf(words + used, 320 - used, "; %s of the hand are gone", renewal->again.mine.built);
+    else if (says_solids(&renewal->again.mine.settings) && !says_solids(&renewal->settings))
+        snprintf(words + used, 320 - used, "; solids of the hand are gone");
 }
 
 AgainResult again_read(Model *model, bool others, char words[320], Error *error)
@@ -366,7 +375,7 @@ AgainResult again_read(Model *model, bool others, char words[320], Error *error)
     } else if (read_file(model, renewal, error)) {
         tell(renewal, others, words);
         const Differ *changed = &renewal->changed;
-        if (!others && changed->settings.count == 0 && !*changed->built) /* whatever hands did besides */
+        if (!others && changed->settings.count == 0) /* whatever hands did besides */
             result = keep_text(model, renewal);
         else if (others || !is_live(renewal))
             result = begin(model, renewal, error);

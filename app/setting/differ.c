@@ -2,16 +2,13 @@
 #include "app/setting/differ.h"
 
 #include "app/scene/keys.h"
-#include "app/yaml/print.h"
-#include "sim/base/color.h"
-#include "sim/base/time_table.h"
+#include "app/setting/exact.h"
 
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH = DIFFER_PATH_SIZE, VALUE = TIME_TABLE_ROWS * 48 };
+enum { PATH = DIFFER_PATH_SIZE };
 
 /* Where a walk through two scenes stands: as that of scene_print. */
 typedef struct Walk {
@@ -20,66 +17,6 @@ typedef struct Walk {
     const char *now;
     Differ *out;
 } Walk;
-
-/* ---- values ---- */
-
-static int exact_number(double value, char *text, size_t size)
-{
-    char digits[40];
-    snprintf(digits, sizeof digits, "%.9g", value);
-    if (strtod(digits, NULL) != value)
-        snprintf(digits, sizeof digits, "%.17g", value);
-    return snprintf(text, size, "%s", digits);
-}
-
-static void exact_numbers(const double *values, int count, char *text, size_t size)
-{
-    int used = snprintf(text, size, "[");
-    for (int k = 0; k < count; k++) {
-        used += exact_number(values[k], text + used, size - (size_t)used);
-        used += snprintf(text + used, size - (size_t)used, k + 1 < count ? ", " : "]");
-    }
-}
-
-static void exact_color(const Key *key, const void *field, char *text, size_t size)
-{
-    double color[3];
-    for (int k = 0; k < 3; k++)
-        color[k] =
-            linear_to_srgb(key->flags & KEY_SINGLE ? ((const float *)field)[k] : ((const double *)field)[k]);
-    snprintf(text, size, "[%.9g, %.9g, %.9g]", color[0], color[1], color[2]);
-}
-
-static void quoted(const char *words, char *text, size_t size)
-{
-    const Node node = {.kind = NODE_SCALAR, .text = words};
-    FILE *file = fmemopen(text, size, "w");
-    *text = 0;
-    if (!file)
-        return;
-    node_print(&node, file);
-    fclose(file);
-}
-
-/* As key_value_text, but it is read as the same value. A plane scene's box has no depth of its own. */
-static void exact_text(const Key *key, const char *base, int dimensions, char *text, size_t size)
-{
-    const void *field = base + key->offset;
-    const bool plane = dimensions == 2 && strcmp(key->path, "box.size") == 0;
-    key_value_text(key, base, text, size);
-    if (key->offset == KEY_NOWHERE)
-        return;
-    if (key->type == KEY_NUMBER || (key->type == KEY_CURVE && *text != '['))
-        exact_number(*(const double *)field, text, size);
-    else if (key->type == KEY_VEC3 || (key->type == KEY_RANGE && *text == '['))
-        exact_numbers(field, key->type == KEY_RANGE || plane ? 2 : 3, text, size);
-    else if (key->type == KEY_COLOR)
-        exact_color(key, field, text, size);
-    else if (key->type == KEY_TEXT && *text)
-        quoted(field, text, size);
-}
-
-/* ---- the walk ---- */
 
 static void walk_children(const Walk *walk, int dimensions);
 
@@ -101,14 +38,6 @@ static void add(const Walk *walk, const Key *key, const char *shown, const char 
     walk->out->dead |= !(key->flags & KEY_LIVE) && (!idle || machine);
 }
 
-static void built_anew(const Walk *walk, const Key *key, const char *shown)
-{
-    walk->out->dead |= !(key->flags & KEY_IDLE);
-    walk->out->world |= !(key->flags & KEY_IDLE);
-    if (!*walk->out->built)
-        snprintf(walk->out->built, PATH, "%s", shown);
-}
-
 static void walk_element(const Key *list, const Walk *walk, const char *shown, int e, int before,
                          int dimensions)
 {
@@ -122,6 +51,45 @@ static void walk_element(const Key *list, const Walk *walk, const char *shown, i
     walk_children(&inner, dimensions);
 }
 
+static bool is_absent(const Key *key, const char *base)
+{
+    if (!base)
+        return true;
+    if (key->type == KEY_VARIANT)
+        return *(const int *)(base + key->aux) != key->variant;
+    return key->aux != KEY_NOWHERE && *(const bool *)(base + key->aux);
+}
+
+/* Whether elements that both have are of one kind. */
+static bool same_kinds(const Key *list, const Walk *walk, int elements)
+{
+    char parent[PATH];
+    int count;
+    const Key *keys = scene_keys(&count);
+    bool same = true;
+    snprintf(parent, sizeof parent, "%.120s[]", list->path);
+    for (int i = 0; i < count; i++)
+        for (int e = 0; e < elements && keys[i].type == KEY_VARIANT && key_name_in(&keys[i], parent); e++) {
+            const size_t at = list->offset + (size_t)e * list->size;
+            same &= is_absent(&keys[i], walk->before + at) == is_absent(&keys[i], walk->now + at);
+        }
+    return same;
+}
+
+static void add_whole(const Walk *walk, const Key *list, const char *shown, int dimensions)
+{
+    char *value = NULL;
+    size_t size = 0;
+    FILE *file = open_memstream(&value, &size);
+    if (file)
+        exact_list(list, walk->now, dimensions, file);
+    if (file && fclose(file) == 0 && value)
+        add(walk, list, shown, value);
+    else
+        walk->out->settings.lacks = true;
+    free(value);
+}
+
 static void walk_list(const Key *list, const Walk *walk, const char *shown, int dimensions)
 {
     const KeyLike *like = key_like(list);
@@ -131,8 +99,8 @@ static void walk_list(const Key *list, const Walk *walk, const char *shown, int 
         add(walk, list, shown, "[]");
         return;
     }
-    if (now != before && !like) {
-        built_anew(walk, list, shown);
+    if (!like && (now != before || !same_kinds(list, walk, now))) {
+        add_whole(walk, list, shown, dimensions);
         return;
     }
     if (now < before) { /* of views: all are said anew */
@@ -149,23 +117,10 @@ static void walk_list(const Key *list, const Walk *walk, const char *shown, int 
     }
 }
 
-static bool is_absent(const Key *key, const char *base)
-{
-    if (!base)
-        return true;
-    if (key->type == KEY_VARIANT)
-        return *(const int *)(base + key->aux) != key->variant;
-    return key->aux != KEY_NOWHERE && *(const bool *)(base + key->aux);
-}
-
 static void walk_mapping(const Key *key, const Walk *walk, const char *shown, int dimensions)
 {
     const bool was = !is_absent(key, walk->before), is = !is_absent(key, walk->now);
     Walk inner = {.before = was ? walk->before : NULL, .now = walk->now, .out = walk->out};
-    if (was != is && key->type == KEY_VARIANT) {
-        built_anew(walk, key, shown);
-        return;
-    }
     if (was && !is)
         add(walk, key, shown, "");
     snprintf(inner.parent, PATH, "%s", key->path);
@@ -176,7 +131,7 @@ static void walk_mapping(const Key *key, const Walk *walk, const char *shown, in
 
 static void walk_key(const Key *key, const Walk *walk, const char *shown, int dimensions)
 {
-    char now[VALUE], before[VALUE];
+    char now[EXACT_SIZE], before[EXACT_SIZE];
     if (key->type == KEY_LIST) {
         walk_list(key, walk, shown, dimensions);
     } else if (key->type == KEY_MAPPING || key->type == KEY_VARIANT) {
@@ -206,11 +161,10 @@ static void walk_children(const Walk *walk, int dimensions)
 
 void scene_differ(const Scene *before, const Scene *now, Differ *out)
 {
-    *out = (Differ){.world = false};
+    const bool depth = before->world.dimensions != now->world.dimensions;
+    *out = (Differ){.depth = depth, .world = depth, .dead = depth};
     const Walk walk = {.before = (const char *)before, .now = (const char *)now, .out = out};
     walk_children(&walk, now->world.dimensions);
-    if (before->world.dimensions != now->world.dimensions)
-        built_anew(&walk, scene_key_find("box.size"), "box.size");
 }
 
 void differ_words(const SettingList *settings, char *text, size_t size)

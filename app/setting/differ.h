@@ -9,14 +9,14 @@ enum { DIFFER_PATH_SIZE = 128 };
 
 typedef struct Differ {
     SettingList settings; /* by which `before` becomes `now`; setting_list_free */
-    /* The first list of another length, or an element of another kind, which no setting says; "": none */
-    char built[DIFFER_PATH_SIZE];
-    bool world; /* some of it is for a solver */
-    bool dead;  /* some cannot change while the simulation runs */
+    bool depth;           /* the one has two dimensions and the other three, which no setting says */
+    bool world;           /* some of it is for a solver */
+    bool dead;            /* some cannot change while the simulation runs */
 } Differ;
 
-/* Both are scenes that were read. Numbers are written so that they are read as the same bits. Of `views` that
-   are more or less each entry is said, after "views=[]" where there are less. The bytes of files that a scene
+/* Both are scenes that were read. Numbers are written so that they are read as the same bits. A list of
+   another length, or with an element of another kind, is said whole. Of `views` that are more or less each
+   entry is said, after "views=[]" where there are less. The bytes of files that a scene
    names are not looked at. */
 void scene_differ(const Scene *before, const Scene *now, Differ *out);
 

@@ -77,8 +77,9 @@ static bool make(const Save *save, const char *output, const SettingList *files,
         Differ left;
         bool ok = differs(save, output, *text, &left, error);
         setting_list_remove(&left.settings, files);
-        ok = ok && (!*left.built ||
-                    error_set(error, "%s: %s differs in what no setting can say", save->path, left.built));
+        ok = ok &&
+             (!left.depth ||
+              error_set(error, "%s: has another number of dimensions, which no setting can say", save->path));
         const bool whole = ok && left.settings.count == 0;
         if (ok && round == ROUNDS && !whole)
             snprintf(out->lacks, sizeof out->lacks, "%.*s", (int)strcspn(left.settings.set[0], "="),
@@ -101,7 +102,8 @@ char *save_text(const Save *save, const char *output, Saved *out, Error *error)
         error_set(error, "%s: no memory", save->path);
         return NULL;
     }
-    const bool ok = put_files(save, output, &files, &text, &out->lost, error) &&
+    const bool ok = make(save, save->path, &files, &text, out, error) &&
+                    put_files(save, output, &files, &text, &out->lost, error) &&
                     make(save, output, &files, &text, out, error);
     setting_list_free(&files);
     if (ok)

@@ -73,6 +73,25 @@ void setting_list_remove(SettingList *list, const SettingList *paths)
             }
 }
 
+/* Whether the setting says a list whole, and the other one something of an element. */
+static bool holds(const char *setting, const char *other)
+{
+    const size_t length = scene_setting_key(setting);
+    return strncmp(setting + length, "=[{", 3) == 0 && strncmp(setting, other, length) == 0 &&
+           other[length] == '[';
+}
+
+void setting_list_remove_around(SettingList *list, const SettingList *paths)
+{
+    for (int i = list->count - 1; i >= 0; i--) {
+        bool around = false;
+        for (int k = 0; k < paths->count; k++)
+            around |= holds(list->set[i], paths->set[k]);
+        if (around)
+            take_out(list, i);
+    }
+}
+
 void setting_list_remove_under(SettingList *list, const char *begin)
 {
     for (int i = list->count - 1; i >= 0; i--)
