@@ -38,3 +38,30 @@ vec3 behind_at(vec3 place, float surface, vec2 straight)
 #endif
     return textureLod(behind_color, at, 0.0).rgb;
 }
+
+#ifdef SOLIDS
+// How far behind what the copy shows a place is, m below the eye.
+float behind_shown(vec3 place)
+{
+    vec2 at = clamp(0.5 + 0.5 * ndc_of_eye(place), 0.0, 1.0);
+    return -place.z - near_plane / max(textureLod(behind_depth, at, 0.0).x, 1e-30);
+}
+
+// Where a way from the surface of a fluid meets a solid that the copy shows, as a share of the way; 2: nowhere. What is in front of the
+// way all along, as the part of a duck above the water, is farther before it than some steps' length.
+float met_on(vec3 from, vec3 way)
+{
+    const int count = 8, halvings = 3;
+    float before = behind_shown(from), met = 2.0, thick = (2.0 * abs(way.z) + length(way)) / float(count);
+    for (int i = 1; i <= count; i++) {
+        float share = float(i) / float(count), behind = behind_shown(from + share * way);
+        met = met > 1.0 && before <= 0.0 && behind > 0.0 && behind < thick ? share : met;
+        before = behind;
+    }
+    for (int i = 0, rounds = met > 1.0 ? 0 : halvings; i < rounds; i++) { // the picture is looked up where it shows the solid
+        float share = met - 0.5 / float(count << i), behind = behind_shown(from + share * way);
+        met = behind > 0.0 ? share : met;
+    }
+    return met;
+}
+#endif

@@ -24,21 +24,71 @@ float find_exit(Ray ray, float end)
     return min(t, max(end, 0.0));
 }
 
-// Snell's law twice; where the second surface reflects all, what it mirrors. At a wall the ray goes straight on: a tank in air would
-// mirror the sky in its floor, and no one could see through it. Sets how much fluid is on the way.
+// Out of the fluid, unit, eye's frame: of the side wall that the ray meets where it leaves the volume; 0: it meets none.
+vec3 side_met(Ray ray)
+{
+    vec3 end = ray_ends(ray), wall = mix(wall_low, wall_high, step(vec3(0.0), ray.way)), axis = vec3(0.0);
+    if (end.x < end.y && end.x < end.z && abs(wall.x - 0.5) <= 0.5)
+        axis.x = sign(ray.way.x);
+    if (end.z < end.y && end.z <= end.x && abs(wall.z - 0.5) <= 0.5)
+        axis.z = sign(ray.way.z);
+    return mat3(box_to_eye) * axis;
+}
+
+// The sides of a tank in air mirror rays that come to them from within at a slant: what one sees in a side through the top or through
+// the next side is the tank's floor, and water is as deep at its edges as elsewhere. The floor, on which the tank stands, mirrors
+// nothing. All rays that came in through a flat top or the next side are mirrored, as by an index of refraction above the square root of
+// 2; water lets out those that come in within some 30 degrees of the surface, and ends in a fog there. Goes on to where the ray leaves;
+// the wall there, as side_met.
+vec3 through_mirrors(inout Ray ray, inout float t, inout float end, inout float thickness)
+{
+    float inverse = 1.0 / refraction_index, slanted = max(inverse, sqrt(max(1.0 - inverse * inverse, 0.0)));
+    vec3 side = side_met(ray);
+    for (int i = 0; i < 3; i++) {
+        float cosine = dot(ray.to, side);
+        if (t < end - 1e-3 * cell_size || cosine <= 0.0 || cosine > slanted)
+            break;
+        ray = ray_from(ray.from + t * ray.to, reflect(ray.to, side));
+        end = ray_end(ray), t = find_exit(ray, end), thickness += t, side = side_met(ray);
+    }
+    return side;
+}
+
+#ifdef SOLIDS
+// Beyond the fluid: the copy where it shows no solid that stands before, which has the box's edges; else sky and floor.
+vec3 behind_or_sky(vec3 leave, vec3 on)
+{
+    float way = min(0.3 * max(box_size.x, box_size.y), way_in_box(leave, on));
+    vec3 place = leave + way * on;
+    vec2 at = clamp(0.5 + 0.5 * ndc_of_eye(place), 0.0, 1.0);
+    vec4 around = textureGather(behind_depth, at);
+    float nearest = max(max(around.x, around.y), max(around.z, around.w));
+    return nearest > near_plane / max(-leave.z, near_plane) ? environment(leave, on) : behind_at(place, 1e30, gl_FragCoord.xy);
+}
+#endif
+
+// Snell's law where the ray enters and where it leaves; where the second surface reflects all, what it mirrors. Sets how much fluid is
+// on the way.
 vec3 seen_through(inout Surface s)
 {
-    Ray ray = ray_from(s.place, refract(s.view, s.normal, 1.0 / refraction_index));
-    float end = ray_end(ray);
-    s.thickness = find_exit(ray, end);
-    vec3 inwards = -normal_at(ray, s.thickness), leave = ray.from + s.thickness * ray.to;
+    vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
+    Ray ray = ray_from(s.place, inner);
+    float end = ray_end(ray), t = find_exit(ray, end), first = t;
+    s.thickness = t;
+    vec3 side = through_mirrors(ray, t, end, s.thickness);
+#ifdef SOLIDS
+    bool mirrored = s.thickness > first;
+    float solid = met_on(s.place, first * inner);
+#endif
+    bool at_wall = t >= end - 1e-3 * cell_size;
+    vec3 inwards = at_wall ? -side : -normal_at(ray, t), leave = ray.from + t * ray.to;
     inwards = dot(inwards, ray.to) < 0.0 ? inwards : -ray.to;
     vec3 on = refract(ray.to, inwards, refraction_index);
     on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
-    on = s.thickness < end - 1e-3 * cell_size ? on : ray.to;
 #ifdef SOLIDS
-    float way = min(0.3 * max(box_size.x, box_size.y), way_in_box(leave, on));
-    vec3 seen = behind_at(leave + way * on, near_plane / -s.place.z, gl_FragCoord.xy);
+    vec3 seen = mirrored ? environment(leave, on) : behind_or_sky(leave, on);
+    s.thickness = solid < 1.0 ? solid * first : s.thickness;
+    seen = solid < 1.0 ? textureLod(behind_color, 0.5 + 0.5 * ndc_of_eye(s.place + solid * first * inner), 0.0).rgb : seen;
 #else
     vec3 seen = environment(leave, on);
 #ifdef WHOLE

@@ -259,6 +259,99 @@ static void a_flat_top_mirrors_evenly(void **state)
     free(scene.particles);
 }
 
+/* The way in still water, 0.5 m high, of what is seen in a direction (unit) from a place on its top or a
+   side: bent by Snell's law, and mirrored by sides that it meets at less than arcsin(1 / 1.333) to their
+   plane. `sides`: how many mirrored it. */
+static double way_in_water(const double entry[3], const double to[3], int *sides)
+{
+    static const double low[] = {-1, 0, -0.5}, high[] = {1, 0.5, 0.5};
+    const double ior = 1.333;
+    double at[3], way[3], square = 0, total = 0;
+    int in = 1;
+    memcpy(at, entry, sizeof at);
+    for (int k = 0; k < 3; k++)
+        in = fmin(at[k] - low[k], high[k] - at[k]) < fmin(at[in] - low[in], high[in] - at[in]) ? k : in;
+    for (int k = 0; k < 3; k++)
+        square += k == in ? 0 : to[k] * to[k] / (ior * ior), way[k] = to[k] / ior;
+    way[in] = copysign(sqrt(1 - square), to[in]);
+    for (*sides = 0;; (*sides)++) {
+        int out = 0;
+        double t = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            const double end = ((way[k] > 0 ? high[k] : low[k]) - at[k]) / way[k];
+            if (end < t)
+                t = end, out = k;
+        }
+        total += t;
+        for (int k = 0; k < 3; k++)
+            at[k] += t * way[k];
+        if (out == 1 || fabs(way[out]) > 1 / ior)
+            return total;
+        way[out] = -way[out];
+    }
+}
+
+/* Without light: what comes through the water alone. */
+static uint8_t *seen_through(Scene3 *scene, double attenuation)
+{
+    Error error = {0};
+    ParticleBuffers buffers;
+    uint8_t *rgb = calloc(3, WIDTH * HEIGHT);
+    assert_non_null(rgb);
+    volume_def(&scene->def)->raycast.attenuation = attenuation;
+    Upload *upload = upload_particles(scene->particles, &scene->state, &buffers);
+    Renderer *renderer = renderer_create(&scene->def, &scene->world, WIDTH, HEIGHT, &error);
+    if (!renderer)
+        fail_msg("%s", error.message);
+    renderer_set_plain(renderer, true);
+    renderer_draw(renderer, &buffers, NULL);
+    renderer_read(renderer, rgb);
+    renderer_destroy(renderer);
+    upload_destroy(upload);
+    return rgb;
+}
+
+static double linear(uint8_t s)
+{
+    return s <= 10 ? s / 255.0 / 12.92 : pow((s / 255.0 + 0.055) / 1.055, 2.4);
+}
+
+/* By the light that it takes from rays: water is as deep at the edges of a tank as elsewhere, since its sides
+ * mirror. */
+static void sides_mirror_from_within(void **state)
+{
+    (void)state;
+    Scene3 scene = seen_from(1.6, 1.7, 2.4);
+    volume_def(&scene.def)->raycast.look = RAYCAST_WATER;
+    fill(&scene, 5);
+    float *depth = distances(&scene);
+    uint8_t *clear = seen_through(&scene, 1e6), *blue = seen_through(&scene, 1.5);
+    int mirrored = 0, wrong = 0, count = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        double from[3], to[3], t[2], at[3];
+        const int pixel = 3 * ((HEIGHT - 1 - i / WIDTH) * WIDTH + i % WIDTH) + 1;
+        ray_of(&scene, i, from, to);
+        if (!meets_block(from, to, 0.5, t) || depth[i] <= 0)
+            continue;
+        const double length = sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+        for (int k = 0; k < 3; k++)
+            at[k] = from[k] + t[0] * to[k], to[k] /= length;
+        /* a spacing from the edges, where the top's normals are not even */
+        if ((fabs(at[0]) > 0.9) + (fabs(at[2]) > 0.4) + (at[1] > 0.4) > 1)
+            continue;
+        int sides;
+        const double way = way_in_water(at, to, &sides), share = linear(blue[pixel]) / linear(clear[pixel]);
+        const double found = 1.5 * log(share) / log((double)scene.world.fluids[0].color[1]);
+        count++, mirrored += sides > 0, wrong += fabs(found - way) > 0.03 * way + 0.02;
+    }
+    printf("%d of %d pixels by sides, %d wrong\n", mirrored, count, wrong);
+    assert_true(count > 3000 && mirrored > 600 && wrong < 0.02 * count);
+    free(depth);
+    free(clear);
+    free(blue);
+    free(scene.particles);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -268,6 +361,7 @@ int main(void)
         cmocka_unit_test_teardown(a_particle_alone_is_a_ball_of_its_volume, no_gl_errors),
         cmocka_unit_test_teardown(fluid_at_rest_has_no_drops, no_gl_errors),
         cmocka_unit_test_teardown(a_flat_top_mirrors_evenly, no_gl_errors),
+        cmocka_unit_test_teardown(sides_mirror_from_within, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }
