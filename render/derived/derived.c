@@ -29,6 +29,11 @@ typedef struct Recipe {
 
 enum { NOTHING = -1 };
 
+/* The share of the kernel that is fluid, walls mirrored: a particle in a flat surface, half a spacing below
+   it, has 0.74, the next layer 1, and one in the box's corner, whose images beyond two walls are left out,
+   0.83. */
+static const double AIR_FROM = 0.83, AIR_ALL = 0.75;
+
 static const Recipe scalar_recipes[SCALAR_COUNT] = {
     /* where the state says it by ids, and not a number a particle */
     [SCALAR_BORN] = {"born_of(i)", 0, NOTHING, false, .births = true},
@@ -400,6 +405,23 @@ static bool due(bool wanted, unsigned program, const Recipe *recipe, const Parti
     return wanted && program && particles->count > 0 && has(recipe, particles);
 }
 
+/* Of the slower ones nothing is summed up; above 0 nothing counts of those that no air is near. */
+static void set_meets(unsigned program, const Making *making, double slowest)
+{
+    float low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        const bool walled = !making->space->periodic[k] && !(making->space->flat && k == 2);
+        const double size = making->particles->box_size[k];
+        low[k] = walled ? (float)(k == 1 ? 0 : -size / 2) : -1e9F;
+        high[k] = walled ? (float)(k == 1 ? size : size / 2) : 1e9F;
+    }
+    glProgramUniform1f(program, SLOWEST_AT, (float)slowest);
+    glProgramUniform1f(program, AIR_FROM_AT, slowest > 0 ? (float)AIR_FROM : 0);
+    glProgramUniform1f(program, AIR_ALL_AT, (float)AIR_ALL);
+    glProgramUniform3f(program, WALLED_LOW_AT, low[0], low[1], low[2]);
+    glProgramUniform3f(program, WALLED_HIGH_AT, high[0], high[1], high[2]);
+}
+
 /* Nowhere where there is no memory for it. */
 static ParticleAttribute make_scalar(Making *making, Scalar scalar, double slowest)
 {
@@ -410,7 +432,7 @@ static ParticleAttribute make_scalar(Making *making, Scalar scalar, double slowe
                  making->particles->count, 4, scalar_list[scalar].name))
         return (ParticleAttribute){0};
     if (recipe->meets)
-        glProgramUniform1f(program, SLOWEST_AT, (float)slowest);
+        set_meets(program, making, slowest);
     return make(making, recipe, program, derived->scalar_buffer[scalar], 4);
 }
 

@@ -69,10 +69,10 @@ size_t derived_bytes(const Derived *derived);
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles);
 
-/* SCALAR_TRAPPED_AIR of particles that are at least so fast, m/s, and 0 of the others, which costs next to
-   nothing where all are slower. It is no scalar of the state for anyone else, and not put there; where the
-   state has that of all, it is that. Up to the next call of this or of derived_fill. Its program is made by
-   derived_follow. */
+/* SCALAR_TRAPPED_AIR of particles that air is near and that are at least so fast, m/s, and 0 of the others,
+   which costs next to nothing where all are slower. It is no scalar of the state for anyone else, and not put
+   there; where the state has that of all, it is that. Up to the next call of this or of derived_fill. Its
+   program is made by derived_follow. */
 ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
                                       const ParticleBuffers *particles, double slowest);
 

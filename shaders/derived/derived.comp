@@ -17,6 +17,11 @@ layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // of the box,
 
 #ifdef MEETS
 layout(location = SLOWEST_AT) uniform float slowest; // m/s: nothing is summed up for what is slower
+// Where so much of the kernel is fluid none of what is trapped counts, and where so much all does. Walls of the box, m; far away: none
+layout(location = AIR_FROM_AT) uniform float air_from;
+layout(location = AIR_ALL_AT) uniform float air_all;
+layout(location = WALLED_LOW_AT) uniform vec3 walled_low;
+layout(location = WALLED_HIGH_AT) uniform vec3 walled_high;
 bool asked_for(uint i)
 {
     vec3 velocity = velocity_of(i);
@@ -36,8 +41,17 @@ struct Sums {
     mat3 moment;   // sum w d d
     mat3 velocity; // sum w (v_j - v) d: a column an axis of d
     vec3 carried;  // sum w (s_j - s) d
+    float filled;  // sum V_j (1 - r / h), with the images behind walls
+    vec3 walls;    // twice the way to the nearest wall along each axis
     float trapped; // sum V_j (1 - r / h) (|v_ij| - v_ij . d_ij), d_ij the unit vector from j to i
 };
+
+// What a neighbour's images behind the nearest walls weigh.
+float images_of(Sums sums, vec3 d)
+{
+    vec3 away = sums.walls - d, square = dot(d, d) - d * d + away * away;
+    return dot(max(1.0 - sqrt(square) / reach, 0.0), vec3(1.0));
+}
 
 void add_neighbour(inout Sums sums, vec4 own, int k, vec3 d)
 {
@@ -48,6 +62,7 @@ void add_neighbour(inout Sums sums, vec4 own, int k, vec3 d)
 #if defined MEETS
     vec4 met = texelFetch(other_texels, k);
     vec3 faster = own.xyz - met.xyz;
+    sums.filled += met.w * (t + images_of(sums, d));
     sums.trapped += met.w * t * (length(faster) + dot(faster, d) * inversesqrt(max(dot(d, d), 1e-30)));
 #elif defined VELOCITIES || defined CARRIED
     vec4 other = texelFetch(other_texels, k);
@@ -77,8 +92,13 @@ void add_neighbours(inout Sums sums, uint i, vec4 own, vec3 x, bool image)
 // Across periodic sides they are near the particle's images.
 Sums sums_of(uint i, vec3 x)
 {
-    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0);
+    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0, vec3(1e9), 0.0);
     vec4 own = vec4(velocity_of(i) + vec3(carried_of(i), 0.0, 0.0), 0.0);
+#ifdef MEETS
+    vec3 low = walled_low - x, high = walled_high - x;
+    sums.walls = 2.0 * mix(high, low, lessThan(abs(low), abs(high)));
+    sums.filled = position_words[i * position_stride + 3u] * (1.0 + images_of(sums, vec3(0.0)));
+#endif
     vec3 from_low = x - grid_corner;
     ivec3 first = -ivec3(greaterThan(from_low, period - reach)) * ivec3(greaterThan(period, vec3(0.0)));
     ivec3 last = ivec3(lessThan(from_low, vec3(reach))) * ivec3(greaterThan(period, vec3(0.0)));
@@ -132,13 +152,17 @@ void main()
 #ifdef NEAR
     uint i = number_of(at);
     vec3 place = place_of(at);
-    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0);
+    Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0, vec3(1e9), 0.0);
     if (in_grid(at) && asked_for(i))
         sums = sums_of(i, place);
     float near = sums.count;
     mat3 correct = correction(sums.moment), gradient = sums.velocity * correct;
     vec3 slope = correct * sums.carried;
-    float trapped = 3.0 / 3.14159265 * sums.trapped / (reach * reach * (two_dimensions != 0u ? 1.0 : reach));
+    float per_room = 3.0 / 3.14159265 / (reach * reach * (two_dimensions != 0u ? 1.0 : reach)), trapped = per_room * sums.trapped;
+#ifdef MEETS
+    if (air_from > 0.0)
+        trapped *= 1.0 - smoothstep(air_all, air_from, per_room * sums.filled);
+#endif
 #else
     uint i = at;
     vec3 place = particle_position(i);

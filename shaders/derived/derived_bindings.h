@@ -28,5 +28,9 @@
 #define NOW_AT             24
 #define BIRTHS_COUNT_AT    25
 #define SLOWEST_AT         26
+#define AIR_FROM_AT        27
+#define AIR_ALL_AT         28
+#define WALLED_LOW_AT      29
+#define WALLED_HIGH_AT     30
 
 #endif
