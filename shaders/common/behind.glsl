@@ -47,21 +47,28 @@ float behind_shown(vec3 place)
     return -place.z - near_plane / max(textureLod(behind_depth, at, 0.0).x, 1e-30);
 }
 
-// Where a way from the surface of a fluid meets a solid that the copy shows, as a share of the way; 2: nowhere. What is in front of the
-// way all along, as the part of a duck above the water, is farther before it than some steps' length.
+// Whether the copy shows a solid before a place, or beside one that it shows: of what the colour is mixed.
+bool stands_before(vec3 place)
+{
+    vec4 around = textureGather(behind_depth, clamp(0.5 + 0.5 * ndc_of_eye(place), 0.0, 1.0));
+    return max(max(around.x, around.y), max(around.z, around.w)) > near_plane / max(-place.z, near_plane);
+}
+
+// Where a way from the surface of a fluid first meets a solid that the copy shows, as a share of the way; 2: nowhere. What it comes to lie
+// behind at an outline, as of the part of a duck above the water, is far before it.
 float met_on(vec3 from, vec3 way)
 {
-    const int count = 8, halvings = 3;
-    float before = behind_shown(from), met = 2.0, thick = (2.0 * abs(way.z) + length(way)) / float(count);
-    for (int i = 1; i <= count; i++) {
-        float share = float(i) / float(count), behind = behind_shown(from + share * way);
-        met = met > 1.0 && before <= 0.0 && behind > 0.0 && behind < thick ? share : met;
-        before = behind;
-    }
-    for (int i = 0, rounds = met > 1.0 ? 0 : halvings; i < rounds; i++) { // the picture is looked up where it shows the solid
-        float share = met - 0.5 / float(count << i), behind = behind_shown(from + share * way);
+    const int count = 8, halvings = 5;
+    float met = 2.0, behind = 0.0;
+    for (int i = 1; i <= count && met > 1.0; i++) {
+        float share = float(i) / float(count);
+        behind = behind_shown(from + share * way);
         met = behind > 0.0 ? share : met;
     }
-    return met;
+    for (int i = 0, rounds = met > 1.0 ? 0 : halvings; i < rounds; i++) { // the picture is looked up where it shows the solid
+        float share = met - 0.5 / float(count << i), before = behind_shown(from + share * way);
+        met = before > 0.0 ? share : met, behind = before > 0.0 ? before : behind;
+    }
+    return behind < length(way) / float(count) ? met : 2.0;
 }
 #endif

@@ -28,6 +28,16 @@ vec3 reflected(Surface s, vec3 mirror)
     return environment(s.place, mirror) + 20.0 * s.key * glint * light_color;
 }
 
+// The sides of a tank in air mirror rays that come to them from within at a slant: what one sees in a side through the top or through
+// the next side is the tank's floor, and water is as deep at its edges as elsewhere. The floor, on which the tank stands, mirrors
+// nothing. Up to which cosine to the wall's normal they do: by half more than the index of refraction is above 1, water lets nothing out
+// that came in through a flat top or the next side. Else it would within some 30 degrees of the surface, and end in a fog there.
+float mirrored_cosine()
+{
+    float index = 1.0 + 1.54 * max(refraction_index - 1.0, 0.0);
+    return sqrt(1.0 - 1.0 / (index * index));
+}
+
 // Adds to `inside`, what the surface lets out, what it mirrors.
 vec3 with_surface(Surface s, vec3 inside)
 {

@@ -54,6 +54,35 @@ float leaves_inside(vec3 end)
     return smoothstep(0.75, 2.5, least / particle_spacing);
 }
 
+float full_share = 0.0; // of the straight ray from the surface to the wall: how much is fluid
+
+// A bent ray through a tank full of fluid, by the sides that mirror it.
+struct Tank {
+    vec3 end, way;     // where it leaves, and its direction there, in the eye's frame
+    float first, size; // m to the first wall, and in all
+};
+
+Tank tank_of(vec3 place, vec3 inner)
+{
+    vec3 middle = vec3(0.0, 0.5 * box_size.y, 0.0), at = (place - box_to_eye[3].xyz) * mat3(box_to_eye) - middle, to = inner * mat3(box_to_eye);
+    vec3 sides = vec3(notEqual(walled & uvec3(1u, 0u, 4u), uvec3(0u)));
+    float slanted = mirrored_cosine();
+    Tank tank = Tank(place, inner, 0.0, 0.0);
+    for (int i = 0; i < 4; i++) {
+        vec3 ends = (mix(vec3(-0.5), vec3(0.5), greaterThanEqual(to, vec3(0.0))) * box_size - at) / to;
+        float t = max(min(min(ends.x, ends.y), ends.z), 0.0);
+        vec3 side = sides * vec3(lessThanEqual(ends, vec3(t)));
+        float cosine = abs(dot(to, side));
+        tank.size += t, at += t * to;
+        tank.first = i == 0 ? t : tank.first;
+        if (cosine <= 0.0 || cosine > slanted || to.y > 0.0)
+            break;
+        to -= 2.0 * to * side;
+    }
+    tank.end = (box_to_eye * vec4(at + middle, 1.0)).xyz, tank.way = mat3(box_to_eye) * to;
+    return tank;
+}
+
 // There the ray is bent again: as by a ball, which it leaves under the angle by which it came. That makes the rim of a small body: it shows
 // what is beside it, and not what is behind, and the bent ray has a longer way through it than the straight one, whose chord ends there.
 // Software drivers skip loops only.
@@ -63,12 +92,24 @@ vec3 through(inout Surface s)
     float inside = round_there * leaves_inside(s.place + s.thickness * s.view), longer = dot(inner, s.normal) / min(dot(s.view, s.normal), -1.0 / longest);
     s.thickness *= mix(1.0, clamp(longer, 1.0, longest), inside);
     vec3 end = s.place + s.thickness * inner;
+    Tank tank = tank_of(s.place, inner);
+    float filled = (walled & 5u) == 5u ? (1.0 - inside) * smoothstep(0.7, 0.95, full_share) : 0.0, mirrored = tank.size > tank.first ? filled : 0.0;
+#ifdef SOLIDS
+    float solid = met_on(s.place, tank.first * inner);
+    tank.size = solid < 1.0 ? solid * tank.first : tank.size;
+    tank.end = solid < 1.0 ? s.place + tank.size * inner : tank.end;
+    mirrored = solid < 1.0 ? 0.0 : stands_before(tank.end) ? filled : mirrored; // a solid before it is not there
+#endif
+    s.thickness = mix(s.thickness, tank.size, filled);
+    end = mix(end, tank.end, filled - mirrored);
     for (int i = 0, rounds = inside > 0.0 ? 1 : 0; i < rounds; i++) {
         vec3 outward = s.normal - 2.0 * dot(inner, s.normal) * inner, outer = refract(inner, -outward, refraction_index);
         outer = normalize(mix(inner, dot(outer, outer) > 0.0 ? outer : inner, inside));
         end += inside * way_in_box(end, outer) * outer;
     }
-    return behind_at(end, near_plane / -s.place.z, gl_FragCoord.xy) * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation));
+    vec3 seen = behind_at(end, near_plane / -s.place.z, gl_FragCoord.xy);
+    seen = mix(seen, environment(tank.end, tank.way), mirrored);
+    return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation));
 }
 #elif SHADING > 0
 vec3 through(inout Surface s) { return transmitted(s); }
@@ -100,15 +141,20 @@ vec3 shaded(Surface s)
 // which is that of the ray within the walls that is fluid: as sharp as these are.
 float thickness_in_box(vec3 ray, float depth)
 {
-    float own = thickness_here(), full = textureLod(filled_map, gl_FragCoord.xy * pixel_size, 0.0).x;
+    float own = thickness_here(), full = textureLod(filled_map, gl_FragCoord.xy * pixel_size, 0.0).x, share = min(own / max(full, 1e-30), 1.0);
     Within box = within_box_of(ray, bvec3(true));
     float end = box.leave, enter = max(box.enter, near_plane);
 #ifdef SOLIDS
     end = min(end, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30));
+    // Texels of these coarse maps which a solid hides know nothing of the fluid beside it.
+    vec4 shares = textureGather(thickness_map, gl_FragCoord.xy * pixel_size) / max(textureGather(filled_map, gl_FragCoord.xy * pixel_size), 1e-30);
+    share = min(max(max(shares.x, shares.y), max(shares.z, shares.w)), 1.0);
 #endif
     if (end <= enter)
         return own;
-    return min((end - enter) * min(own / max(full, 1e-30), 1.0), max(end - depth, 0.0)) * length(ray);
+    float way = min((end - enter) * share, max(end - depth, 0.0));
+    full_share = way / max(end - depth, 1e-30);
+    return way * length(ray);
 }
 #endif
 

@@ -35,14 +35,10 @@ vec3 side_met(Ray ray)
     return mat3(box_to_eye) * axis;
 }
 
-// The sides of a tank in air mirror rays that come to them from within at a slant: what one sees in a side through the top or through
-// the next side is the tank's floor, and water is as deep at its edges as elsewhere. The floor, on which the tank stands, mirrors
-// nothing. All rays that came in through a flat top or the next side are mirrored, as by an index of refraction above the square root of
-// 2; water lets out those that come in within some 30 degrees of the surface, and ends in a fog there. Goes on to where the ray leaves;
-// the wall there, as side_met.
+// Goes on, by sides that mirror, to where the ray leaves; the wall there, as side_met.
 vec3 through_mirrors(inout Ray ray, inout float t, inout float end, inout float thickness)
 {
-    float inverse = 1.0 / refraction_index, slanted = max(inverse, sqrt(max(1.0 - inverse * inverse, 0.0)));
+    float slanted = mirrored_cosine();
     vec3 side = side_met(ray);
     for (int i = 0; i < 3; i++) {
         float cosine = dot(ray.to, side);
@@ -60,10 +56,7 @@ vec3 behind_or_sky(vec3 leave, vec3 on)
 {
     float way = min(0.3 * max(box_size.x, box_size.y), way_in_box(leave, on));
     vec3 place = leave + way * on;
-    vec2 at = clamp(0.5 + 0.5 * ndc_of_eye(place), 0.0, 1.0);
-    vec4 around = textureGather(behind_depth, at);
-    float nearest = max(max(around.x, around.y), max(around.z, around.w));
-    return nearest > near_plane / max(-leave.z, near_plane) ? environment(leave, on) : behind_at(place, 1e30, gl_FragCoord.xy);
+    return stands_before(place) ? environment(leave, on) : behind_at(place, 1e30, gl_FragCoord.xy);
 }
 #endif
 

@@ -1,5 +1,6 @@
 /* A tank of clear fluid at rest in the view splat: its sides are the walls of the box, its top the level, and
    light is absorbed along the way between. */
+#include "tests/render/still_water.h"
 #include "tests/splat/splat_fixture.h"
 
 enum { SIDE = 160 };
@@ -126,40 +127,65 @@ static void lay_grey(const Target *target)
     glTextureSubImage2D(target->color, 0, 0, 0, SIDE, SIDE, GL_RGBA, GL_UNSIGNED_BYTE, grey);
 }
 
-/* How much fluid a pixel's colour stands for, m, by its red. */
-static double thickness_seen(const uint8_t *rgba)
+/* What comes through the water alone, over grey. */
+static uint8_t *seen_through(SplatScene *scene, double attenuation)
 {
-    return 0.4 * log(linear_of(rgba[0]) / linear_of(230)) / log((double)COLOUR[0]);
-}
-
-/* From the pane to the wall behind, within 2 %, also beside other walls and edges, where the field is less.
-   Nowhere more than that. */
-static void absorption_ends_at_the_walls(void **state)
-{
-    (void)state;
-    int compared = 0;
-    SplatScene scene = tank();
-    SplatDrawing drawing = splat_open(&scene, lay_grey, true);
     uint8_t *rgba = calloc(4, SIDE * SIDE);
     assert_non_null(rgba);
+    splat_def(&scene->def)->attenuation = attenuation;
+    SplatDrawing drawing = splat_open(scene, lay_grey, true);
     glGetTextureImage(drawing.target.color, 0, GL_RGBA, GL_UNSIGNED_BYTE, 4 * SIDE * SIDE, rgba);
+    splat_close(&drawing);
+    return rgba;
+}
+
+/* How much fluid a pixel's green stands for, m, beside that of a fluid that takes nothing. */
+static double thickness_seen(const uint8_t *rgba, const uint8_t *clear)
+{
+    return 0.4 * log(linear_of(rgba[1]) / linear_of(clear[1])) / log((double)COLOUR[1]);
+}
+
+/* The pixel's way in the tank. `sides`: how many mirrored it; -1 where it enters next to an edge, which
+ * ellipsoids round. */
+static double wanted_way(const Through *sight, int *sides)
+{
+    static const double low[] = {-0.5, 0, -0.25}, high[] = {0.5, 0.5, 0.25}, near = 1.5;
+    const double length = sqrt(dot3(sight->way, sight->way)), top = (LEVEL - sight->from[1]) / sight->way[1];
+    const double enter = fmax(top, sight->enter);
+    double at[3], to[3];
+    int close = 0;
+    for (int k = 0; k < 3; k++) {
+        at[k] = sight->from[k] + enter * sight->way[k], to[k] = sight->way[k] / length;
+        close += fmin(at[k] - low[k], high[k] - at[k]) < near * SPACING;
+    }
+    const double way = way_in_water(low, high, at, to, sides);
+    *sides = close > 1 ? -1 : *sides;
+    return way;
+}
+
+/* Water is as deep at the edges of a tank as elsewhere, since its sides mirror what comes from within. */
+static void sides_mirror_from_within(void **state)
+{
+    (void)state;
+    int compared = 0, mirrored = 0;
+    double worst = 0;
+    SplatScene scene = tank();
+    uint8_t *clear = seen_through(&scene, 1e6), *blue = seen_through(&scene, 0.4);
     for (int i = 0; i < SIDE * SIDE; i++) {
         const Through sight = sight_of(&scene, i % SIDE, i / SIDE);
-        const double way = way_of(&sight);
-        if (way > 0 && thickness_seen(&rgba[4 * i]) > 1.02 * way + 0.1 * SPACING)
-            fail_msg("pixel %d %d: %g spacings of fluid, of %g in the box", i % SIDE, i / SIDE,
-                     thickness_seen(&rgba[4 * i]) / SPACING, way / SPACING);
-        if (way < 1.5 * SPACING || height_at(&sight, sight.enter) > LEVEL - 2 * SPACING)
+        int sides;
+        if (way_of(&sight) < 1.5 * SPACING || height_at(&sight, sight.leave) > LEVEL - SPACING)
             continue;
-        compared++;
-        if (fabs(thickness_seen(&rgba[4 * i]) - way) >
-            0.02 * way + (snaps() ? 0.06 : 0.03) * SPACING) /* sums of halves there */
-            fail_msg("pixel %d %d: %g spacings of fluid, not %g", i % SIDE, i / SIDE,
-                     thickness_seen(&rgba[4 * i]) / SPACING, way / SPACING);
+        const double way = wanted_way(&sight, &sides), seen = thickness_seen(&blue[4 * i], &clear[4 * i]);
+        if (sides < 0)
+            continue;
+        compared++, mirrored += sides > 0;
+        worst = fmax(worst, fabs(seen - way) / (way + SPACING));
     }
-    assert_true(compared > 1500);
-    free(rgba);
-    splat_close(&drawing);
+    printf("%d of %d pixels by sides, the worst %.3f of the way off\n", mirrored, compared, worst);
+    assert_true(compared > 1500 && mirrored > 500 && worst < 0.05);
+    free(clear);
+    free(blue);
     free(scene.particles);
 }
 
@@ -239,7 +265,7 @@ int main(void)
         cmocka_unit_test_teardown(the_surface_is_the_walls_and_the_level, no_gl_errors),
         cmocka_unit_test_teardown(a_drop_behind_is_seen_through, no_gl_errors),
         cmocka_unit_test_teardown(edges_behind_are_seen_through, no_gl_errors),
-        cmocka_unit_test_teardown(absorption_ends_at_the_walls, no_gl_errors),
+        cmocka_unit_test_teardown(sides_mirror_from_within, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

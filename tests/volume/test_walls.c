@@ -1,6 +1,7 @@
 /* Fluid at the walls of the box, and drops: the surface that the view volume draws, by the depth of each
    pixel, against flat sides and balls. */
 #include "tests/render/fixture.h"
+#include "tests/render/still_water.h"
 
 #include "render/frame/camera.h"
 #include "render/volume/volume_def.h"
@@ -259,38 +260,6 @@ static void a_flat_top_mirrors_evenly(void **state)
     free(scene.particles);
 }
 
-/* The way in still water, 0.5 m high, of what is seen in a direction (unit) from a place on its top or a
-   side: bent by Snell's law, and mirrored by sides that it meets at less than arcsin(1 / 1.333) to their
-   plane. `sides`: how many mirrored it. */
-static double way_in_water(const double entry[3], const double to[3], int *sides)
-{
-    static const double low[] = {-1, 0, -0.5}, high[] = {1, 0.5, 0.5};
-    const double ior = 1.333;
-    double at[3], way[3], square = 0, total = 0;
-    int in = 1;
-    memcpy(at, entry, sizeof at);
-    for (int k = 0; k < 3; k++)
-        in = fmin(at[k] - low[k], high[k] - at[k]) < fmin(at[in] - low[in], high[in] - at[in]) ? k : in;
-    for (int k = 0; k < 3; k++)
-        square += k == in ? 0 : to[k] * to[k] / (ior * ior), way[k] = to[k] / ior;
-    way[in] = copysign(sqrt(1 - square), to[in]);
-    for (*sides = 0;; (*sides)++) {
-        int out = 0;
-        double t = INFINITY;
-        for (int k = 0; k < 3; k++) {
-            const double end = ((way[k] > 0 ? high[k] : low[k]) - at[k]) / way[k];
-            if (end < t)
-                t = end, out = k;
-        }
-        total += t;
-        for (int k = 0; k < 3; k++)
-            at[k] += t * way[k];
-        if (out == 1 || fabs(way[out]) > 1 / ior)
-            return total;
-        way[out] = -way[out];
-    }
-}
-
 /* Without light: what comes through the water alone. */
 static uint8_t *seen_through(Scene3 *scene, double attenuation)
 {
@@ -340,7 +309,8 @@ static void sides_mirror_from_within(void **state)
         if ((fabs(at[0]) > 0.9) + (fabs(at[2]) > 0.4) + (at[1] > 0.4) > 1)
             continue;
         int sides;
-        const double way = way_in_water(at, to, &sides), share = linear(blue[pixel]) / linear(clear[pixel]);
+        const double way = way_in_water((double[]){-1, 0, -0.5}, (double[]){1, 0.5, 0.5}, at, to, &sides),
+                     share = linear(blue[pixel]) / linear(clear[pixel]);
         const double found = 1.5 * log(share) / log((double)scene.world.fluids[0].color[1]);
         count++, mirrored += sides > 0, wrong += fabs(found - way) > 0.03 * way + 0.02;
     }
