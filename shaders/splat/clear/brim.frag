@@ -11,6 +11,11 @@ layout(location = 0) out float cut;
 const int TAPS = 12;
 const float reach = 0.6; // spacings
 
+bool is_none(ivec2 pixel)
+{
+    return texelFetch(cut_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x >= 1e29;
+}
+
 bool is_pane(ivec2 pixel)
 {
     return texelFetch(cut_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x < 0.0;
@@ -36,5 +41,19 @@ void main()
     for (int i = 0; i < rounds; i++) {
         float enter = within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).enter;
         cut = !pane ? max(texelFetch(own_map, pixel, 0).x, enter) : enter > near_plane ? -enter : z;
+    }
+    // The far end of the top, at the wall behind: its bumps are cut down nearly to the line between them.
+    bool end = !own && z < 1e29 && (is_none(pixel + ivec2(0, away)) || is_none(pixel + ivec2(away, 0)) || is_none(pixel - ivec2(away, 0)));
+    rounds = end ? 2 * TAPS : 0;
+    int fluid = 1;
+    for (int i = 0; i < rounds; i++) {
+        float angle = 2.39996 * float(i), far = sqrt((float(i) + 1.0) / float(2 * TAPS)) * 1.2 * float(away);
+        fluid += int(!is_none(pixel + ivec2(round(far * vec2(cos(angle), sin(angle))))));
+    }
+    // a little more than half
+    rounds = end && float(fluid) < 0.56 * float(2 * TAPS + 1) ? 1 : 0;
+    for (int i = 0; i < rounds; i++) {
+        vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
+        cut = (within_box(ray).leave - z) * length(ray) < 1.5 * particle_spacing ? 1e30 : cut;
     }
 }
