@@ -274,7 +274,8 @@ static void tell_times(const Render *render)
             fprintf(stderr, "%s--interpolate has no effect: in mode cfl states fall on the pictures' times\n",
                     session->prefix);
         if (render->schedule.count > 1 && !render->args->interpolate)
-            session_tell_uneven(session, "pictures", render->schedule.interval);
+            session_tell_uneven(session, "pictures", render->schedule.interval,
+                                render->schedule.interval * (render->schedule.count - 1));
     }
 }
 

@@ -70,7 +70,7 @@ static bool simulate(Session *session, const Args *args, Snapshot *file, Look *l
 {
     SnapshotSeries series = {.file = file, .every = args->every};
     if (!args->quiet) /* a file has its times in it */
-        session_tell_uneven(session, "snapshots", args->every);
+        session_tell_uneven(session, "snapshots", args->every, args->time);
     if (snapshot_steps(file) > 0)
         snapshot_series_resume(&series, session);
     for (;;) {

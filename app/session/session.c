@@ -94,14 +94,30 @@ bool session_reached(const Session *session, double time)
     return session->info.time >= time - ROUNDING * session->scene.world.dt && world_sound(session->world);
 }
 
-void session_tell_uneven(const Session *session, const char *what, double interval)
+/* A scene says 0.0166667 where 1/60 is meant. Of frames that are longer than they should be the right ones
+   are on time until they are late by a whole one; of shorter ones the first is early, and the next is taken.
+ */
+static bool falls_out(double interval, double dt, double frames, double span)
+{
+    const double early = span / interval * (interval / dt - frames); /* of the last, frames */
+    return early > ROUNDING || early < ROUNDING - 1;
+}
+
+/* Up to six digits, no less than the value. */
+static double rounded_up(double value)
+{
+    const double unit = pow(10, floor(log10(value)) - 5);
+    return ceil(value / unit * (1 - 1e-12)) * unit;
+}
+
+void session_tell_uneven(const Session *session, const char *what, double interval, double span)
 {
     const double dt = session->scene.world.dt, frames = fmax(1, round(interval / dt));
-    if (session->scene.world.step_mode == STEP_FIXED && fabs(interval / dt - frames) > ROUNDING * frames)
+    if (session->scene.world.step_mode == STEP_FIXED && falls_out(interval, dt, frames, span))
         fprintf(stderr,
                 "%s%s are at uneven times: a frame of %.4g s does not divide the %.4g s between them; "
                 "--set solver.step.dt=%.6g, --set solver.step.mode=cfl%s makes them even\n",
-                session->prefix, what, dt, interval, interval / frames,
+                session->prefix, what, dt, interval, rounded_up(interval / frames),
                 strcmp(what, "pictures") == 0 ? " or --interpolate" : "");
 }
 

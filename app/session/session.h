@@ -63,9 +63,9 @@ bool session_reached(const Session *session, double time);
 bool session_step(Session *session, Error *error);
 bool session_substep(Session *session, Error *error); /* one step of a frame */
 
-/* Says on standard error where `what`, one each `interval` s, will be at uneven times: mode fixed, and a
-   frame that does not divide the interval. */
-void session_tell_uneven(const Session *session, const char *what, double interval);
+/* Says on standard error where `what`, one each `interval` s for `span` s, will be at uneven times: mode
+   fixed, and a frame that does not divide the interval, by so much that it shows in that time. */
+void session_tell_uneven(const Session *session, const char *what, double interval, double span);
 
 /* Whether there is trouble that was not told yet; it is then. */
 bool session_trouble_is_new(TroubleTold *told, const WorldTrouble *trouble);

@@ -40,6 +40,14 @@ class Steps(CommandTest):
         self.assertIn('snapshots are at uneven times: a frame of 0.02 s does not divide the 0.03 s', said)
         self.assertNotIn('uneven', self.go('--set', 'solver.step.dt=0.015', '--every', '0.03'))
 
+    def test_a_frame_of_six_digits_divides_what_it_is_meant_to(self):
+        said = self.go('--set', 'solver.step.dt=0.0016667', '--every', '0.005')
+        self.assertNotIn('uneven', said)
+        for k, time in enumerate(whole_steps(self.path('a.h5part'))[:-1]):
+            self.assertAlmostEqual(time, 3 * k * 0.0016667, delta=1e-9)
+        said = self.go('--set', 'solver.step.dt=0.0013333', '--every', '0.004')  # the third ends before the time
+        self.assertIn('--set solver.step.dt=0.00133334,', said)
+
     def render(self, folder, *more):
         done, said = self.slosh('render', 'scene.yaml', '-o', folder, '--frames', '4', '--fps', '75', '--size', '64x64',
                                 '--set', 'solver.step={dt: 0.02, substeps: 8}', '--set', 'gravity=[0, -30, 0]', *more)
