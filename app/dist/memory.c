@@ -13,7 +13,7 @@
 
 /* Bytes, measured: of a particle its columns, lists and what goes back to, of the method that has most; of it
    while the initial state is made, whole on each rank; of a cell; of the program with MPI. */
-static const double A_PARTICLE = 490, AT_THE_START = 25, A_CELL = 33, PROGRAM = 60e6;
+static const double A_PARTICLE = 525, AT_THE_START = 25, A_CELL = 33, PROGRAM = 60e6;
 
 /* Ghosts of a rank: FACE n^(2/3) for each face towards others, of which a part in the middle of a pool has
    FACES; and room for movers (sim/dist). */

@@ -36,7 +36,7 @@ struct Snapshot {
     SnapshotStep buffer; /* of the last world, arrays of `capacity` particles */
     size_t capacity;
     float *position, *velocity; /* 4 a particle, as world_read gives them */
-    uint32_t *fluid, *id;
+    uint32_t *fluid;
 };
 
 hid_t snapshot_access(void)
@@ -189,9 +189,8 @@ static void free_buffers(Snapshot *snapshot)
     free(snapshot->position);
     free(snapshot->velocity);
     free(snapshot->fluid);
-    free(snapshot->id);
     snapshot->position = snapshot->velocity = NULL;
-    snapshot->fluid = snapshot->id = NULL;
+    snapshot->fluid = NULL;
     snapshot->capacity = 0;
 }
 
@@ -353,8 +352,7 @@ static bool grow_buffers(Snapshot *snapshot, size_t count, Error *error)
     snapshot->position = malloc(4 * count * sizeof(float));
     snapshot->velocity = malloc(4 * count * sizeof(float));
     snapshot->fluid = malloc(count * sizeof(uint32_t));
-    snapshot->id = malloc(count * sizeof(uint32_t));
-    if (!snapshot->position || !snapshot->velocity || !snapshot->fluid || !snapshot->id ||
+    if (!snapshot->position || !snapshot->velocity || !snapshot->fluid ||
         !snapshot_step_allocate(&snapshot->buffer, count) ||
         !snapshot_step_own(&snapshot->buffer, &snapshot->saved) ||
         (snapshot->emits && !snapshot_step_born(&snapshot->buffer))) {
@@ -382,7 +380,7 @@ static bool read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
                    [SCALAR_COMPRESSION] = step->compression,
                    [SCALAR_BORN] = step->born},
         .fluid = snapshot->fluid,
-        .id = snapshot->id,
+        .whole_id = (ParticleId *)step->id, /* less than 2^63 */
     };
     for (int k = 0; k < step->own_count; k++)
         arrays.own[step->own[k].place] = step->own[k].values;
@@ -393,7 +391,6 @@ static bool read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
             step->velocity[axis][i] = snapshot->velocity[4 * i + axis];
         }
         step->fluid[i] = (int32_t)snapshot->fluid[i];
-        step->id[i] = snapshot->id[i];
     }
     return read;
 }

@@ -139,7 +139,7 @@ static bool state_of(const SnapshotStep *step, const WorldDef *def, WorldState *
         memcpy(p->own[step->own[k].place], step->own[k].values, step->count * sizeof(float));
     for (size_t i = 0; i < step->count; i++) {
         p->fluid[i] = (uint8_t)step->fluid[i];
-        p->id[i] = (uint32_t)step->id[i];
+        p->id[i] = (ParticleId)step->id[i];
     }
     return !step->born || births_gather(&state->births, p->id, step->born, step->count);
 }

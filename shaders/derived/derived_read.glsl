@@ -30,7 +30,7 @@ float carried_of(uint i) { return 0.0; }
 
 #ifdef BIRTHS // the births of sim/base/births.h, found by the id
 layout(std430, binding = IDS_STORAGE) readonly buffer Ids { uint id_words[]; };
-layout(std430, binding = BIRTHS_STORAGE) readonly buffer Births { uvec2 births[]; }; // first id, time
+layout(std430, binding = BIRTHS_STORAGE) readonly buffer Births { uvec4 births[]; }; // first id, its upper half, time
 layout(location = BIRTHS_COUNT_AT) uniform uint births_count;
 float born_of(uint i)
 {
@@ -42,6 +42,6 @@ float born_of(uint i)
         else
             high = middle;
     }
-    return low > 0u ? uintBitsToFloat(births[low - 1u].y) : 0.0;
+    return low > 0u ? uintBitsToFloat(births[low - 1u].z) : 0.0;
 }
 #endif

@@ -22,9 +22,9 @@ bool births_reserve(Births *births, size_t more)
     return count <= births->room || make_room(births, count + count / 2 + 16);
 }
 
-void births_add(Births *births, uint32_t first_id, float time)
+void births_add(Births *births, ParticleId first_id, float time)
 {
-    births->of[births->count++] = (Birth){first_id, time};
+    births->of[births->count++] = (Birth){first_id, time, 0};
 }
 
 void births_cut(Births *births, uint64_t end)
@@ -45,7 +45,7 @@ bool births_copy(const Births *from, Births *to)
 
 static int by_id(const void *a, const void *b)
 {
-    const uint32_t one = ((const Birth *)a)->first_id, other = ((const Birth *)b)->first_id;
+    const ParticleId one = ((const Birth *)a)->first_id, other = ((const Birth *)b)->first_id;
     return (one > other) - (one < other);
 }
 
@@ -55,14 +55,14 @@ static bool is_same(float time, float other)
     return time == other || (isnan(time) && isnan(other));
 }
 
-bool births_gather(Births *births, const uint32_t *id, const float *time, size_t count)
+bool births_gather(Births *births, const ParticleId *id, const float *time, size_t count)
 {
     births->count = 0;
     if (!make_room(births, count))
         return false;
     Birth *of = births->of;
     for (size_t i = 0; i < count; i++)
-        of[i] = (Birth){id[i], time[i]};
+        of[i] = (Birth){id[i], time[i], 0};
     if (count > 0)
         qsort(of, count, sizeof *of, by_id);
     for (size_t i = 0; i < count; i++)
@@ -72,7 +72,7 @@ bool births_gather(Births *births, const uint32_t *id, const float *time, size_t
 }
 
 /* How many begin at the id or before. */
-static size_t begun(const Births *births, uint32_t id)
+static size_t begun(const Births *births, ParticleId id)
 {
     size_t low = 0, high = births->count;
     while (low < high) {
@@ -85,13 +85,13 @@ static size_t begun(const Births *births, uint32_t id)
     return low;
 }
 
-float births_time(const Births *births, uint32_t id)
+float births_time(const Births *births, ParticleId id)
 {
     const size_t at = begun(births, id);
     return at > 0 ? births->of[at - 1].time : 0;
 }
 
-void births_keep(Births *births, const uint32_t *id, size_t count)
+void births_keep(Births *births, const ParticleId *id, size_t count)
 {
     bool *left = calloc(births->count + 1, sizeof *left);
     size_t kept = 0;

@@ -79,7 +79,7 @@ void cpu_boundary_append(Cpu *cpu)
     const Boundary *boundary = &cpu->constants->boundary;
     for (size_t b = 0; b < boundary->count; b++) {
         const size_t i = cpu->owned + b;
-        cpu->now.id[i] = BOUNDARY_ID + (uint32_t)b;
+        cpu->now.id[i] = BOUNDARY_ID + b;
         cpu->now.fluid[i] = (uint8_t)(FLUIDS_MAX + boundary->solid[b]);
         cpu->boundary_at[b] = (uint32_t)i;
     }

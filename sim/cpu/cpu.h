@@ -47,7 +47,7 @@ typedef struct Cpu {
 
 /* Boundary particles stand among the others, with FLUIDS_MAX + their solid for a fluid and ids from here on.
  */
-#define BOUNDARY_ID 0x80000000U
+#define BOUNDARY_ID (UINT64_C(1) << 63)
 
 /* Of a boundary particle that is set aside: x, m. Its square is finite, since lanes past a row's end read it.
  */

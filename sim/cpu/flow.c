@@ -45,7 +45,7 @@ void cpu_append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t numbe
     columns_clear(&cpu->sorted, p, i);
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     p->vx[i] = layer->velocity[0], p->vy[i] = layer->velocity[1], p->vz[i] = layer->velocity[2];
-    p->id[i] = layer->first_id + (uint32_t)number;
+    p->id[i] = layer->first_id + number;
     p->fluid[i] = (uint8_t)layer->fluid;
     if (cpu->ghost)
         cpu->ghost[i] = 0;

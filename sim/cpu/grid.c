@@ -83,7 +83,7 @@ static void place_particles(void *state, size_t begin, size_t end)
 }
 
 /* Insertion: a cell holds some ten particles, mostly in order. */
-static void sort_by_id(uint32_t *order, size_t count, const uint32_t *id)
+static void sort_by_id(uint32_t *order, size_t count, const ParticleId *id)
 {
     for (size_t i = 1; i < count; i++) {
         const uint32_t moved = order[i];

@@ -17,7 +17,7 @@ typedef struct PairArgs {
     const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
     const uint32_t *cell;       /* of each particle */
     const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, which have no lists; NULL */
-    const uint32_t *id;
+    const ParticleId *id;
     const uint8_t *fluid;
     const float *x, *y, *z, *vx, *vy, *vz; /* m, m/s */
     const float (*place)[4];               /* of each {x, y, z, p V^2}, and behind the last {PAST, ...} */

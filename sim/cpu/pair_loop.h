@@ -16,11 +16,16 @@
     PairLoop PAIR_NAME(name);                                                                                \
     void PAIR_NAME(name)(const PairArgs *args, size_t begin, size_t end)
 
+static uint32_t folded_id(ParticleId id)
+{
+    return (uint32_t)(id ^ id >> 32);
+}
+
 /* A direction that only the two ids decide, opposite for (a, b) and (b, a); of two dimensions in the plane.
  */
-static void direction_of_ids(uint32_t a, uint32_t b, int dimensions, float out[3])
+static void direction_of_ids(ParticleId a, ParticleId b, int dimensions, float out[3])
 {
-    const uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    const uint32_t low = folded_id(a < b ? a : b), high = folded_id(a < b ? b : a);
     uint32_t hash = low * 0x9e3779b1u ^ (high * 0x85ebca77u + 0x165667b1u);
     float length2 = 0;
     for (int k = 0; k < dimensions; k++) {

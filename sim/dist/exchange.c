@@ -8,7 +8,9 @@ enum { TAG_PARTICLES = 4711, TAG_GHOSTS, TAG_VALUES };
 /* Of a ghost, before the grid. */
 typedef struct Ghost {
     float x[3];
-    uint32_t id, fluid, cell;
+    uint32_t fluid;
+    ParticleId id;
+    uint32_t cell;
 } Ghost;
 
 /* Cells are known of those that are there. */
@@ -155,7 +157,7 @@ static void send_ghosts(Dist *dist, Cpu *cpu)
     for (size_t n = 0; n < shown; n++) {
         const uint32_t i = cpu->rank[n];
         const Seen *seen = who_sees(dist, cpu, i);
-        const Ghost ghost = {{p->x[i], p->y[i], p->z[i]}, p->id[i], p->fluid[i], cpu->spare_cell[i]};
+        const Ghost ghost = {{p->x[i], p->y[i], p->z[i]}, p->fluid[i], p->id[i], cpu->spare_cell[i]};
         for (uint32_t k = 0; k < seen->count; k++, count++) {
             dist->to[count] = dist->seen[seen->first + k];
             dist->send_at[count] = i;

@@ -25,6 +25,8 @@ static uint32_t word_of(const void *array, ColumnType here, ColumnType there, si
     uint32_t word;
     if (here == COLUMN_BYTE)
         word = ((const uint8_t *)array)[i];
+    else if (here == COLUMN_INDEX)
+        word = (uint32_t)((const ParticleId *)array)[i]; /* before PARTICLE_IDS_GPU */
     else
         memcpy(&word, (const char *)array + 4 * i, sizeof word);
     if (here != COLUMN_FLOAT && there == COLUMN_FLOAT) {
@@ -43,6 +45,8 @@ static void put_word(uint32_t word, ColumnType there, ColumnType here, void *arr
     }
     if (here == COLUMN_BYTE)
         ((uint8_t *)array)[i] = (uint8_t)word;
+    else if (here == COLUMN_INDEX)
+        ((ParticleId *)array)[i] = word;
     else
         memcpy((char *)array + 4 * i, &word, sizeof word);
 }
@@ -73,7 +77,7 @@ static int parts_of(const Packing *packing, int buffer, const Method *method, Pa
 }
 
 void packing_pack(const Packing *packing, int buffer, const Method *method, const ParticleColumns *from,
-                  size_t count, const uint32_t *place, uint32_t *entries)
+                  size_t count, const ParticleId *place, uint32_t *entries)
 {
     PackedPart part[PACKED_WORDS];
     const size_t words = (size_t)packing->words[buffer];

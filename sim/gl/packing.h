@@ -28,7 +28,7 @@ ColumnRows packing_rows(const Packing *packing, const Method *method);
 /* Fills the entries of a buffer with the columns that it has, and the other way round: particle i is entry i,
    or place[i]. Columns that are NULL are left out. */
 void packing_pack(const Packing *packing, int buffer, const Method *method, const ParticleColumns *from,
-                  size_t count, const uint32_t *place, uint32_t *entries);
+                  size_t count, const ParticleId *place, uint32_t *entries);
 void packing_unpack(const Packing *packing, int buffer, const Method *method, const uint32_t *entries,
                     size_t count, const ParticleColumns *to);
 

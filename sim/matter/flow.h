@@ -3,6 +3,7 @@
 #define SLOSH_FLOW_H
 
 #include "sim/base/error.h"
+#include "sim/base/particle_id.h"
 #include "sim/box/periodic.h"
 #include "sim/matter/world_def.h"
 
@@ -12,7 +13,7 @@ typedef struct EmitLayer {
     float *position; /* 3 a particle, box's frame, m */
     float velocity[3];
     int fluid;
-    uint32_t first_id; /* particles that find room have ids from here on, in the order given */
+    ParticleId first_id; /* particles that find room have ids from here on, in the order given */
 } EmitLayer;
 
 /* Layers that the emitter sends out in [begin, end) s: the first of them and how many. */

@@ -50,7 +50,7 @@ static void *array_of(const ParticleColumns *columns, const ColumnDef *column, i
 size_t column_size(const ColumnDef *column)
 {
     static const size_t sizes[] = {
-        [COLUMN_FLOAT] = sizeof(float), [COLUMN_INDEX] = sizeof(uint32_t), [COLUMN_BYTE] = 1};
+        [COLUMN_FLOAT] = sizeof(float), [COLUMN_INDEX] = sizeof(ParticleId), [COLUMN_BYTE] = 1};
     return sizes[column->type];
 }
 
@@ -95,7 +95,7 @@ static void gather(const ColumnDef *column, const void *from, void *to, const ui
             ((uint8_t *)to)[k] = ((const uint8_t *)from)[place[k]];
     else if (column->type == COLUMN_INDEX)
         for (size_t k = begin; k < end; k++)
-            ((uint32_t *)to)[k] = ((const uint32_t *)from)[place[k]];
+            ((ParticleId *)to)[k] = ((const ParticleId *)from)[place[k]];
     else
         for (size_t k = begin; k < end; k++)
             ((float *)to)[k] = ((const float *)from)[place[k]];

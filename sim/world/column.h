@@ -4,6 +4,7 @@
 #ifndef SLOSH_COLUMN_H
 #define SLOSH_COLUMN_H
 
+#include "sim/base/particle_id.h"
 #include "sim/base/scalar.h"
 
 #include <stdbool.h>
@@ -18,9 +19,9 @@ enum { COLUMNS_KEPT = 25, COLUMNS_LEFT = 28, COLUMNS_SHOWN = 31 }; /* of Particl
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {
-    float *x, *y, *z;     /* box's frame, m */
-    float *vx, *vy, *vz;  /* box's frame, m/s */
-    uint32_t *id;         /* place in the initial state */
+    float *x, *y, *z;    /* box's frame, m */
+    float *vx, *vy, *vz; /* box's frame, m/s */
+    ParticleId *id;
     uint8_t *fluid;       /* index into WorldDef.fluids */
     float *compression;   /* rho / rho0 - 1, of a method whose particles carry their density: rho itself, in
                              single precision, would lose what a slow flow adds in a step */
@@ -103,7 +104,7 @@ uint32_t columns_scalars(const struct WorldDef *def);
 /* The array of a component; free, save and copy go through it. */
 void **column_array(ParticleColumns *columns, const ColumnDef *column, int component);
 
-size_t column_size(const ColumnDef *column); /* of an entry, bytes */
+size_t column_size(const ColumnDef *column); /* of an entry, bytes; of an index that of an id */
 
 /* Arrays for `count` particles where there are none: zeroed, aligned to a cache line, readable for
    COLUMN_PAST entries past the end. Adds to *bytes (may be NULL). False when memory is short. */

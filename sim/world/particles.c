@@ -21,7 +21,7 @@ void particles_set(const ParticleColumns *to, const Constants *constants, const 
         to->x[i] = initial->position[3 * i];
         to->y[i] = initial->position[3 * i + 1];
         to->z[i] = initial->position[3 * i + 2];
-        to->id[i] = (uint32_t)i;
+        to->id[i] = i;
         to->fluid[i] = initial->fluid ? initial->fluid[i] : 0;
         if (to->compression && initial->density)
             to->compression[i] = (float)(initial->density[i] / (double)constants->density[to->fluid[i]] - 1);
@@ -85,7 +85,9 @@ void particles_read(const ParticleColumns *p, const Constants *constants, const 
         if (out->fluid)
             out->fluid[k] = p->fluid[i];
         if (out->id)
-            out->id[k] = p->id[i];
+            out->id[k] = (uint32_t)p->id[i];
+        if (out->whole_id)
+            out->whole_id[k] = p->id[i];
     }
     for (int s = 0; s < SCALAR_OWN; s++)
         for (size_t k = begin; out->scalar[s] && k < end; k++)

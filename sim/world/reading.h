@@ -112,7 +112,8 @@ typedef struct ParticleArrays {
     float *velocity; /* 4 a particle: x y z (box frame, m/s), 0 */
     float *scalar[SCALAR_STATE_COUNT]; /* 1 a particle; NaN: a column that the state has not */
     uint32_t *fluid;                   /* index into WorldDef.fluids */
-    uint32_t *id;                      /* place in the initial state */
+    ParticleId *whole_id;              /* who it is */
+    uint32_t *id;                      /* the last 32 bits of it, for views */
     float *own[COLUMNS_OWN]; /* 1 a particle: the method's own columns; on a GPU those that are kept */
 } ParticleArrays;
 

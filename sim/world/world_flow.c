@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const uint64_t IDS = 0x7fffffff;
 enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to look through: ids are read back from a GPU */
 
 /* Along gravity as the box feels it; without gravity, down in the box. */
@@ -48,16 +47,13 @@ static void let_in(World *world, int fluid, const Emit *emit, double begin, doub
     const long layers = emit_layers(emit, def->spacing, begin, end, &first);
     for (long k = first; k < first + layers; k++) {
         const uint64_t born = world->initial + world->emitted;
-        EmitLayer layer = {.position = world->layer, .fluid = fluid, .first_id = (uint32_t)born};
+        EmitLayer layer = {.position = world->layer, .fluid = fluid, .first_id = born};
         if (k == first)
             world->backend->grid(world->state); /* who is where now */
         emit_place(emit, def->dimensions, def->spacing, k, end, &layer);
         for (size_t i = 0; i < layer.count; i++)
             periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
-        size_t most = world->capacity - world->count;
-        if (born + layer.count > IDS)
-            most = 0;
-        const size_t more = world->backend->emit(world->state, &layer, most);
+        const size_t more = world->backend->emit(world->state, &layer, world->capacity - world->count);
         if (more > 0)
             births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
         world->emitted += more;
@@ -116,11 +112,24 @@ uint64_t world_gates_shut(const World *world)
     return world->shut;
 }
 
+bool world_names(const World *world, uint64_t born, Error *error)
+{
+    const uint64_t most = world->backend->gpu ? PARTICLE_IDS_GPU : PARTICLE_IDS;
+    if (born < most)
+        return true;
+    error_set(error, "backend %s tells 2^%d particles apart, and %llu have come; %s", world->backend->name,
+              world->backend->gpu ? 31 : 53, (unsigned long long)born,
+              world->backend->gpu ? "go on with backend cpu" : "begin anew");
+    return false;
+}
+
 bool world_flow(World *world, Error *error)
 {
     const WorldDef *def = &world->def;
     const double begin = world_time_at(world, (double)world->step);
     const double end = world_time_at(world, (double)world->step + 1);
+    if (world->emitted > 0 && !world_names(world, world->initial + world->emitted, error))
+        return false;
     if (!reserve(world, begin, end))
         return error_set(error, "no memory for the particles that come");
     for (int f = 0; f < def->fluid_count; f++)
@@ -144,8 +153,9 @@ bool world_flow(World *world, Error *error)
 void world_thin_births(World *world)
 {
     Births *births = &world->births;
-    uint32_t *id = births->count > BIRTHS_FEW ? malloc((world->count + 1) * sizeof *id) : NULL;
-    if (id && world_read(world, &(ParticleArrays){.id = id}))
+    const bool all_here = !world->backend->held; /* a rank would forget those of the others */
+    ParticleId *id = all_here && births->count > BIRTHS_FEW ? malloc((world->count + 1) * sizeof *id) : NULL;
+    if (id && world_read(world, &(ParticleArrays){.whole_id = id}))
         births_keep(births, id, world->count);
     free(id);
     world->births_most = 2 * births->count > BIRTHS_FEW ? 2 * births->count : BIRTHS_FEW;

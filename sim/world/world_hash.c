@@ -4,9 +4,14 @@
 
 #include <stdlib.h>
 
+typedef struct Who {
+    ParticleId id;
+    size_t place;
+} Who;
+
 static int ascending(const void *a, const void *b)
 {
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    const ParticleId x = ((const Who *)a)->id, y = ((const Who *)b)->id;
     return (x > y) - (x < y);
 }
 
@@ -18,17 +23,17 @@ uint64_t world_hash(World *world)
     ParticleArrays out = {
         .position = malloc((n + 1) * 4 * sizeof(float)),
         .velocity = malloc((n + 1) * 4 * sizeof(float)),
-        .id = malloc((n + 1) * sizeof(uint32_t)),
+        .whole_id = malloc((n + 1) * sizeof(ParticleId)),
     };
-    uint64_t *order = malloc((n + 1) * sizeof *order); /* id, place */
+    Who *order = malloc((n + 1) * sizeof *order);
     uint64_t hash = 0;
-    if (out.position && out.velocity && out.id && order && world_read(world, &out)) {
+    if (out.position && out.velocity && out.whole_id && order && world_read(world, &out)) {
         for (size_t i = 0; i < n; i++)
-            order[i] = (uint64_t)out.id[i] << 32 | i;
+            order[i] = (Who){out.whole_id[i], i};
         qsort(order, n, sizeof *order, ascending);
         hash = HASH_NONE;
         for (size_t k = 0; k < n; k++) {
-            const size_t i = order[k] & 0xffffffffu;
+            const size_t i = order[k].place;
             hash = hash_add(hash, &out.position[4 * i], 3 * sizeof(float));
             hash = hash_add(hash, &out.velocity[4 * i], 3 * sizeof(float));
         }
@@ -38,7 +43,7 @@ uint64_t world_hash(World *world)
     }
     free(out.position);
     free(out.velocity);
-    free(out.id);
+    free(out.whole_id);
     free(order);
     return hash;
 }

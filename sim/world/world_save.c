@@ -104,7 +104,7 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
           numbers->stepping.dt > 0 && numbers->stepping.refine >= 1 && numbers->stepping.limit >= 0 &&
           numbers->stepping.limit < STEP_LIMIT_COUNT && live_sound(numbers->live) &&
           finger_sound(&numbers->finger) && numbers->shut >= 0 && numbers->shut < 0x1p40 &&
-          numbers->guarded >= 0 && numbers->emitted >= 0 && numbers->emitted < 0x1p31 &&
+          numbers->guarded >= 0 && numbers->emitted >= 0 && numbers->emitted < 0x1p53 &&
           numbers->drained >= 0))
         return error_set(error, "the saved state is damaged: its steps do not count");
     return true;
@@ -119,6 +119,41 @@ static bool own_finite(const ParticleColumns *p, size_t i)
     return finite;
 }
 
+static int ascending(const void *a, const void *b)
+{
+    const ParticleId one = *(const ParticleId *)a, other = *(const ParticleId *)b;
+    return (one > other) - (one < other);
+}
+
+/* Whether each of the ids is there once and before `end`; *known: false when memory is short. */
+static bool ids_differ(const ParticleId *id, size_t count, double end, bool *known)
+{
+    ParticleId *sorted = malloc((count + 1) * sizeof *sorted);
+    bool differ = *known = sorted != NULL;
+    if (sorted && count > 0)
+        memcpy(sorted, id, count * sizeof *sorted);
+    if (sorted && count > 1)
+        qsort(sorted, count, sizeof *sorted, ascending);
+    for (size_t i = 0; i + 1 < count && differ; i++)
+        differ = sorted[i] != sorted[i + 1];
+    differ = differ && (count == 0 || (double)sorted[count - 1] < end);
+    free(sorted);
+    return differ;
+}
+
+/* The same with less time where nearly all that were born are there. */
+static bool ids_are_dense(const ParticleId *id, size_t count, double end, bool *known)
+{
+    bool *seen = calloc((size_t)end + 1, sizeof *seen), differ = *known = seen != NULL;
+    for (size_t i = 0; i < count && differ; i++) {
+        differ = (double)id[i] < end && !seen[id[i]];
+        if (differ)
+            seen[id[i]] = true;
+    }
+    free(seen);
+    return differ;
+}
+
 /* Every id once, every number finite. */
 static bool particles_check(const World *world, const WorldState *state, Error *error)
 {
@@ -128,17 +163,18 @@ static bool particles_check(const World *world, const WorldState *state, Error *
         return error_set(error, "the saved state has %zu particles, the scene %zu", state->count,
                          world->count);
     const ParticleColumns *p = &state->particles;
-    bool *seen = calloc((size_t)born + 1, sizeof *seen), whole = true;
-    if (!seen)
+    if (!world_names(world, (uint64_t)born, error))
+        return false;
+    bool known;
+    bool whole = born < 8 * (double)state->count ? ids_are_dense(p->id, state->count, born, &known)
+                                                 : ids_differ(p->id, state->count, born, &known);
+    if (!known)
         return error_set(error, "no memory");
     for (size_t i = 0; i < state->count && whole; i++) {
         whole = isfinite(p->x[i] + p->y[i] + p->z[i] + p->vx[i] + p->vy[i] + p->vz[i]) && own_finite(p, i) &&
                 (!p->compression || (p->compression[i] > -1 && isfinite(p->compression[i]))) &&
-                p->id[i] < born && !seen[p->id[i]] && p->fluid[i] < world->def.fluid_count;
-        if (whole)
-            seen[p->id[i]] = true;
+                p->fluid[i] < world->def.fluid_count;
     }
-    free(seen);
     return whole || error_set(error, "the saved state is damaged: its particles are not those of the scene");
 }
 
@@ -161,7 +197,7 @@ static bool take_births(World *world, const WorldState *state, Births *births)
     if (!births_copy(&state->births, births) || !births_reserve(births, 1))
         return false;
     if (births->count == 0 && state->numbers.emitted > 0)
-        births_add(births, (uint32_t)world->initial, NAN);
+        births_add(births, world->initial, NAN);
     return true;
 }
 

@@ -503,14 +503,14 @@ static bool read_born(World *world, const ParticleArrays *out)
 {
     ParticleArrays all = *out;
     const size_t count = world->backend->held ? world->backend->held(world->state) : world->count;
-    uint32_t *id = malloc((count + 1) * sizeof *id);
-    all.id = id;
+    ParticleId *id = malloc((count + 1) * sizeof *id);
+    all.whole_id = id;
     all.scalar[SCALAR_BORN] = NULL;
     const bool read = id && world->backend->read(world->state, &all);
     for (size_t i = 0; read && i < count; i++) {
         out->scalar[SCALAR_BORN][i] = births_time(&world->births, id[i]);
-        if (out->id)
-            out->id[i] = id[i];
+        if (out->whole_id)
+            out->whole_id[i] = id[i];
     }
     free(id);
     return read;

@@ -57,6 +57,9 @@ bool world_pours(const World *world, Emit *emit, int *fluid);
    False, and nothing done, when memory is short. */
 bool world_flow(World *world, Error *error);
 
+/* Whether the backend has ids for so many particles that were ever born, or the reason. */
+bool world_names(const World *world, uint64_t born, Error *error);
+
 /* Leaves out the births of layers that are gone. Before a state to go back to is marked: that one may have
    them still. */
 void world_thin_births(World *world);

@@ -143,12 +143,13 @@ static void a_world_is_written_as_it_is(void **state)
           *velocity = calloc(4 * info.count, sizeof(float));
     float *density = calloc(info.count, sizeof(float)), *pressure = calloc(info.count, sizeof(float));
     uint32_t *fluid = calloc(info.count, sizeof(uint32_t)), *id = calloc(info.count, sizeof(uint32_t));
-    world_read(world, &(ParticleArrays){position,
-                                        velocity,
-                                        {[SCALAR_DENSITY] = density, [SCALAR_PRESSURE] = pressure},
-                                        fluid,
-                                        id,
-                                        {NULL}});
+    world_read(world, &(ParticleArrays){
+                          .position = position,
+                          .velocity = velocity,
+                          .scalar = {[SCALAR_DENSITY] = density, [SCALAR_PRESSURE] = pressure},
+                          .fluid = fluid,
+                          .id = id,
+                      });
     SnapshotReader *reader = snapshot_open("a.h5part", &error);
     SnapshotStep step;
     assert_true(snapshot_read_step(reader, 1, &step, &error));

@@ -280,7 +280,7 @@ static void step_of(const World *world, const Cloud *cloud, Step *out)
         }
     for (size_t i = 0; i < cpu->count; i++) {
         const double v[3] = {(double)now->vx[i], (double)now->vy[i], (double)now->vz[i]};
-        const uint32_t id = now->id[i];
+        const ParticleId id = now->id[i];
         if (now->fluid[i] >= FLUIDS_MAX)
             continue;
         memcpy(out->flown[id], v, sizeof v);

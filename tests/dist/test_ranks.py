@@ -80,6 +80,25 @@ class Ranks(RanksCase):
     def test_fluid_that_comes_and_goes(self):
         self.check("fountain", "--set", "particles.spacing=0.02", "--time", "0.4", "--every", "0.2", "--backend", "cpu")
 
+    def test_ids_beyond_32_bits(self):
+        """A run of which 2^33 particles have come and gone goes on as if they had not, but for the ids."""
+        scene = ["fountain", "--set", "particles.spacing=0.02", "--every", "0.2", "--backend", "cpu"]
+        whole = list(states(self.run_one(*scene, "--time", "0.4", name="whole")))
+        for name in ("one", "ranks"):
+            with h5py.File(self.run_one(*scene, "--time", "0.2", name=name), "r+") as file:
+                step = file["Step#1"]
+                restart = step.attrs["restart"]
+                restart[5:7] += 2 ** 33  # emitted, drained
+                step.attrs["restart"] = restart
+                step["id"][...] = step["id"][:] + 2 ** 33
+        one = list(states(self.run_one(*scene, "--time", "0.4", "--resume")))
+        path, done = self.dist(2, *scene, "--time", "0.4", "--resume")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(list(states(path)), one)
+        ids = [numpy.frombuffer(run[2][2].pop("id"), "i8") for run in (whole, one)]
+        self.assertEqual((ids[0] + 2 ** 33).tolist(), ids[1].tolist())
+        self.assertEqual(whole[2][2], one[2][2])
+
     def test_periodic_sides_and_few_particles(self):
         self.check("poiseuille", "--particles", "200", "--time", "0.02", "--every", "0.01", "--backend", "cpu", ranks=(4,))
 

@@ -112,7 +112,10 @@ static void reverse(World *world)
         fail_msg("%s", error.message);
     const ParticleColumns *p = &saved.particles;
     for (size_t i = 0, j = saved.count - 1; i < j; i++, j--) {
-        void *const columns[] = {p->x, p->y, p->z, p->id};
+        void *const columns[] = {p->x, p->y, p->z};
+        const ParticleId id = p->id[i];
+        p->id[i] = p->id[j];
+        p->id[j] = id;
         for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
             swap_bits(columns[k], i, j);
     }

@@ -137,7 +137,7 @@ static void it_goes_back(void **state)
     fixture_step(world, 10);
     world->backend->back(world->state, before.count, 0);
     WorldState after = saved_of(world);
-    assert_memory_equal(before.particles.id, after.particles.id, 4 * before.count);
+    assert_memory_equal(before.particles.id, after.particles.id, before.count * sizeof(ParticleId));
     assert_memory_equal(before.particles.own[0], after.particles.own[0], 4 * before.count);
     world_state_free(&before);
     world_state_free(&after);

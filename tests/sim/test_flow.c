@@ -389,6 +389,56 @@ static void births_are_saved(void **state)
     world_destroy(other);
 }
 
+/* As if so many more had come and gone before. */
+static void count_on(WorldState *saved, size_t initial, uint64_t more)
+{
+    for (size_t i = 0; i < saved->count; i++)
+        saved->particles.id[i] += saved->particles.id[i] >= initial ? more : 0;
+    for (size_t k = 0; k < saved->births.count; k++)
+        saved->births.of[k].first_id += more;
+    saved->numbers.emitted += (double)more;
+    saved->numbers.drained += (double)more;
+}
+
+/* To the same bits; on a GPU, whose ids are shorter, it is said. */
+static void ids_go_on_beyond_32_bits(void **state)
+{
+    (void)state;
+    static const uint64_t more = UINT64_C(1) << 33;
+    const WorldDef def = busy_def("mueller");
+    const size_t initial = seed_count(&def, def.spacing);
+    World *world = fixture_world(&def), *other = fixture_world(&def);
+    WorldState saved = {0}, late = {0};
+    Error error = {0};
+    fixture_step(world, 30);
+    assert_true(world_save(world, &saved, &error) && saved.births.count > 2);
+    count_on(&saved, initial, more);
+    const bool loaded = world_load(other, &saved, &error);
+    if (!fixture_on_cpu()) {
+        assert_false(loaded);
+        assert_non_null(strstr(error.message, "tells 2^31 particles apart"));
+    } else if (!loaded) {
+        fail_msg("%s", error.message);
+    } else {
+        fixture_step(world, 30);
+        fixture_step(other, 30);
+        assert_true(world_save(world, &late, &error) && world_save(other, &saved, &error));
+        count_on(&late, initial, more);
+        assert_true(late.count == saved.count && late.numbers.emitted == saved.numbers.emitted);
+        assert_memory_equal(late.particles.id, saved.particles.id, late.count * sizeof(ParticleId));
+        assert_memory_equal(late.particles.x, saved.particles.x, late.count * sizeof(float));
+        assert_true(late.births.count == saved.births.count && late.births.of[1].first_id > more);
+        assert_memory_equal(late.births.of, saved.births.of, late.births.count * sizeof(Birth));
+        assert_true(world_hash(world) == world_hash(other));
+        saved.particles.id[3] = saved.particles.id[4];
+        assert_false(world_load(other, &saved, &error));
+    }
+    world_state_free(&saved);
+    world_state_free(&late);
+    world_destroy(world);
+    world_destroy(other);
+}
+
 static void threads_change_no_bit(void **state)
 {
     (void)state;
@@ -443,7 +493,8 @@ static void births_of_none_are_left_out(void **state)
 {
     (void)state;
     enum { IDS = 400 };
-    uint32_t dice = 1, id[IDS];
+    uint32_t dice = 1;
+    ParticleId id[IDS];
     for (int trial = 0; trial < 50; trial++) {
         Births births = {0};
         float was[IDS];
@@ -512,6 +563,7 @@ int main(void)
         cmocka_unit_test(save_load_step_is_step),
         cmocka_unit_test(births_are_times_of_layers),
         cmocka_unit_test(births_are_saved),
+        cmocka_unit_test(ids_go_on_beyond_32_bits),
         cmocka_unit_test(births_of_none_are_left_out),
         cmocka_unit_test(births_of_the_drained_are_forgotten),
         cmocka_unit_test(threads_change_no_bit),

@@ -168,7 +168,7 @@ static void what_is_no_state_is_refused(void **state)
     saved.count--;
     refuse(world, &saved, "particles, the scene");
     saved.count++;
-    const uint32_t id = saved.particles.id[5];
+    const ParticleId id = saved.particles.id[5];
     saved.particles.id[5] = saved.particles.id[6];
     refuse(world, &saved, "not those of the scene");
     saved.particles.id[5] = id;

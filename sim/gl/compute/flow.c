@@ -53,7 +53,7 @@ static void layer_set(const Compute *c, const EmitLayer *layer, size_t most)
         .candidate_total = (uint)layer->count,
         .gridded = (uint)c->gridded,
         .layer_fluid = (uint)layer->fluid,
-        .first_id = layer->first_id,
+        .first_id = (uint)layer->first_id,
         .layer_most = (uint)most,
         .layer_velocity = {layer->velocity[0], layer->velocity[1], layer->velocity[2]},
     };
@@ -87,7 +87,7 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most)
         EmitLayer part = *layer;
         part.count = layer->count - done < COMPUTE_LAYER ? layer->count - done : COMPUTE_LAYER;
         part.position += 3 * done;
-        part.first_id += (uint32_t)number;
+        part.first_id += number;
         number += emit_part(c, &part, most - number);
     }
     return number;
