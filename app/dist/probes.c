@@ -1,7 +1,7 @@
 #include "app/dist/probes.h"
 
-#include "app/command/run_probes.h"
 #include "app/dist/share.h"
+#include "app/lab/probe_chart.h"
 #include "sim/dist/dist.h"
 
 static bool agree(bool ok, Error *error)

@@ -10,7 +10,7 @@
 #include <strings.h>
 
 /* Pixels; a curve's points; names in a panel's key, and panels. */
-enum { WIDTH = 900, PANEL_HEIGHT = 280, TITLE_HEIGHT = 40, POINTS = 900, NAMES_MAX = 12, PANELS_MAX = 6 };
+enum { WIDTH = 900, PANEL_HEIGHT = 280, TITLE_HEIGHT = 40, POINTS = 900, NAMES_MAX = 12, PLOTS_MAX = 6 };
 
 typedef struct Line {
     char name[96], unit[16];
@@ -146,14 +146,14 @@ static bool read_table(Table *table, const char *path, Error *error)
 }
 
 /* The first line of each unit. */
-static int panels_of(const Table *table, int first[PANELS_MAX])
+static int panels_of(const Table *table, int first[PLOTS_MAX])
 {
     int panels = 0;
     for (int k = 0; k < table->count; k++) {
         bool seen = table->line[k].curve.count == 0;
         for (int p = 0; p < panels; p++)
             seen |= strcmp(table->line[first[p]].unit, table->line[k].unit) == 0;
-        if (!seen && panels < PANELS_MAX)
+        if (!seen && panels < PLOTS_MAX)
             first[panels++] = k;
     }
     return panels;
@@ -233,7 +233,7 @@ static bool tell_nothing(const char *path)
 static bool draw(const Table *table, const char *path, const char *title, Error *error)
 {
     Chart chart = {.gnuplot = NULL};
-    int first[PANELS_MAX];
+    int first[PLOTS_MAX];
     const int panels = panels_of(table, first);
     if (panels == 0)
         return tell_nothing(path);

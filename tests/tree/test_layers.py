@@ -91,7 +91,7 @@ APP = {
     "play": "base yaml recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
     "manual": "base scene session",
     "film": "base scene recording output setting session playback beside",
-    "dist": "base scene output session scaling lab",
+    "dist": "base probe scene output session scaling lab",
     "command": "base metric probe outcome yaml recipe scene recording hand device held output setting session playback export beside shelf trace case lab stability fit ablate gallery meter play manual film",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("sim/dist", {"": ""}, ["sim"]),
