@@ -1,4 +1,3 @@
-#define _GNU_SOURCE /* fallocate */
 /* After: H5Part, Howison and others, "H5hut: a high-performance I/O library for particle-based simulations",
    2010, and what ParaView's reader of it accepts. */
 #include "app/output/snapshot.h"
@@ -9,19 +8,11 @@
 #include "app/output/snapshot_share.h"
 #include "sim/matter/flow.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 enum { DIRECTORY_K = 128, DIRECTORY_NAME_BYTES = 16 * 2 * DIRECTORY_K };
-
-/* What a step takes beside its values: group, headers, directory (measured: 18 KiB), with room to spare. */
-enum { STEP_OVERHEAD_BYTES = 64 << 10 };
 
 struct Snapshot {
     const SnapshotShare *share; /* NULL: one process writes it */
@@ -194,14 +185,6 @@ static void free_buffers(Snapshot *snapshot)
     snapshot->capacity = 0;
 }
 
-/* Gives back the room that was reserved behind the end of the file. */
-static void trim(const char *path)
-{
-    struct stat status;
-    if (stat(path, &status) == 0 && truncate(path, status.st_size) != 0)
-        return; /* the room stays reserved, nothing else */
-}
-
 void snapshot_close(Snapshot *snapshot)
 {
     if (!snapshot)
@@ -209,7 +192,7 @@ void snapshot_close(Snapshot *snapshot)
     if (snapshot->file >= 0)
         H5Fclose(snapshot->file);
     if (snapshot->steps > 0 && is_first(snapshot))
-        trim(snapshot->output.path);
+        snapshot_trim(snapshot->output.path);
     output_discard(&snapshot->output);
     output_unlock(&snapshot->older);
     output_unlock(&snapshot->lock);
@@ -229,83 +212,15 @@ size_t snapshot_steps(const Snapshot *snapshot)
 
 /* ---- one step ---- */
 
-/* `count`: particles of all processes. */
-static size_t step_bytes(const SnapshotStep *step, size_t count)
-{
-    size_t bytes = ((size_t)step->own_count + (step->born != NULL)) * sizeof(float);
-#define X(name, type, field) bytes += sizeof(type);
-    SNAPSHOT_FIELDS(X)
-#undef X
-    return STEP_OVERHEAD_BYTES + bytes * count + bytes * count / 256; /* the last: trees of chunks */
-}
-
-/* The file for the system's calls, -1 where it cannot be opened; *own: to be closed. Of a shared one HDF5 has
-   no such number. */
-static int system_file(const Snapshot *snapshot, bool *own)
-{
-    int *file = NULL;
-    *own = snapshot->share;
-    if (*own)
-        return open(snapshot->steps > 0 ? snapshot->output.path : snapshot->output.temp, O_WRONLY);
-    return H5Fget_vfd_handle(snapshot->file, H5P_DEFAULT, (void **)&file) < 0 ? -1 : *file;
-}
-
-/* 0, or why the file, which has that size, cannot grow by so many bytes here, as errno has it. */
-static int over_limit(off_t size, size_t bytes)
-{
-    struct rlimit limit;
-    return getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
-                   (rlim_t)size + bytes > limit.rlim_cur
-               ? EFBIG
-               : 0;
-}
-
-/* The same for the disk: takes the room. */
-static int take_room(int file, off_t size, size_t bytes)
-{
-    const bool full = fallocate(file, FALLOC_FL_KEEP_SIZE, size, (off_t)bytes) != 0 &&
-                      (errno == ENOSPC || errno == EFBIG || errno == EDQUOT);
-    return full ? errno : 0;
-}
-
 /* Takes the room for one more step, or fails while the file is still whole: HDF5 writes its directory and its
    data in no order that would survive a full disk. */
-static bool reserve(Snapshot *snapshot, size_t bytes, Error *error)
+static bool reserve(const Snapshot *snapshot, size_t bytes, Error *error)
 {
-    bool own = false;
-    struct stat status = {.st_size = 0};
-    const int file = is_first(snapshot) ? system_file(snapshot, &own) : -1;
-    int reason = is_first(snapshot) && (file < 0 || fstat(file, &status) != 0) ? errno : 0;
-    if (snapshot->share)
-        snapshot->share->tell(&status.st_size, sizeof status.st_size);
-    if (!reason)
-        reason = over_limit(status.st_size, bytes);
-    if (!reason && is_first(snapshot))
-        reason = take_room(file, status.st_size, bytes);
-    if (own && file >= 0)
-        close(file);
+    const Output *output = &snapshot->output;
+    const int reason = snapshot_take_room(snapshot->file, snapshot->steps > 0 ? output->path : output->temp,
+                                          snapshot->share, bytes);
     return reason == 0 || error_set(error, "%s: cannot be written: %s; step %zu needs up to %zu KiB",
-                                    snapshot->output.path, strerror(reason), snapshot->steps, bytes >> 10);
-}
-
-/* A program may be killed between any two writes to the disk. So the step is built where the file's directory
-   does not yet lead, goes to the disk, gets its mark, and only then its name; the directory has room for the
-   name without growing, so that the last flush overwrites a few bytes in place. Where it does have to grow,
-   once in 128 steps, four writes are left between which a kill makes the file unreadable. */
-static bool write_step(Snapshot *snapshot, const SnapshotStep *step, const Extent *extent)
-{
-    const int32_t complete = 1;
-    char name[32];
-    snapshot_group_name(snapshot->steps, name);
-    hid_t group = H5Gcreate_anon(snapshot->file, H5P_DEFAULT, H5P_DEFAULT);
-    bool written =
-        group >= 0 && snapshot_write_fields(group, step, extent) &&
-        H5Fflush(snapshot->file, H5F_SCOPE_LOCAL) >= 0 &&
-        snapshot_write_values(group, SNAPSHOT_COMPLETE, H5T_STD_I32LE, SNAPSHOT_SCALAR, &complete) &&
-        H5Fflush(snapshot->file, H5F_SCOPE_LOCAL) >= 0 &&
-        H5Olink(group, snapshot->file, name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
-    written = (group < 0 || H5Gclose(group) >= 0) && written;
-    return written && H5Fflush(snapshot->file, H5F_SCOPE_LOCAL) >= 0;
+                                    output->path, strerror(reason), snapshot->steps, bytes >> 10);
 }
 
 static bool broken(const Snapshot *snapshot, Error *error)
@@ -322,11 +237,11 @@ bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *e
         return error_set(error, "%s: takes no more steps after a failed one", snapshot->output.path);
     snapshot->failed = true;
     Extent extent = extent_of(snapshot, step->count);
-    if (!agree(snapshot, reserve(snapshot, step_bytes(step, extent.all), error), error))
+    if (!agree(snapshot, reserve(snapshot, snapshot_step_bytes(step, extent.all), error), error))
         return false;
     if (snapshot->share)
         extent.transfer = snapshot->share->transfer();
-    const bool written = write_step(snapshot, step, &extent);
+    const bool written = snapshot_write_step(snapshot->file, snapshot->steps, step, &extent);
     if (extent.transfer != H5P_DEFAULT)
         H5Pclose(extent.transfer);
     if (!written)
