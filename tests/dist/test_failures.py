@@ -9,7 +9,7 @@ import unittest
 
 import h5py
 
-from ranks import DIST, ENVIRONMENT, MPIRUN, SLOSH, RanksCase
+from ranks import DIST, ENVIRONMENT, MPIRUN, PATIENCE, SLOSH, RanksCase
 
 LONG = ["dam_break", "--particles", "500", "--every", "0.02", "--quiet", "--threads", "1"]
 
@@ -27,14 +27,14 @@ class Failures(RanksCase):
 
     def ranks_of(self, ran):
         """Processes of a run whose file is begun; the first rank is the one that has it open."""
-        until = time.monotonic() + 15
+        until = time.monotonic() + PATIENCE
         while not (self.path.exists() and self.path.stat().st_size > 150000) and time.monotonic() < until:
             time.sleep(0.02)
         found = subprocess.run(["pgrep", "-P", str(ran.pid), "slosh-dist"], capture_output=True, text=True).stdout.split()
         return [int(pid) for pid in found]
 
     def ended(self, pids):
-        until = time.monotonic() + 5
+        until = time.monotonic() + PATIENCE
         while any(os.path.exists(f"/proc/{pid}") for pid in pids) and time.monotonic() < until:
             time.sleep(0.02)
         self.assertEqual([pid for pid in pids if os.path.exists(f"/proc/{pid}")], [])
@@ -46,7 +46,7 @@ class Failures(RanksCase):
         code, _, errors = self.end(self.start(2, "run", *LONG, "--time", until, "-o", self.path, "--resume"))
         self.assertEqual(code, 0, errors)
         one = self.folder / "one.h5part"
-        subprocess.run([SLOSH, "run", *LONG, "--time", until, "-o", one], check=True, capture_output=True, timeout=30)
+        subprocess.run([SLOSH, "run", *LONG, "--time", until, "-o", one], check=True, capture_output=True, timeout=PATIENCE)
         self.assertTrue(columns(self.path) == columns(one), "other states than those of one process")
 
     def test_a_scene_that_does_not_fit_is_refused_before_the_start(self):
@@ -54,7 +54,7 @@ class Failures(RanksCase):
         for particles, fits in ((4e6, False), (2000, True)):
             ran = subprocess.run([MPIRUN, "-n", "2", "bash", "-c", 'ulimit -v 1200000; exec "$@"', "-", DIST, "run", "dam_break",
                                   "--particles", f"{particles:.0f}", "--time", "0.01", "--threads", "1", "-o", self.path],
-                                 env=ENVIRONMENT, capture_output=True, text=True, timeout=30)
+                                 env=ENVIRONMENT, capture_output=True, text=True, timeout=PATIENCE)
             said = [line for line in ran.stderr.splitlines() if "GB" in line]
             self.assertEqual(len(said), 1, ran.stderr)
             self.assertRegex(said[0], r"GB of memory a rank, of 1.23 GB" if fits else
@@ -66,7 +66,7 @@ class Failures(RanksCase):
         code, _, errors = self.end(self.start(5, "run", *few, "-o", self.path))
         self.assertEqual(code, 0, errors)
         one = self.folder / "one.h5part"
-        subprocess.run([SLOSH, "run", *few, "-o", one], check=True, capture_output=True, timeout=30)
+        subprocess.run([SLOSH, "run", *few, "-o", one], check=True, capture_output=True, timeout=PATIENCE)
         self.assertTrue(columns(self.path) == columns(one), "other states than those of one process")
 
     def test_a_rank_that_is_killed_ends_all(self):
