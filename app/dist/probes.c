@@ -12,8 +12,6 @@ static bool agree(bool ok, Error *error)
 bool dist_probes_check(const Stand *stand, const Args *args, bool resumed, Error *error)
 {
     bool ok = true;
-    if (args->probes && probe_list_feels(&stand->session.scene.probes))
-        return error_set(error, "slosh-dist run: its probes are no forces yet; use slosh run");
     if (stand->rank == 0)
         ok = run_probes_check(&stand->session, args, error) && run_probes_check_table(args, resumed, error);
     return agree(ok, error);

@@ -14,7 +14,7 @@ typedef struct DistProbes {
     ProbeSeries series; /* of the first rank */
 } DistProbes;
 
-/* Whether the scene has some that ranks can read, and the files could be. */
+/* Whether the scene has some, and the files could be. */
 bool dist_probes_check(const Stand *stand, const Args *args, bool resumed, Error *error);
 
 bool dist_probes_begin(DistProbes *probes, Stand *stand, const Args *args, bool resumed, Error *error);

@@ -4,6 +4,7 @@
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/dist/cmd.h"
+#include "app/dist/forces.h"
 #include "app/dist/probes.h"
 #include "app/dist/share.h"
 #include "app/dist/stand.h"
@@ -23,15 +24,15 @@ typedef struct DistRun {
     Snapshot *file;      /* that all write */
     double next;         /* number of the next snapshot */
     double step_seconds; /* wall time of the steps, without what is written */
+    ForcesLog forces;    /* of --forces, at the first rank */
     DistProbes probes;   /* of --probes */
 } DistRun;
 
 /* What slosh run has and this has not. */
 static bool check_options(const Args *args, Error *error)
 {
-    const char *refused = args->forces ? "--forces" : args->device ? "--device" : NULL;
-    if (refused)
-        return error_set(error, "slosh-dist run: it has no %s yet; use slosh run", refused);
+    if (args->device)
+        return error_set(error, "slosh-dist run: it has no --device yet; use slosh run");
     return snapshot_series_name(args->output, error);
 }
 
@@ -54,7 +55,8 @@ static bool frame(DistRun *run, Error *error)
         ok = stand_substep(&run->stand, error) && dist_probes_step(&run->probes, &run->stand, error);
     while (ok && run->stand.session.info.within_frame);
     run->step_seconds += (wall_ms() - begin) / 1000;
-    return ok && dist_probes_frame(&run->probes, &run->stand, error);
+    return ok && dist_forces_frame(&run->forces, &run->probes.series, &run->stand, run->args, error) &&
+           dist_probes_frame(&run->probes, &run->stand, error);
 }
 
 /* False when the simulation broke or a file cannot be written, on all ranks. */
@@ -81,6 +83,7 @@ static Summary summary_of(const DistRun *run)
                      .product = "snapshots",
                      .products = run->file ? snapshot_steps(run->file) : 0,
                      .step_seconds = run->step_seconds,
+                     .forces = run->args->forces ? &run->forces : NULL,
                      .probes = run->probes.probes ? &run->probes.series.table : NULL,
                      .stopped = !session_reached(&run->stand.session, run->args->time)};
 }
@@ -157,7 +160,8 @@ static bool check_files(const DistRun *run, bool goes_on, Error *error)
 {
     const Args *args = run->args;
     const bool ok = run->stand.rank > 0 || !args->json || json_file_check(args->json, error);
-    return dist_share()->agree(ok, error) && dist_probes_check(&run->stand, args, goes_on, error);
+    return dist_share()->agree(ok, error) && dist_probes_check(&run->stand, args, goes_on, error) &&
+           dist_forces_check(&run->stand, args, error);
 }
 
 static bool begin_file(DistRun *run, bool goes_on, Error *error)
@@ -180,10 +184,12 @@ static int go(DistRun *run, Error *error)
     if (!begin_file(run, goes_on, error))
         return fail(run, error);
     progress_begin(&progress, stderr, "run", run->args->quiet || stand->rank > 0);
-    bool done =
-        dist_probes_begin(&run->probes, stand, run->args, goes_on, error) && simulate(run, &progress, error);
+    bool done = dist_forces_begin(&run->forces, stand, run->args, goes_on, error) &&
+                dist_probes_begin(&run->probes, stand, run->args, goes_on, error) &&
+                simulate(run, &progress, error);
     progress_end(&progress);
     Error none = {{0}};
+    done &= dist_forces_end(&run->forces, done ? error : &none);
     done &= dist_probes_end(&run->probes, stand, run->args, done ? error : &none);
     return done ? finish(run, error) : fail(run, error);
 }

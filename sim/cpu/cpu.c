@@ -50,7 +50,7 @@ static void cpu_destroy(void *state)
 {
     Cpu *cpu = state;
     arrays_destroy(cpu);
-    free(cpu->pushes);
+    free(cpu->felt);
     free(cpu);
 }
 
@@ -158,7 +158,8 @@ static Cpu bare(const Cpu *cpu)
         .gauge = cpu->gauge,
         .guarded = cpu->guarded,
         .forces = cpu->forces,
-        .pushes = cpu->pushes,
+        .felt = cpu->felt,
+        .sum_all = cpu->sum_all,
         .watch = cpu->watch,
     };
 }

@@ -41,8 +41,10 @@ typedef struct Cpu {
     size_t bytes;                /* of all these */
     size_t guarded;              /* atomic */
     Forces *forces;              /* where what box and solids feel is summed; NULL: nobody asked, */
-    Push *pushes;                /* and its parts */
-    StepWatch watch;             /* by `kick`, atomic while it runs; until `watch` */
+    struct CpuFelt *felt;        /* by which it is summed: sim/cpu/felt.h */
+    /* Each of `count` sums becomes that of all processes that share the world; NULL: it is one. */
+    void (*sum_all)(ExactSum *sums, int count);
+    StepWatch watch; /* by `kick`, atomic while it runs; until `watch` */
 } Cpu;
 
 /* Boundary particles stand among the others, with FLUIDS_MAX + their solid for a fluid and ids from here on.
@@ -163,14 +165,11 @@ StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
-/* sim/cpu/forces.c, where a world was asked: adds what the kick does, behind it; gives the parts of the range
-   of a drift that begins at `begin`, the box's and then each solid's, zeroed; adds these parts up. */
+/* sim/cpu/forces.c, where a world was asked: adds what the kick does, behind it; and what the guards of a
+   drift did, summed by sim/cpu/felt.h. */
 bool cpu_feel(void *state, Forces *to, Error *error);
 void cpu_feel_kick(Cpu *cpu, float dt);
-Push *cpu_felt(Cpu *cpu, size_t begin);
 void cpu_feel_drift(Cpu *cpu);
-/* Adds to a part what a guard at x did to a velocity, `before`, which then becomes v; NULL: adds nothing. */
-void cpu_feel_guard(Push *felt, float mass, const float x[3], const float v[3], float before[3]);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge);
 void cpu_energy(void *state, bool turning, EnergySums *sums);

@@ -1,99 +1,142 @@
 /* Forces on box and solids. All that fluid particles are pushed with is m a at the kick; what boundary
    particles have of it is summed over pairs once more, for these alone. */
+#include "sim/cpu/felt.h"
 #include "sim/cpu/pass.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { KICK_GRAIN = 4 * CPU_GRAIN }; /* of kick and drift */
-
-static size_t ranges(size_t count, size_t grain)
-{
-    return (count + grain - 1) / grain;
-}
+enum { KICK_GRAIN = 4 * CPU_GRAIN };
 
 bool cpu_feel(void *state, Forces *to, Error *error)
 {
     Cpu *cpu = state;
-    const Constants *s = cpu->constants;
-    const size_t of_solids = ranges(s->boundary.count, CPU_GRAIN) * (size_t)s->solid_count,
-                 of_guards = ranges(cpu->capacity, KICK_GRAIN) * (size_t)(s->solid_count + 1),
-                 rows = of_solids > of_guards ? of_solids : of_guards;
     cpu->forces = NULL;
-    if (to && !cpu->pushes && !(cpu->pushes = malloc(rows * sizeof *cpu->pushes)))
+    if (to && !cpu->felt && !(cpu->felt = malloc(sizeof *cpu->felt)))
         return error_set(error, "no memory to sum forces");
     cpu->forces = to;
     return true;
 }
 
-typedef struct Kick {
-    const Cpu *cpu;
-    double dt;
-} Kick;
+/* ---- sums ---- */
 
-static void kick_range(void *context, size_t begin, size_t end)
+void cpu_felt_begin(Cpu *cpu)
 {
-    const Kick *kick = context;
-    const Cpu *cpu = kick->cpu;
-    const CpuParticles *p = &cpu->now;
-    Push *sum = &cpu->pushes[begin / KICK_GRAIN];
-    *sum = (Push){.force = {0}};
-    for (size_t i = begin, stop; cpu_run(cpu, &i, end, &stop); i = stop)
-        for (; i < stop; i++) {
-            const double m = -kick->dt * (double)cpu->constants->mass[p->fluid[i]];
-            push_at(sum, (double[]){(double)p->x[i], (double)p->y[i], (double)p->z[i]},
-                    (double[]){m * (double)p->ax[i], m * (double)p->ay[i], m * (double)p->az[i]});
+    memset(cpu->felt, 0, sizeof *cpu->felt);
+}
+
+void cpu_felt_add(CpuFelt *felt, int whom, const Push *push)
+{
+    ExactSum *number;
+    if (!felt->any)
+        memset(felt, 0, sizeof *felt);
+    felt->any = true;
+    number = felt->of[whom].number;
+    for (int k = 0; k < 3; k++) {
+        exact_add(&number[k], push->force[k]);
+        exact_add(&number[3 + k], push->torque[k]);
+    }
+}
+
+void cpu_felt_merge(Cpu *cpu, const CpuFelt *felt)
+{
+    if (!felt->any)
+        return;
+    parallel_lock();
+    for (int whom = 0; whom <= cpu->constants->solid_count; whom++)
+        for (int k = 0; k < PUSH_NUMBERS; k++)
+            exact_merge(&cpu->felt->of[whom].number[k], &felt->of[whom].number[k]);
+    parallel_unlock();
+}
+
+/* What was summed, of all processes that share the world. */
+static void sum_up(Cpu *cpu, Push out[FELT_MOST])
+{
+    const int width = cpu->constants->solid_count + 1;
+    if (cpu->sum_all)
+        cpu->sum_all(cpu->felt->of[0].number, width * PUSH_NUMBERS);
+    for (int whom = 0; whom < width; whom++)
+        for (int k = 0; k < 3; k++) {
+            out[whom].force[k] = exact_value(&cpu->felt->of[whom].number[k]);
+            out[whom].torque[k] = exact_value(&cpu->felt->of[whom].number[3 + k]);
         }
 }
 
-void cpu_feel_kick(Cpu *cpu, float dt)
-{
-    Kick kick = {cpu, (double)dt};
-    parallel_ranges(cpu->threads, cpu->count, KICK_GRAIN, kick_range, &kick);
-    for (size_t r = 0; r < ranges(cpu->count, KICK_GRAIN); r++)
-        push_add(&cpu->forces->box, 1, &cpu->pushes[r]);
-    cpu->forces->seconds += (double)dt;
-}
-
-Push *cpu_felt(Cpu *cpu, size_t begin)
-{
-    const size_t width = (size_t)cpu->constants->solid_count + 1;
-    Push *felt = &cpu->pushes[begin / KICK_GRAIN * width];
-    memset(felt, 0, width * sizeof *felt);
-    return felt;
-}
-
-void cpu_feel_guard(Push *felt, float mass, const float x[3], const float v[3], float before[3])
-{
-    double at[3], impulse[3];
-    for (int k = 0; k < 3; k++) {
-        at[k] = (double)x[k];
-        impulse[k] = (double)mass * ((double)before[k] - (double)v[k]);
-        before[k] = v[k];
-    }
-    if (felt)
-        push_at(felt, at, impulse);
-}
-
 /* To a solid what stands about the box's origin. */
-static void add_to_solid(Cpu *cpu, size_t solid, Push *push)
+static void add_to_solid(Cpu *cpu, int solid, Push *push)
 {
     const float *x = cpu->solid[solid].end.x;
     push_about(push, (double[]){(double)x[0], (double)x[1], (double)x[2]});
     push_add(&cpu->forces->solid[solid], 1, push);
 }
 
+/* ---- the kick ---- */
+
+typedef struct Kick {
+    Cpu *cpu;
+    double dt;
+} Kick;
+
+static void kick_range(void *context, size_t begin, size_t end)
+{
+    const Kick *kick = context;
+    Cpu *cpu = kick->cpu;
+    const CpuParticles *p = &cpu->now;
+    const size_t last = cpu_cell_first(cpu, end);
+    CpuFelt felt;
+    felt.any = false;
+    for (size_t k = cpu_cell_first(cpu, begin); k < last;) {
+        Push of_cell = {.force = {0}};
+        do {
+            const size_t i = cpu_owned(cpu, k);
+            const double m = -kick->dt * (double)cpu->constants->mass[p->fluid[i]];
+            push_at(&of_cell, (double[]){(double)p->x[i], (double)p->y[i], (double)p->z[i]},
+                    (double[]){m * (double)p->ax[i], m * (double)p->ay[i], m * (double)p->az[i]});
+        } while (++k < last && cpu_cell_goes_on(cpu, k));
+        cpu_felt_add(&felt, 0, &of_cell);
+    }
+    cpu_felt_merge(cpu, &felt);
+}
+
+void cpu_feel_kick(Cpu *cpu, float dt)
+{
+    Kick kick = {cpu, (double)dt};
+    Push all[FELT_MOST];
+    cpu_felt_begin(cpu);
+    parallel_ranges(cpu->threads, cpu->owned, KICK_GRAIN, kick_range, &kick);
+    sum_up(cpu, all);
+    push_add(&cpu->forces->box, 1, &all[0]);
+    cpu->forces->seconds += (double)dt;
+}
+
+/* ---- guards ---- */
+
+void cpu_feel_guard(CpuFelt *felt, int whom, float mass, const float x[3], const float v[3], float before[3])
+{
+    Push push = {.force = {0}};
+    double at[3], impulse[3];
+    for (int k = 0; k < 3; k++) {
+        at[k] = (double)x[k];
+        impulse[k] = (double)mass * ((double)before[k] - (double)v[k]);
+        before[k] = v[k];
+    }
+    if (!felt)
+        return;
+    push_at(&push, at, impulse);
+    cpu_felt_add(felt, whom, &push);
+}
+
 void cpu_feel_drift(Cpu *cpu)
 {
-    const size_t width = (size_t)cpu->constants->solid_count + 1;
-    for (size_t r = 0; r < ranges(cpu->count, KICK_GRAIN); r++) {
-        Push *felt = &cpu->pushes[r * width];
-        push_add(&cpu->forces->box, 1, felt);
-        for (size_t k = 1; k < width; k++)
-            add_to_solid(cpu, k - 1, &felt[k]);
-    }
+    Push all[FELT_MOST];
+    sum_up(cpu, all);
+    push_add(&cpu->forces->box, 1, &all[0]);
+    for (int k = 0; k < cpu->constants->solid_count; k++)
+        add_to_solid(cpu, k, &all[1 + k]);
 }
+
+/* ---- pairs with boundary particles ---- */
 
 typedef struct SolidPass {
     Cpu *cpu;
@@ -119,7 +162,26 @@ static void add_pair(const SolidPass *pass, const float from[3], size_t i, size_
             (double[]){t * (double)force[0], t * (double)force[1], t * (double)force[2]});
 }
 
-static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, Push *sum)
+/* The fluid from `begin` to before `end` in Cpu.fluid_at, cell by cell: of ghosts other processes add what is
+   theirs. */
+static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, size_t end, size_t b,
+                      CpuFelt *felt)
+{
+    const Cpu *cpu = pass->cpu;
+    const int whom = 1 + cpu->now.fluid[b] - FLUIDS_MAX;
+    for (size_t k = begin; k < end;) {
+        Push of_cell = {.force = {0}};
+        const uint32_t cell = cpu->cell[cpu->fluid_at[k]];
+        const bool own = cpu_owns(cpu, cpu->fluid_at[k]);
+        for (; k < end && cpu->cell[cpu->fluid_at[k]] == cell; k++)
+            if (own)
+                add_pair(pass, from, cpu->fluid_at[k], b, &of_cell);
+        if (own)
+            cpu_felt_add(felt, whom, &of_cell);
+    }
+}
+
+static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, CpuFelt *felt)
 {
     const Cpu *cpu = pass->cpu;
     const CpuParticles *p = &cpu->now;
@@ -130,36 +192,31 @@ static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, 
     for (int row = 0; row < count; row++) {
         const float *shift = rows[row].shift,
                     from[3] = {p->x[b] + shift[0], p->y[b] + shift[1], p->z[b] + shift[2]};
-        for (uint32_t k = cpu->fluid_before[rows[row].begin]; k < cpu->fluid_before[rows[row].end]; k++)
-            add_pair(pass, from, cpu->fluid_at[k], b, sum);
+        add_fluid(pass, from, cpu->fluid_before[rows[row].begin], cpu->fluid_before[rows[row].end], b, felt);
     }
 }
 
 static void solid_range(void *context, size_t begin, size_t end)
 {
     const SolidPass *pass = context;
-    Cpu *cpu = pass->cpu;
-    const PairArgs args = cpu_pair_args(cpu);
-    const size_t solids = (size_t)cpu->constants->solid_count;
-    Push *sums = &cpu->pushes[begin / CPU_GRAIN * solids];
-    memset(sums, 0, solids * sizeof *sums);
-    for (size_t k = begin; k < end; k++) {
-        const size_t b = cpu->boundary_at[k];
-        add_boundary(pass, &args, b, &sums[cpu->now.fluid[b] - FLUIDS_MAX]);
-    }
+    const PairArgs args = cpu_pair_args(pass->cpu);
+    CpuFelt felt;
+    felt.any = false;
+    for (size_t k = begin; k < end; k++)
+        add_boundary(pass, &args, pass->cpu->boundary_at[k], &felt);
+    cpu_felt_merge(pass->cpu, &felt);
 }
 
-/* The sums, in the order of ranges; what solids take the box does not. */
+/* What solids take the box does not. */
 void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt)
 {
-    const size_t count = cpu->constants->boundary.count, solids = (size_t)cpu->constants->solid_count;
     SolidPass pass = {cpu, force, dt};
-    parallel_ranges(cpu->threads, count, CPU_GRAIN, solid_range, &pass);
-    for (size_t k = 0; k < solids; k++) {
-        Push all = {.force = {0}};
-        for (size_t r = 0; r < ranges(count, CPU_GRAIN); r++)
-            push_add(&all, 1, &cpu->pushes[r * solids + k]);
-        push_add(&cpu->forces->box, -1, &all);
-        add_to_solid(cpu, k, &all);
+    Push all[FELT_MOST];
+    cpu_felt_begin(cpu);
+    parallel_ranges(cpu->threads, cpu->constants->boundary.count, CPU_GRAIN, solid_range, &pass);
+    sum_up(cpu, all);
+    for (int k = 0; k < cpu->constants->solid_count; k++) {
+        push_add(&cpu->forces->box, -1, &all[1 + k]);
+        add_to_solid(cpu, k, &all[1 + k]);
     }
 }

@@ -1,4 +1,4 @@
-#include "sim/cpu/cpu.h"
+#include "sim/cpu/felt.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,10 +8,9 @@ typedef struct Drift {
     const BoxStep *step;
 } Drift;
 
-/* How often solids and walls had to hold particle i. `felt`: of the box, then of each solid; NULL: nobody
- * asked.
- */
-static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float x[3], float v[3], Push *felt)
+/* How often solids and walls had to hold particle i. `felt`: NULL where nobody asked. */
+static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float x[3], float v[3],
+                    CpuFelt *felt)
 {
     const Constants *s = drift->cpu->constants;
     const CpuParticles *p = &drift->cpu->now;
@@ -25,18 +24,18 @@ static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float 
             solid_guard(&s->solids[k], &solids[k], s->dimensions, before, x, v)) {
             by_solid = true;
             way = way_bounds(before, x);
-            cpu_feel_guard(felt ? &felt[1 + k] : NULL, mass, x, v, free);
+            cpu_feel_guard(felt, 1 + k, mass, x, v, free);
         }
     if (walls_near(inside, x)) {
         by_wall = s->method->leaps ? walls_fold(&s->walls, 0.5f / drift->step->dt, x, v)
                                    : walls_guard(&s->walls, x, v);
-        cpu_feel_guard(felt, mass, x, v, free);
+        cpu_feel_guard(felt, 0, mass, x, v, free);
     }
     return (size_t)by_solid + (size_t)by_wall;
 }
 
 /* How often the guards held a particle of the run [begin, end). */
-static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Push *felt, const bool wide)
+static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, CpuFelt *felt, const bool wide)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
@@ -71,11 +70,15 @@ static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Pus
 static void drift_range(void *context, size_t begin, size_t end)
 {
     const Drift *drift = context;
-    Push *felt = drift->cpu->forces ? cpu_felt(drift->cpu, begin) : NULL;
+    const bool feels = drift->cpu->forces;
+    CpuFelt felt;
     size_t held = 0;
+    felt.any = false;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
-        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, felt, true)
-                                            : drift_run(drift, i, stop, felt, false);
+        held += drift->cpu->constants->wide ? drift_run(drift, i, stop, feels ? &felt : NULL, true)
+                                            : drift_run(drift, i, stop, feels ? &felt : NULL, false);
+    if (feels)
+        cpu_felt_merge(drift->cpu, &felt);
     if (held)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }
@@ -84,6 +87,8 @@ void cpu_drift(void *state, const BoxStep *step)
 {
     Cpu *cpu = state;
     Drift drift = {cpu, step};
+    if (cpu->forces)
+        cpu_felt_begin(cpu);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
     if (step->solids)
         cpu_boundary_move(cpu, step->solids);

@@ -1,4 +1,5 @@
 #include "sim/dist/ranks_state.h"
+#include "sim/dist/reduce.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -128,6 +129,7 @@ static void *ranks_create(const Constants *constants, const WorldDef *def, const
                                     size == 1 ? capacity : room_for(share.initial.count, size), error);
     if (!ranks->cpu)
         dist_die("%s", error->message);
+    ranks->cpu->sum_all = size > 1 ? reduce_exact : NULL;
     for (size_t i = 0; i < share.initial.count; i++)
         ranks->cpu->now.id[i] = share.id[i];
     share_free(&share);
@@ -137,12 +139,10 @@ static void *ranks_create(const Constants *constants, const WorldDef *def, const
     return ranks;
 }
 
-static bool ranks_can(const WorldDef *def, Error *error)
+static bool ranks_feel(void *state, Forces *to, Error *error)
 {
-    for (int k = 0; k < def->solid_count; k++)
-        if (solid_floats(&def->solids[k]))
-            return error_set(
-                error, "slosh-dist has no solids that float yet (solids[%d].density); use slosh run", k);
+    if (!cpu_feel(((Ranks *)state)->cpu, to, error))
+        dist_die("%s", error->message);
     return true;
 }
 
@@ -166,7 +166,6 @@ static void ranks_info(const void *state, WorldInfo *info)
 const Backend backend_ranks = {
     .name = RANKS_BACKEND,
     .help = "backend cpu on MPI ranks",
-    .can = ranks_can,
     .create = ranks_create,
     .destroy = ranks_destroy,
     .adapt = ranks_adapt,
@@ -184,6 +183,7 @@ const Backend backend_ranks = {
     .read = ranks_read,
     .held = ranks_held,
     .energy = ranks_energy,
+    .feel = ranks_feel,
     .emit = ranks_emit,
     .drain = ranks_drain,
     .save = ranks_save,

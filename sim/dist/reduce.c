@@ -1,13 +1,17 @@
 #include "sim/dist/reduce.h"
 
+#include "sim/cpu/felt.h"
 #include "sim/dist/dist.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+/* Of energy, or of what box and solids feel. */
+enum { SUMS_MOST = FELT_MOST * PUSH_NUMBERS };
+
 void reduce_exact(ExactSum *sums, int count)
 {
-    int64_t words[ENERGY_SUMS][EXACT_WORDS];
+    int64_t words[SUMS_MOST][EXACT_WORDS];
     for (int k = 0; k < count; k++)
         exact_to_words(&sums[k], words[k]);
     MPI_Allreduce(MPI_IN_PLACE, words, count * EXACT_WORDS, MPI_INT64_T, MPI_SUM, MPI_COMM_WORLD);

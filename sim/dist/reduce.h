@@ -7,7 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Each of `count` sums becomes that of all ranks: the same bits whoever has which part. */
+/* Each of `count` sums becomes that of all ranks: the same bits whoever has which part. As many at most as
+   box and solids feel (sim/cpu/felt.h). */
 void reduce_exact(ExactSum *sums, int count);
 
 /* The greatest of each; sums, in doubles, for figures that no step reads; whole numbers. */

@@ -8,7 +8,7 @@ import unittest
 import h5py
 import numpy
 
-from ranks import DIST, ENVIRONMENT, MPIRUN, SLOSH, RanksCase
+from ranks import DIST, ENVIRONMENT, MPIRUN, PATIENCE, SLOSH, RanksCase
 
 
 def states(path):
@@ -24,20 +24,21 @@ def states(path):
 class Ranks(RanksCase):
     def run_one(self, *args, name="one"):
         path = self.folder / f"{name}.h5part"
-        subprocess.run([SLOSH, "run", *args, "-o", path, "--quiet", "--threads", "1"], check=True, capture_output=True, timeout=60)
+        subprocess.run([SLOSH, "run", *args, "-o", path, "--quiet", "--threads", "1"], check=True, capture_output=True, timeout=PATIENCE)
         return path
 
     def dist(self, ranks, *args, name="ranks"):
         path = self.folder / f"{name}.h5part"
         done = subprocess.run([MPIRUN, "-n", str(ranks), DIST, "run", *args, "-o", path, "--quiet", "--threads", "1"],
-                              env=ENVIRONMENT, capture_output=True, text=True, timeout=60)
+                              env=ENVIRONMENT, capture_output=True, text=True, timeout=PATIENCE)
         return path, done
 
-    def check(self, *args, ranks=(3,)):
+    def check(self, *args, ranks=(3,), also=()):
+        """`also`: options of the ranks alone."""
         one = list(states(self.run_one(*args)))
         self.assertGreater(len(one), 1)
         for count in ranks:
-            path, done = self.dist(count, *args)
+            path, done = self.dist(count, *args, *also)
             self.assertEqual(done.returncode, 0, done.stderr)
             with self.subTest(args=args, ranks=count):
                 many = list(states(path))
@@ -51,6 +52,10 @@ class Ranks(RanksCase):
     def test_the_same_bits_on_1_to_4_ranks(self):
         """In a box that moves."""
         self.check("box_slosh", "--particles", "800", "--time", "0.2", "--every", "0.1", ranks=(1, 2, 3, 4))
+
+    def test_shares_that_stay(self):
+        """Where half of the ranks end with hardly a particle."""
+        self.check("dam_break", "--particles", "300", "--time", "0.6", "--every", "0.3", ranks=(4,), also=("--balance", "off"))
 
     def test_methods(self):
         for method in ("wcsph", "dfsph", "pbf"):
@@ -131,10 +136,21 @@ class Ranks(RanksCase):
             one.pop(name), ranks.pop(name, None)  # limits and probes: of what was gone on with alone
         self.assertEqual(one, ranks)
 
+    def test_solids_that_float_and_forces(self):
+        """Each rank moves them by what all ranks sum up; the tables byte by byte."""
+        for scene in (["ducks", "--set", "particles.spacing=0.03"], ["impact", "--particles", "300"]):
+            table = {name: self.folder / f"{name}.forces.csv" for name in ("one", "ranks")}
+            args = [*scene, "--backend", "cpu", "--time", "0.06", "--every", "0.03"]
+            one = list(states(self.run_one(*args, "--forces", table["one"])))
+            path, done = self.dist(3, *args, "--forces", table["ranks"])
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(table["one"].read_text(), table["ranks"].read_text())
+            self.assertTrue(list(states(path)) == one, scene)
+
     def test_what_is_not_there_is_refused(self):
-        path, done = self.dist(2, "ducks", "--backend", "cpu", "--time", "0.01")
-        self.assertNotEqual(done.returncode, 0)
-        self.assertEqual(len([line for line in done.stderr.splitlines() if "float" in line]), 1, done.stderr)
+        path, done = self.dist(2, "dam_break", "--time", "0.01", "--device", "hand.jsonl")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(len([line for line in done.stderr.splitlines() if "--device" in line]), 1, done.stderr)
         self.assertFalse(path.exists())
 
 
