@@ -23,8 +23,14 @@ class RanksCase(unittest.TestCase):
     def start(self, ranks, *args):
         ran = subprocess.Popen([MPIRUN, "-n", str(ranks), DIST, *map(str, args)], env=ENVIRONMENT, text=True,
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.addCleanup(ran.kill)
+        self.addCleanup(self.stop, ran)
         return ran
+
+    def stop(self, ran):
+        """With its ranks, which would outlive an mpirun that is killed."""
+        if ran.poll() is None:
+            ran.terminate()
+            ran.communicate(timeout=PATIENCE)
 
     def end(self, ran):
         """Its code, output and errors."""
