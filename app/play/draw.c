@@ -168,9 +168,11 @@ static void present_fluid(Play *play, bool fresh)
 {
     Picture *picture = &play->picture;
     picture_present(picture);
+    events_follow_hand(play);
     if (fresh)
         take_files(play);
     draw_marks(play);
+    events_follow_hand(play);
     draw_overlay(play);
 }
 

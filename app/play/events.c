@@ -165,9 +165,20 @@ static void take_moves(Play *play)
 void events_follow_hand(Play *play)
 {
     const double began = meter_thread_cpu_ms();
+    play->looked_ms = wall_ms();
     if (input_holds_box(&play->input) || input_touches(&play->input))
         take_moves(play);
     if (play->model.has_particles)
         hands_look(play);
     meter_events(&play->meter, meter_thread_cpu_ms() - began);
+}
+
+void events_between_passes(void *of_play)
+{
+    static const double APART_MS = 2; /* a look costs some 0.1 ms */
+    Play *play = of_play;
+    const bool holds = input_holds_box(&play->input) || (play->touch.holds && input_touches(&play->input)) ||
+                       play->touch.hold.holds;
+    if (holds && wall_ms() - play->looked_ms >= APART_MS)
+        events_follow_hand(play);
 }

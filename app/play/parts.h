@@ -58,7 +58,8 @@ typedef struct Play {
     Notice notice;
     double shake_seconds; /* given: more than 0: a script shakes the box for so long, then all ends */
     WindowShake shake;
-    double asked_ms; /* wall time at which the user was asked whether to close without saving; 0: never */
+    double looked_ms; /* wall time of the last look in the middle of a picture */
+    double asked_ms;  /* wall time at which the user was asked whether to close without saving; 0: never */
     bool quit;
 } Play;
 
@@ -102,8 +103,10 @@ static inline Look play_look(const Play *play, int panel)
    looked at. */
 void events_take(Play *play);
 
-/* In the middle of a picture: a box that is held follows a picture sooner. */
+/* In the middle of a picture: what is held follows a picture sooner. The second one between its passes, of a
+   Play: what has a state of its own to look at waits. */
 void events_follow_hand(Play *play);
+void events_between_passes(void *of_play);
 
 /* hands.c: what the hand does, between two pictures or in the middle of one; there must be a state. */
 void hands_look(Play *play);

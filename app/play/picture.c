@@ -20,7 +20,9 @@ void picture_meet(Picture *picture, const Window *window)
 {
     picture->refresh = window_refresh(window);
     window_size(window, &picture->width, &picture->height);
-    if (!gl_renderer_is_software())
+    if (gl_renderer_is_software())
+        picture->pauses = gl_timer_create(GL_CLOCK_OFF);
+    else
         picture->timer = gl_timer_create(GL_CLOCK_QUERY);
 }
 
@@ -72,6 +74,7 @@ void picture_end(Picture *picture)
 {
     text_destroy(picture->text);
     gl_timer_destroy(picture->timer);
+    gl_timer_destroy(picture->pauses);
     panels_destroy(picture->panels);
 }
 
@@ -181,7 +184,7 @@ void picture_draw(Picture *picture, const ParticleBuffers *const states[], const
     for (int i = 0; i < panels_count(picture->panels); i++)
         panels_set_title(picture->panels, i, &titles[i], &error); /* no font: it has the one before */
     panels_set_covered(picture->panels, covered_left, &error);    /* no room: they lie where they were */
-    panels_draw(picture->panels, states, picture->timer);
+    panels_draw(picture->panels, states, picture->timer ? picture->timer : picture->pauses);
     picture->dirty |= panels_unfinished(picture->panels);
     gl_timer_frame(picture->timer, &picture->gl_times);
 }

@@ -12,9 +12,10 @@
 
 /* Zero-initialise it. */
 typedef struct Picture {
-    Panels *panels; /* one for each view that is shown */
-    int chosen;     /* the chosen view's */
-    GlTimer *timer; /* NULL on a software renderer, where nothing can be measured without waiting */
+    Panels *panels;  /* one for each view that is shown */
+    int chosen;      /* the chosen view's */
+    GlTimer *timer;  /* NULL on a software renderer, where nothing can be measured without waiting: */
+    GlTimer *pauses; /* there one that is off, for what it calls between the passes of a long picture */
     StageTimes gl_times;
     Text *text;
     int width, height;      /* of the framebuffer; 0 while the window is minimised */

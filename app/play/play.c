@@ -50,6 +50,7 @@ static bool make_window(Session *session, Error *error)
     fprintf(stderr, "renderer: %s\n", window_renderer(play->window));
     gl_debug_install();
     picture_meet(&play->picture, play->window);
+    gl_timer_between(play->picture.pauses, events_between_passes, play);
     return true;
 }
 

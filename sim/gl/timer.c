@@ -17,6 +17,8 @@ typedef struct QueryFrame {
 
 struct GlTimer {
     GlClock clock;
+    void (*between)(void *user); /* NULL: none */
+    void *user;
     double began_ms;
     StageTimes finished; /* `finish`: of the frame in progress */
     QueryFrame frames[FRAMES];
@@ -85,6 +87,14 @@ static QueryFrame *current(GlTimer *timer)
     return &timer->frames[timer->written % FRAMES];
 }
 
+void gl_timer_between(GlTimer *timer, void (*between)(void *user), void *user)
+{
+    if (!timer)
+        return;
+    timer->between = between;
+    timer->user = user;
+}
+
 void gl_timer_begin(GlTimer *timer)
 {
     if (!timer)
@@ -110,6 +120,8 @@ void gl_timer_end(GlTimer *timer, Stage stage)
         glQueryCounter(frame->query[2 * frame->count + 1], GL_TIMESTAMP);
         frame->stage[frame->count++] = stage;
     }
+    if (timer->between)
+        timer->between(timer->user);
 }
 
 static void copy_ran(const StageTimes *from, StageTimes *to)

@@ -26,6 +26,10 @@ void gl_timer_destroy(GlTimer *timer);
 /* "gl", "finish" or "off": what GL_CLOCK_AUTO became. */
 const char *gl_timer_clock_name(const GlTimer *timer);
 
+/* Calls `between` behind each stage, with any clock: for who looks at something else in a long picture, and
+   leaves OpenGL alone. */
+void gl_timer_between(GlTimer *timer, void (*between)(void *user), void *user);
+
 /* Stages do not nest; one that runs several times in a frame is summed up. */
 void gl_timer_begin(GlTimer *timer);
 void gl_timer_end(GlTimer *timer, Stage stage);

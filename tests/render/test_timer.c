@@ -195,6 +195,11 @@ static void test_picture_stages(void **state)
     picture_stages("volume");
 }
 
+static void count(void *user)
+{
+    (*(int *)user)++;
+}
+
 static void test_auto_and_off(void **state)
 {
     (void)state;
@@ -203,8 +208,11 @@ static void test_auto_and_off(void **state)
     assert_string_equal(gl_timer_clock_name(timer), gl_renderer_is_software() ? "finish" : "gl");
     gl_timer_destroy(timer);
     timer = gl_timer_create(GL_CLOCK_OFF);
+    int stages = 0;
+    gl_timer_between(timer, count, &stages);
     GL_STAGE(timer, STAGE_SHADE)
     glFlush();
+    assert_int_equal(stages, 1);
     assert_false(gl_timer_frame(timer, &times));
     assert_false(times.ran[STAGE_SHADE]);
     assert_string_equal(gl_timer_clock_name(timer), "off");
