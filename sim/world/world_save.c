@@ -279,9 +279,40 @@ static bool cells_hold(const Constants *constants, const WorldDef *def)
     return hold;
 }
 
+/* But for where a hand has it. */
+static bool same_solid(const SolidDef *a, const SolidDef *b)
+{
+    bool same = a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
+                a->thickness == b->thickness && a->angle_deg == b->angle_deg && a->slip == b->slip &&
+                a->mesh.shape == b->mesh.shape && a->mesh.scale == b->mesh.scale &&
+                a->motion_count == b->motion_count && a->hand.moved == b->hand.moved &&
+                a->density == b->density;
+    for (int k = 0; k < 3; k++)
+        same &= a->centre[k] == b->centre[k] && a->size[k] == b->size[k] && a->axis[k] == b->axis[k] &&
+                a->hinge_at[k] == b->hinge_at[k] && a->hinge_axis[k] == b->hinge_axis[k];
+    return same;
+}
+
+/* Whether solids that stand are in the box, whole: of one that is not, more or less is a boundary in another
+ * box. */
+static bool is_around_solids(const WorldDef *def)
+{
+    bool around = true;
+    for (int i = 0; i < def->solid_count; i++)
+        for (int k = 0; k < def->dimensions && !solid_moves(&def->solids[i]); k++) {
+            const double low = k == 1 ? 0 : -0.5 * def->box_size[k];
+            around &= solid_between(&def->solids[i], def->dimensions, k, low, low + def->box_size[k]);
+        }
+    return around;
+}
+
 bool world_resizes(const World *world, const WorldDef *def)
 {
-    return world->def.solid_count == 0 && def->solid_count == 0 && cells_hold(&world->constants, def);
+    bool same = world->def.solid_count == def->solid_count;
+    for (int i = 0; same && i < def->solid_count; i++)
+        same = same_solid(&world->def.solids[i], &def->solids[i]);
+    return same && is_around_solids(&world->def) && is_around_solids(def) &&
+           cells_hold(&world->constants, def);
 }
 
 /* Into a box that has become smaller along an axis. */
@@ -310,6 +341,12 @@ static void place(World *world, const double size[3])
         world->constants.drag.half_size[k] = world->constants.walls.half_size[k];
 }
 
+static void set_solids(World *world, const SolidDef solids[SOLIDS_MAX])
+{
+    memcpy(world->def.solids, solids, sizeof world->def.solids);
+    memcpy(world->constants.solids, solids, sizeof world->constants.solids);
+}
+
 /* From the next step on; particles that a smaller box leaves outside come to its walls. */
 static bool world_resize(World *world, const WorldDef *def, Error *error)
 {
@@ -322,6 +359,7 @@ static bool world_resize(World *world, const WorldDef *def, Error *error)
         if (def->box_size[k] < before[k])
             bring_in(&state, def, k);
     place(world, def->box_size);
+    set_solids(world, def->solids);
     const bool loaded = world_load(world, &state, error);
     if (loaded)
         world_pose(world); /* it turns about half its height */
@@ -394,20 +432,6 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
     return true;
 }
 
-/* But for where a hand has it. */
-static bool same_solid(const SolidDef *a, const SolidDef *b)
-{
-    bool same = a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
-                a->thickness == b->thickness && a->angle_deg == b->angle_deg && a->slip == b->slip &&
-                a->mesh.shape == b->mesh.shape && a->mesh.scale == b->mesh.scale &&
-                a->motion_count == b->motion_count && a->hand.moved == b->hand.moved &&
-                a->density == b->density;
-    for (int k = 0; k < 3; k++)
-        same &= a->centre[k] == b->centre[k] && a->size[k] == b->size[k] && a->axis[k] == b->axis[k] &&
-                a->hinge_at[k] == b->hinge_at[k] && a->hinge_axis[k] == b->hinge_axis[k];
-    return same;
-}
-
 /* The world's def with the box and the solids of `from`; false: it has others, but for where a hand has them.
  */
 static bool with_shapes(const World *world, const WorldDef *from, WorldDef *def)
@@ -423,12 +447,6 @@ static bool with_shapes(const World *world, const WorldDef *from, WorldDef *def)
         def->box_size[k] = from->box_size[k];
     }
     return same;
-}
-
-static void set_solids(World *world, const SolidDef solids[SOLIDS_MAX])
-{
-    memcpy(world->def.solids, solids, sizeof world->def.solids);
-    memcpy(world->constants.solids, solids, sizeof world->constants.solids);
 }
 
 /* The solid of `before` that `after` lacks, the others being the same; -1: it is otherwise. */

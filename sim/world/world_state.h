@@ -91,8 +91,9 @@ bool world_move(World **world, const char *backend, Error *error);
    that time twice the memory. False with the reason: nothing has changed. */
 bool world_rebuild(World **world, const WorldDef *def, Error *error);
 
-/* Whether the box may become that of `def` where the world stands: without solids, and inside the cells that
-   were made for it. Else the world is to be made anew. */
+/* Whether the box may become that of `def` where the world stands: with the same solids, of which those that
+   stand are wholly in it before and after, and inside the cells that were made for it. Else the world is to
+   be made anew. */
 bool world_resizes(const World *world, const WorldDef *def);
 
 /* From the next step on its box is as large as that of the def, and its solids are those of the def, where

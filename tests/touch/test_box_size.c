@@ -5,7 +5,10 @@
 #define POOL(size, deep, spacing)                                                                            \
     "box: {size: " size "}\nparticles: {spacing: " spacing "}\n"                                             \
     "fluids: [{fill: [{block: {min: [-0.5, 0, -" deep "], max: [0.5, 0.4, " deep "]}}]}]\nsolver: {"
-#define LARGE  POOL("[1, 1, 1]", "0.5", "0.1")
+#define LARGE POOL("[1, 1, 1]", "0.5", "0.1")
+#define SOLID                                                                                                    \
+    "solids: [{sphere: {centre: [0.1, 0.2, 0], radius: 0.15}}, {box: {centre: [-0.2, 0.4, 0], size: [0.2, 0.2, " \
+    "0.2]}, density: 500}]\n"
 #define FLAT   POOL("[1, 1]", "0", "0.04")
 #define STEPS  "sound_speed: 15, step: {dt: 0.01, substeps: 5}}\n"
 #define WCSPH  "method: wcsph, sound_speed: 15, step: {dt: 0.01, substeps: 10}}\n"
@@ -18,11 +21,13 @@ static const struct {
     bool same;          /* replayed by the CPU to the same bits */
 } scenes[] = {
     {"mueller", LARGE "threads: 1, " STEPS, 0.9, 0.2, 0.02, true},
+    {"solids", SOLID LARGE "threads: 1, " STEPS, 0.9, 0.32, 0.02, true},
     {"2D", FLAT "threads: 1, " STEPS, 0.9, 0.2, 0.02, true},
     {"wcsph", LARGE "threads: 2, " WCSPH, 0.9, 0.35, 0.012, true},
     {"dfsph", LARGE "threads: 2, method: dfsph, " STEPS, 0.9, 0.12, 0.002, true},
     {"pbf", LARGE "threads: 2, method: pbf, " STEPS, 0.9, 0.2, 0.004, true},
     {"compute", LARGE ON_GPU STEPS, 0.98, 0.12, 0.02, false},
+    {"solids on compute", SOLID LARGE ON_GPU STEPS, 0.99, 0.3, 0.02, false},
     {"wcsph on compute", LARGE ON_GPU WCSPH, 0.99, 0.05, 0.012, false},
     {"dfsph on compute", LARGE ON_GPU "method: dfsph, " STEPS, 0.99, 0.05, 0.002, false},
     {"pbf on compute", LARGE ON_GPU "method: pbf, " STEPS, 0.99, 0.1, 0.004, false},

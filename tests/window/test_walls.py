@@ -43,14 +43,19 @@ class Walls(Window):
 
     def test_keys_make_it_larger_and_smaller(self):
         self.open('walls.yaml')
-        self.keys('ctrl+equal')
+        self.keys('ctrl+equal', 'ctrl+minus')
+        self.shown(0.3)
         self.keys('space', 'ctrl+s')
         self.shown(0.3)
         self.keys('Home', 'shift+comma')  # a second back: it is undone
         self.shown(0.3)
         self.quit()
-        self.assertEqual(self.recorded(), [[1.05, 1.05, 1.05]])
-        self.assertIn('the box: 1.05 x 1.05 x 1.05 m', self.messages)
+        first, *smaller = self.recorded()
+        self.assertEqual(first, [1.05, 1.05, 1.05])
+        self.assertGreater(len(smaller), 2)  # step by step
+        self.assertEqual(sorted([first, *smaller], reverse=True), [first, *smaller])
+        self.assertGreater(smaller[-1][0], 0.95)
+        self.assertRegex(self.messages, r'the box: 1\.05 x 1\.05 x 1\.05 m(.|\n)*the box: (0\.99\d|1) x ')
 
     def test_a_full_box_says_so_once(self):
         self.write('walls.yaml', (STILL + VIEW).replace('kind: slice', 'kind: spheres').replace('0.4, 0.5]', '0.97, 0.5]'))
