@@ -143,13 +143,22 @@ static void ranges_follow(const Scene *before, Scene *after)
     }
 }
 
+/* A hand may have made the box smaller than what the fluid began with: then the setting is not what is wrong.
+ */
+static bool check(const Tree *tree, const Scene *before, const Scene *after, Error *error)
+{
+    Error was;
+    return scene_check(tree, after, error) ||
+           (!scene_check(tree, before, &was) && strcmp(was.message, error->message) == 0);
+}
+
 static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_world)
 {
     Scene after = *scene;
     tree->dimensions = scene->world.dimensions;
     void *base = base_of(&after, change);
     if (!value_read(tree, change->key, tree_near(tree, change->path), change->path, base, change->error) ||
-        !scene_check(tree, &after, change->error))
+        !check(tree, scene, &after, change->error))
         return false;
     ranges_follow(scene, &after);
     after.world.acceleration |= scene->world.acceleration; /* once kept they stay */

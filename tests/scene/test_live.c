@@ -264,6 +264,15 @@ static void an_automatic_camera_has_no_keys(void **state)
     refuse("view.camera.fov=30", "the camera is automatic; ");
 }
 
+/* Which a hand has made smaller than what the fluids began with. */
+static void in_a_smaller_box(void **state)
+{
+    (void)state;
+    scene.world.box_size[0] = 0.9;
+    assert_true(set("gravity=[0, -3, 1.5]"));
+    assert_true(scene.world.gravity[1] == -3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -275,6 +284,7 @@ int main(void)
         cmocka_unit_test_setup(paths_must_name_one_key, setup),
         cmocka_unit_test_setup(values_must_fit_each_other, setup),
         cmocka_unit_test_setup(an_automatic_camera_has_no_keys, setup),
+        cmocka_unit_test_setup(in_a_smaller_box, setup),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
