@@ -610,6 +610,8 @@ class Mouse(Window):
         self.display.release('shift')
         self.keys('q')
         self.drag(1, [(240, 180), (245, 180)])
+        self.keys('q')
+        self.drag(1, [(240, 180), (240, 185)])
         self.keys('Escape')  # puts the finger away, and closes nothing
         self.drawn()
         self.assertIsNone(self.process.poll())
@@ -622,7 +624,7 @@ class Mouse(Window):
         touches = re.findall(r'^\d+ touch (\w+)(.*)$', text, re.M)
         ways = [way for way, _ in touches]
         self.assertEqual([way for k, way in enumerate(ways) if k == 0 or way != ways[k - 1]],
-                         ['stir', 'none', 'pull', 'none', 'pull', 'none'])
+                         ['stir', 'none', 'pull', 'none', 'pull', 'none', 'push', 'none'])
         stroke = [[float.fromhex(number) for number in rest.split()] for way, rest in touches if way == 'stir']
         self.assertGreater(stroke[-1][0] - stroke[0][0], 0.05)  # to the right
         self.assertTrue(all(-0.6 < x < 0.6 and 0 < y < 0.6 and abs(z) < 0.7 for x, y, z, _, _ in stroke), stroke)
