@@ -6,6 +6,8 @@
 
 #include <epoxy/gl.h>
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 static const double LETTERS = 14; /* pixels high at scale 1 */
 static const double SHADERS_MS = 300;
@@ -205,17 +207,41 @@ void picture_clear(const Picture *picture, const ViewDef *view)
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
+enum { WORD_LINES = 4, WORD_LINE = 400 };
+
+/* Breaks at blanks what is wider than so many pixels; the last line has the rest. Returns how many there are.
+ */
+static int break_lines(Text *text, const char *words, float most, char lines[WORD_LINES][WORD_LINE])
+{
+    int count = 0;
+    while (*words && count < WORD_LINES) {
+        char *line = lines[count++], *blank;
+        snprintf(line, WORD_LINE, "%s", words);
+        while (count < WORD_LINES && text_width(text, 1, line) > most && (blank = strrchr(line, ' ')))
+            *blank = 0;
+        words += strlen(line);
+        words += strspn(words, " ");
+    }
+    return count;
+}
+
 void picture_words(const Picture *picture, const char *words, float below)
 {
     Text *text = picture->text;
+    char lines[WORD_LINES][WORD_LINE];
     if (!words)
         return;
-    const float em = text_height(text), width = text_width(text, 1, words);
-    const float middle = 0.5F * (float)picture->width, top = (float)picture->height - below - 4 * em;
+    const float em = text_height(text), high = 1.4F * em, middle = 0.5F * (float)picture->width;
+    const int count = break_lines(text, words, (float)picture->width - 2 * em, lines);
+    const float top = (float)picture->height - below - 4 * em - high * (float)(count - 1);
+    float width = 0;
+    for (int i = 0; i < count; i++)
+        width = fmaxf(width, text_width(text, 1, lines[i]));
     text_begin(text, picture->width, picture->height);
     text_rectangle(text, middle - 0.5F * width - em, top - 0.5F * em, middle + 0.5F * width + em,
-                   top + 1.5F * em, 0.4F * em, 0x10141ac0);
-    text_draw(text, middle, top, 1, 0xf2f4f6ff, TEXT_CENTER, words);
+                   top + 1.5F * em + high * (float)(count - 1), 0.4F * em, 0x10141ac0);
+    for (int i = 0; i < count; i++)
+        text_draw(text, middle, top + high * (float)i, 1, 0xf2f4f6ff, TEXT_CENTER, lines[i]);
     text_end(text);
 }
 

@@ -65,7 +65,7 @@ void picture_draw(Picture *picture, const ParticleBuffers *const states[], const
 void picture_present(Picture *picture);
 void picture_clear(const Picture *picture, const ViewDef *view);
 
-/* A line at the top; NULL: none. */
+/* A line, or as many as it takes in a narrow picture, up to four; NULL: none. */
 void picture_words(const Picture *picture, const char *words, float below);
 
 /* Nothing more will be drawn. Whether the GPU has done it: waits 2 ms for that, and is asked until it is
