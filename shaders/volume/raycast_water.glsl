@@ -51,12 +51,14 @@ vec3 through_mirrors(inout Ray ray, inout float t, inout float end, inout float 
 }
 
 #ifdef SOLIDS
-// Beyond the fluid: the copy where it shows no solid that stands before, which has the box's edges; else sky and floor.
+// Beyond the fluid: a solid that is met in the box; the copy where it shows none that stands before, for it has the box's edges; else
+// sky and floor.
 vec3 behind_or_sky(vec3 leave, vec3 on)
 {
-    float way = min(0.3 * max(box_size.x, box_size.y), way_in_box(leave, on));
-    vec3 place = leave + way * on;
-    return stands_before(place) ? environment(leave, on) : behind_at(place, 1e30, gl_FragCoord.xy);
+    vec3 way = way_in_box(leave, on) * on;
+    float solid = met_on(leave, way);
+    vec3 place = leave + min(solid, 1.0) * way;
+    return solid > 1.0 && stands_before(place) ? environment(leave, on) : behind_at(place, 1e30, gl_FragCoord.xy);
 }
 #endif
 
@@ -92,13 +94,15 @@ vec3 seen_through(inout Surface s)
 }
 
 #ifdef WHOLE
-// Of a place on a wall: the surface is as far away as the field along the wall says.
+// Of a place on a wall: the surface is as far away as the field along the wall says. The line is on top of the fluid: around hollows,
+// as churned fluid is full of, it would be a scribble.
 float line_share(Ray ray, float t, vec3 normal)
 {
     vec3 at = ray_at(ray, t), slope = slope_at(at) / cell_size;
     slope -= dot(slope, normal) * normal;
     float pixel = 2.0 * view_tangent.y * t * pixel_size.y, away = (field_at(at) - surface_level) / max(length(slope), 1e-6);
-    return clamp(water_line_width() + 0.5 - away / pixel, 0.0, 1.0);
+    float rises = -dot(slope, up_in_eye) / max(length(slope), 1e-6);
+    return smoothstep(0.3, 0.8, rises) * clamp(water_line_width() + 0.5 - away / pixel, 0.0, 1.0);
 }
 #endif
 
