@@ -69,6 +69,6 @@ float met_on(vec3 from, vec3 way)
         float share = met - 0.5 / float(count << i), before = behind_shown(from + share * way);
         met = before > 0.0 ? share : met, behind = before > 0.0 ? before : behind;
     }
-    return behind < length(way) / float(count) ? met : 2.0;
+    return behind < 0.5 * particle_spacing + length(way) / float(count) ? met : 2.0;
 }
 #endif

@@ -73,7 +73,8 @@ vec3 seen_through(inout Surface s)
     vec3 side = through_mirrors(ray, t, end, s.thickness);
 #ifdef SOLIDS
     bool mirrored = s.thickness > first;
-    float solid = met_on(s.place, first * inner);
+    vec3 reach = (first + particle_spacing) * inner; // the field ends a little before a solid
+    float solid = met_on(s.place, reach);
 #endif
     bool at_wall = t >= end - 1e-3 * cell_size;
     vec3 inwards = at_wall ? -side : -normal_at(ray, t), leave = ray.from + t * ray.to;
@@ -82,8 +83,8 @@ vec3 seen_through(inout Surface s)
     on = dot(on, on) > 0.0 ? on : reflect(ray.to, inwards);
 #ifdef SOLIDS
     vec3 seen = mirrored ? environment(leave, on) : behind_or_sky(leave, on);
-    s.thickness = solid < 1.0 ? solid * first : s.thickness;
-    seen = solid < 1.0 ? textureLod(behind_color, 0.5 + 0.5 * ndc_of_eye(s.place + solid * first * inner), 0.0).rgb : seen;
+    s.thickness = solid <= 1.0 ? min(solid * length(reach), first) : s.thickness;
+    seen = solid <= 1.0 ? textureLod(behind_color, 0.5 + 0.5 * ndc_of_eye(s.place + solid * reach), 0.0).rgb : seen;
 #else
     vec3 seen = environment(leave, on);
 #ifdef WHOLE
