@@ -3,7 +3,7 @@
 #include "app/base/output.h"
 #include "app/base/progress.h"
 #include "app/command/cmd.h"
-#include "app/command/run_probes.h"
+#include "app/lab/probe_chart.h"
 #include "app/metric/compression.h"
 #include "app/output/forces_log.h"
 #include "app/session/session.h"
