@@ -153,9 +153,10 @@ class Instructions(command.CommandTest):
 
     def test_what_the_watches_take(self):
         """All looks of the sentinel and the fluid's watch, over a hundred steps of the cheapest method, four a frame: less than 1 % of
-        them. With wide instructions the steps are three times cheaper and the looks are not: 1.4 %, over the bar of 1 %."""
+        them. With wide instructions the steps are three times cheaper and the looks, which copy ids of 64 bits, are not: 1.6 %, over
+        the bar of 1 %."""
         flags = pathlib.Path("/proc/cpuinfo").read_text().split()
-        for set_name, most in (("baseline", 0.01), ("avx2", 0.016)):
+        for set_name, most in (("baseline", 0.01), ("avx2", 0.017)):
             if set_name not in ("baseline", *flags):
                 continue
             with concurrent.futures.ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
