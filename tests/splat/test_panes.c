@@ -1,7 +1,7 @@
 /* A tank of clear fluid at rest in the view splat: its sides are the walls of the box, its top the level, and
    light is absorbed along the way between. */
-#include "tests/render/still_water.h"
 #include "tests/splat/splat_fixture.h"
+#include "tests/volume/still_water.h"
 
 enum { SIDE = 160 };
 static const double SPACING = 0.05, LEVEL = 0.5, WALL[3] = {0.5, 0, 0.25}; /* m */

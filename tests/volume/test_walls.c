@@ -1,7 +1,7 @@
 /* Fluid at the walls of the box, and drops: the surface that the view volume draws, by the depth of each
    pixel, against flat sides and balls. */
 #include "tests/render/fixture.h"
-#include "tests/render/still_water.h"
+#include "tests/volume/still_water.h"
 
 #include "render/frame/camera.h"
 #include "render/volume/volume_def.h"
