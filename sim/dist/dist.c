@@ -262,6 +262,14 @@ static void find_owners(Dist *dist)
     }
 }
 
+/* Zoltan seeks for ever in the cuts of nothing. */
+static bool any_objects(const Dist *dist)
+{
+    int most = dist->objects.count;
+    MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_INT, MPI_MAX, dist->comm);
+    return most > 0;
+}
+
 void dist_balance(Dist *dist, const double *weight, bool known)
 {
     int changes, global, local, imports, exports;
@@ -275,6 +283,8 @@ void dist_balance(Dist *dist, const double *weight, bool known)
         if (weight[cell] > 0 &&
             (known ? (int)(cell % (uint32_t)dist->size) == dist->rank : !dist->foreign[cell]))
             dist->objects.cell[dist->objects.count++] = cell;
+    if (!any_objects(dist))
+        return;
     dist_check(Zoltan_LB_Partition(dist->zoltan, &changes, &global, &local, &imports, &ids[0], &ids[1],
                                    &ranks[0], &parts[0], &exports, &ids[2], &ids[3], &ranks[1], &parts[1]),
                "shares of the cells");

@@ -19,7 +19,8 @@ typedef struct Dist Dist;
 Dist *dist_init(const Constants *constants);
 
 /* Shares the cells anew. `weight`: of each cell of the grid, what its particles cost, 0 for nothing; read
-   where the cell is the rank's own, or with `known` the same on all ranks. */
+   where the cell is the rank's own, or with `known` the same on all ranks. They stay as they are where all
+   are 0, which the first time they may not be. */
 void dist_balance(Dist *dist, const double *weight, bool known);
 
 /* Behind cpu_cells: particles that stand in cells of others go there. There are no ghosts before. */
