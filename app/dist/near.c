@@ -8,7 +8,8 @@
 #include <string.h>
 
 typedef struct Record {
-    uint32_t cell, id;
+    ParticleId id;
+    uint32_t cell;
     float position[4], velocity[4], density, pressure;
 } Record;
 
@@ -48,7 +49,7 @@ static void read_own(Near *near, World *world)
         reserve(&near->id, near->own_room, sizeof *near->id);
         reserve(&near->cell, near->own_room, sizeof *near->cell);
     }
-    ParticleArrays out = {.position = near->own.position, .velocity = near->own.velocity, .id = near->id};
+    ParticleArrays out = {.position = near->own.position, .velocity = near->own.velocity, .whole_id = near->id};
     out.scalar[SCALAR_DENSITY] = near->own.density;
     out.scalar[SCALAR_PRESSURE] = near->own.pressure;
     near->own.count = count;

@@ -3,6 +3,7 @@
 #define SLOSH_DIST_NEAR_H
 
 #include "app/probe/probe.h"
+#include "sim/base/particle_id.h"
 #include "sim/world/world.h"
 
 /* Zero-initialise it. */
@@ -10,7 +11,8 @@ typedef struct Near {
     Cloud cloud;    /* at the first rank: in the order of one process, so that sums have its bits */
     Cloud own;      /* this rank's particles */
     void *out, *in; /* records that go to the first rank, and that come */
-    uint32_t *id, *cell;
+    ParticleId *id;
+    uint32_t *cell;
     size_t own_room, out_room, in_room, cloud_room; /* of particles */
 } Near;
 

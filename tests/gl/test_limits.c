@@ -374,6 +374,7 @@ static void views_ask(void **state)
     assert_no_view(&def, "bindings of storage buffers, and this driver has 8");
     limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 40000);
     snprintf(def.kind, sizeof def.kind, "splat");
+    splat_def(&def)->shape = SPLAT_PERSPECTIVE;
     Renderer *renderer = renderer_create(&def, &world, 16, 16, &error);
     assert_non_null(renderer);
     splat_def(&def)->shape = SPLAT_ELLIPSOID; /* live */
