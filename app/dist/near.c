@@ -49,7 +49,8 @@ static void read_own(Near *near, World *world)
         reserve(&near->id, near->own_room, sizeof *near->id);
         reserve(&near->cell, near->own_room, sizeof *near->cell);
     }
-    ParticleArrays out = {.position = near->own.position, .velocity = near->own.velocity, .whole_id = near->id};
+    ParticleArrays out = {
+        .position = near->own.position, .velocity = near->own.velocity, .whole_id = near->id};
     out.scalar[SCALAR_DENSITY] = near->own.density;
     out.scalar[SCALAR_PRESSURE] = near->own.pressure;
     near->own.count = count;

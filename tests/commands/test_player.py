@@ -102,13 +102,14 @@ class Time(PlayerTest):
 class Views(PlayerTest):
     def test_looks(self):
         self.record()
-        self.open('a.h5part', '--view', 'splat', '--set', 'view.range=[0, 2]')
+        look = '--view', 'splat', '--set', 'view.quality=good'
+        self.open('a.h5part', *look, '--set', 'view.range=[0, 2]')
         self.keys('space', 'End')
-        self.assert_time(0.4, '--view', 'splat', '--set', 'view.range=[0, 2]')
+        self.assert_time(0.4, *look, '--set', 'view.range=[0, 2]')
         self.keys('s')
-        self.assert_time(0.4, '--view', 'splat', '--set', 'view.color_by=density')
+        self.assert_time(0.4, *look, '--set', 'view.color_by=density')
         self.keys('c')
-        self.assert_time(0.4, '--view', 'splat', '--set', 'view.color_by=density', '--set', 'view.colormap=inferno')
+        self.assert_time(0.4, *look, '--set', 'view.color_by=density', '--set', 'view.colormap=inferno')
         self.keys('p', 'h', 'Escape', 'p')
         self.drag(1, [(240, 180), (300, 160)])
         self.keys('Home')
@@ -234,9 +235,9 @@ class Panels(PlayerTest):
         out = self.quit()
         self.assertEqual((out['views'], out['chosen_view'], out['view']), (2, 1, 'slice'))
         self.assertNotEqual(out['color_by'], 'density')
-        self.open('a.h5part', '--set', 'view.kind=spheres')
+        self.open('a.h5part', '--set', 'view.kind=spheres', '--set', 'view.quality=good')
         self.keys('space', 'r', 'w')
-        self.assert_time(0, '--set', 'views=[{kind: spheres}, {kind: splat}]')
+        self.assert_time(0, '--set', 'views=[{kind: spheres, quality: good}, {kind: splat, quality: good}]')
         self.assertEqual(self.quit()['views'], 2)
 
 

@@ -103,7 +103,7 @@ class Views(Window):
         """Each at its first state at or after the scene's, as `render` draws them, forth and back."""
         code, said = self.slosh('run', 'still.yaml', '-o', 'run.h5part', '--time', '0.3', '--every', '0.03', '--quiet')
         self.assertEqual(code, 0, said)
-        views = ('--set', 'views=[{}, {set: {solver.step.dt: 0.015, gravity: [3, -9, 0]}}, {file: run.h5part, kind: splat}]')
+        views = ('--set', 'views=[{}, {set: {solver.step.dt: 0.015, gravity: [3, -9, 0]}}, {file: run.h5part, kind: splat, quality: good}]')
         self.open('still.yaml', *views)
         self.shown(0.3)
         self.keys('space', 'period', 'period')
