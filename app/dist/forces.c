@@ -11,12 +11,16 @@ static bool agree(bool ok, Error *error)
     return dist_share()->agree(ok, error);
 }
 
-bool dist_forces_check(const Stand *stand, const Args *args, Error *error)
+bool dist_forces_feel(const Stand *stand, const Args *args, Error *error)
 {
     const Session *session = &stand->session;
     const bool feels = args->forces || (args->probes && probe_list_feels(&session->scene.probes));
-    const bool ok = stand->rank > 0 || !args->forces || output_check(args->forces, error);
-    return agree(ok, error) && (!feels || world_feel(session->world, error));
+    return !feels || world_feel(session->world, error);
+}
+
+bool dist_forces_check(const Stand *stand, const Args *args, Error *error)
+{
+    return agree(stand->rank > 0 || !args->forces || output_check(args->forces, error), error);
 }
 
 static bool open_log(ForcesLog *log, const Session *session, const char *path, bool resumed, Error *error)

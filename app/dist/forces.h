@@ -7,7 +7,10 @@
 #include "app/output/forces_log.h"
 #include "app/session/probe_series.h"
 
-/* Whether the file could be; from now on the world sums them, also for probes that are forces. */
+/* From now on the world sums them, also for probes that are forces. */
+bool dist_forces_feel(const Stand *stand, const Args *args, Error *error);
+
+/* Whether the file could be. */
 bool dist_forces_check(const Stand *stand, const Args *args, Error *error);
 
 bool dist_forces_begin(ForcesLog *log, const Stand *stand, const Args *args, bool resumed, Error *error);

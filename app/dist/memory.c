@@ -109,7 +109,7 @@ DistMemory memory_look(const Scene *scene, double physical, int here)
 
 bool memory_fits(const DistMemory *memory, int ranks, Error *error)
 {
-    enum { IDS = 31 }; /* bits of an id in memory that are not a solid's */
+    enum { IDS = 31 }; /* bits of a place in the initial state, which each rank makes whole */
     if (memory->particles >= ldexp(1, IDS))
         return error_set(error, "%.4g particles are more than slosh-dist counts (2^%d); use a larger spacing",
                          memory->particles, IDS);

@@ -9,12 +9,14 @@ static bool agree(bool ok, Error *error)
     return dist_share()->agree(ok, error);
 }
 
-bool dist_probes_check(const Stand *stand, const Args *args, bool resumed, Error *error)
+bool dist_probes_check(const Stand *stand, const Args *args, Error *error)
 {
-    bool ok = true;
-    if (stand->rank == 0)
-        ok = run_probes_check(&stand->session, args, error) && run_probes_check_table(args, resumed, error);
-    return agree(ok, error);
+    return agree(stand->rank > 0 || run_probes_check(&stand->session, args, error), error);
+}
+
+bool dist_probes_check_table(const Stand *stand, const Args *args, bool resumed, Error *error)
+{
+    return agree(stand->rank > 0 || run_probes_check_table(args, resumed, error), error);
 }
 
 bool dist_probes_begin(DistProbes *probes, Stand *stand, const Args *args, bool resumed, Error *error)

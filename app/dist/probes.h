@@ -14,8 +14,9 @@ typedef struct DistProbes {
     ProbeSeries series; /* of the first rank */
 } DistProbes;
 
-/* Whether the scene has some, and the files could be. */
-bool dist_probes_check(const Stand *stand, const Args *args, bool resumed, Error *error);
+/* Whether the scene has some; whether the files could be. */
+bool dist_probes_check(const Stand *stand, const Args *args, Error *error);
+bool dist_probes_check_table(const Stand *stand, const Args *args, bool resumed, Error *error);
 
 bool dist_probes_begin(DistProbes *probes, Stand *stand, const Args *args, bool resumed, Error *error);
 

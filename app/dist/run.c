@@ -160,8 +160,8 @@ static bool check_files(const DistRun *run, bool goes_on, Error *error)
 {
     const Args *args = run->args;
     const bool ok = run->stand.rank > 0 || !args->json || json_file_check(args->json, error);
-    return dist_share()->agree(ok, error) && dist_probes_check(&run->stand, args, goes_on, error) &&
-           dist_forces_check(&run->stand, args, error);
+    return dist_share()->agree(ok, error) && dist_forces_check(&run->stand, args, error) &&
+           dist_probes_check_table(&run->stand, args, goes_on, error);
 }
 
 static bool begin_file(DistRun *run, bool goes_on, Error *error)
@@ -177,9 +177,11 @@ static int go(DistRun *run, Error *error)
     Progress progress;
     Stand *stand = &run->stand;
     const bool goes_on = run->args->resume && is_there(run);
-    if (!check_files(run, goes_on, error)) {
+    const bool asked_well =
+        dist_probes_check(stand, run->args, error) && dist_forces_feel(stand, run->args, error);
+    if (!asked_well || !check_files(run, goes_on, error)) {
         stand_say(stand, error->message);
-        return EXIT_USAGE;
+        return asked_well ? EXIT_FAILED : EXIT_USAGE;
     }
     if (!begin_file(run, goes_on, error))
         return fail(run, error);

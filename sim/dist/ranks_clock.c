@@ -21,6 +21,12 @@ void computed(Ranks *ranks, Clock since)
     ranks->cpu_time += seconds(CLOCK_PROCESS_CPUTIME_ID) - since.cpu;
 }
 
+void not_computed(Ranks *ranks, Clock since)
+{
+    ranks->figures.compute -= MPI_Wtime() - since.wall;
+    ranks->cpu_time -= seconds(CLOCK_PROCESS_CPUTIME_ID) - since.cpu;
+}
+
 void exchanged(Ranks *ranks, Clock since)
 {
     const DistSent sent = dist_sent(ranks->dist);

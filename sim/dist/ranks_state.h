@@ -43,8 +43,10 @@ typedef struct Clock {
 
 Clock clock_now(void);
 
-/* What it did since then was computing; an exchange. */
+/* What it did since then was computing; was none, though what it is a part of will be called so; an exchange.
+ */
 void computed(Ranks *ranks, Clock since);
+void not_computed(Ranks *ranks, Clock since);
 void exchanged(Ranks *ranks, Clock since);
 
 /* For who is slower, before an exchange, so that the exchange's time is its own. */

@@ -351,20 +351,21 @@ static void set_solids(World *world, const SolidDef solids[SOLIDS_MAX])
 static bool world_resize(World *world, const WorldDef *def, Error *error)
 {
     WorldState state = {.count = 0};
-    double before[3];
-    memcpy(before, world->def.box_size, sizeof before);
+    const WorldDef before = world->def;
     if (!world_save(world, &state, error))
         return false;
     for (int k = 0; k < def->dimensions; k++)
-        if (def->box_size[k] < before[k])
+        if (def->box_size[k] < before.box_size[k])
             bring_in(&state, def, k);
     place(world, def->box_size);
     set_solids(world, def->solids);
     const bool loaded = world_load(world, &state, error);
     if (loaded)
         world_pose(world); /* it turns about half its height */
-    else
-        place(world, before);
+    else {
+        place(world, before.box_size);
+        set_solids(world, before.solids);
+    }
     world_state_free(&state);
     return loaded && sentinel_mark(world, error);
 }

@@ -147,6 +147,13 @@ class Ranks(RanksCase):
             self.assertEqual(table["one"].read_text(), table["ranks"].read_text())
             self.assertTrue(list(states(path)) == one, scene)
 
+    def test_a_file_that_cannot_be(self):
+        """No question of how it was asked: the exit code of slosh run."""
+        for option in "--forces", "--json":
+            path, done = self.dist(2, "dam_break", "--time", "0.01", option, self.folder / "none" / "a.csv")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertFalse(path.exists())
+
     def test_what_is_not_there_is_refused(self):
         path, done = self.dist(2, "dam_break", "--time", "0.01", "--device", "hand.jsonl")
         self.assertEqual(done.returncode, 2)
