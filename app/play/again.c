@@ -206,6 +206,7 @@ static bool find_wanted(const Model *model, Renewal *renewal, Error *error)
     const Recording *recording = &model->open.recording;
     SceneSettings settings;
     setting_list_join_scene(&renewal->settings, &recording->settings);
+    setting_list_remove_within(&renewal->again.mine.settings, &renewal->changed.settings);
     setting_list_join(&renewal->settings, &renewal->again.mine.settings);
     setting_list_remove(&renewal->settings, &renewal->changed.settings);
     setting_list_remove_around(&renewal->settings, &renewal->changed.settings);

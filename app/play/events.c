@@ -177,8 +177,9 @@ void events_between_passes(void *of_play)
 {
     static const double APART_MS = 2; /* a look costs some 0.1 ms */
     Play *play = of_play;
-    const bool holds = input_holds_box(&play->input) || (play->touch.holds && input_touches(&play->input)) ||
-                       play->touch.hold.holds;
+    const bool box =
+        input_holds_box(&play->input) && (!play->touch.on || play->touch.holds); /* else it may press */
+    const bool holds = box || (play->touch.holds && input_touches(&play->input)) || play->touch.hold.holds;
     if (holds && wall_ms() - play->looked_ms >= APART_MS)
         events_follow_hand(play);
 }

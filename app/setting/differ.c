@@ -53,11 +53,7 @@ static void walk_element(const Key *list, const Walk *walk, const char *shown, i
 
 static bool is_absent(const Key *key, const char *base)
 {
-    if (!base)
-        return true;
-    if (key->type == KEY_VARIANT)
-        return *(const int *)(base + key->aux) != key->variant;
-    return key->aux != KEY_NOWHERE && *(const bool *)(base + key->aux);
+    return !base || !exact_is_there(key, base);
 }
 
 /* Whether elements that both have are of one kind. */

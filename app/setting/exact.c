@@ -93,7 +93,7 @@ static void say_mapping(Within *within, const Key *key, const char *name)
     if (!inner.file)
         return;
     say_children(&inner, key->path);
-    if (fclose(inner.file) == 0 && inner.said > 0) {
+    if (fclose(inner.file) == 0 && (inner.said > 0 || key->type == KEY_VARIANT)) {
         say_name(within, name);
         fprintf(within->file, "{%s}", words);
     }
@@ -111,7 +111,7 @@ static void say_value(Within *within, const Key *key, const char *name)
     fputs(text, within->file);
 }
 
-static bool is_there(const Key *key, const char *base)
+bool exact_is_there(const Key *key, const char *base)
 {
     if (key->type == KEY_VARIANT)
         return *(const int *)(const void *)(base + key->aux) == key->variant;
@@ -134,7 +134,7 @@ static void say_children(Within *within, const char *parent)
             exact_list(key, within->base, within->dimensions, within->file);
         } else if (key->type != KEY_MAPPING && key->type != KEY_VARIANT) {
             say_value(within, key, name);
-        } else if (is_there(key, within->base)) {
+        } else if (exact_is_there(key, within->base)) {
             say_mapping(within, key, name);
         }
     }

@@ -73,6 +73,7 @@ static bool differs(const Save *save, const char *output, const char *text, Diff
 static bool make(const Save *save, const char *output, const SettingList *files, char **text, Saved *out,
                  Error *error)
 {
+    *out->lacks = '\0';
     for (int round = 0;; round++) {
         Differ left;
         bool ok = differs(save, output, *text, &left, error);

@@ -92,6 +92,17 @@ void setting_list_remove_around(SettingList *list, const SettingList *paths)
     }
 }
 
+void setting_list_remove_within(SettingList *list, const SettingList *paths)
+{
+    for (int i = list->count - 1; i >= 0; i--) {
+        bool within = false;
+        for (int k = 0; k < paths->count; k++)
+            within |= holds(paths->set[k], list->set[i]);
+        if (within)
+            take_out(list, i);
+    }
+}
+
 void setting_list_remove_under(SettingList *list, const char *begin)
 {
     for (int i = list->count - 1; i >= 0; i--)

@@ -25,9 +25,11 @@ void setting_list_join(SettingList *list, const SettingList *more);
 void setting_list_join_scene(SettingList *list, const SceneSettings *settings);
 
 /* Takes out what is of one of the paths of `paths`; lists said whole of which `paths` have an element's key
-   ("solids=[{...}]", "solids[0].slip"); or what begins with that. */
+   ("solids=[{...}]", "solids[0].slip"); keys of elements of lists that `paths` say whole; or what begins with
+   that. */
 void setting_list_remove(SettingList *list, const SettingList *paths);
 void setting_list_remove_around(SettingList *list, const SettingList *paths);
+void setting_list_remove_within(SettingList *list, const SettingList *paths);
 void setting_list_remove_under(SettingList *list, const char *begin);
 
 /* For as long as the list lives. False: a scene takes no more than SCENE_SETTINGS_MAX of them, or the list

@@ -196,6 +196,7 @@ void derived_destroy(Derived *derived)
     glDeleteBuffers(SCALAR_COUNT, derived->scalar_buffer);
     glDeleteBuffers(VECTOR_COUNT, derived->vector_buffer);
     glDeleteBuffers(1, &derived->births);
+    glDeleteBuffers(1, &derived->foam_buffer);
     neighbourhood_destroy(&derived->neighbourhood);
     *derived = (Derived){0};
 }
@@ -227,6 +228,8 @@ void derived_give_back(Derived *derived, const ParticleWants *wants)
     for (int s = 0; s < SCALAR_COUNT; s++)
         if (!(wanted_scalars(wants) & SCALAR_BIT(s)))
             give_back(&derived->scalar_buffer[s], &derived->scalar_capacity[s]);
+    if (!(wanted_scalars(wants) & SCALAR_BIT(SCALAR_TRAPPED_AIR)))
+        give_back(&derived->foam_buffer, &derived->foam_capacity);
     for (int v = 0; v < VECTOR_COUNT; v++)
         if (!(wants->vectors & VECTOR_BIT(v)))
             give_back(&derived->vector_buffer[v], &derived->vector_capacity[v]);
@@ -245,7 +248,7 @@ void derived_give_back(Derived *derived, const ParticleWants *wants)
 
 size_t derived_bytes(const Derived *derived)
 {
-    size_t bytes = 0;
+    size_t bytes = 4 * derived->foam_capacity;
     for (int s = 0; s < SCALAR_COUNT; s++)
         bytes += 4 * derived->scalar_capacity[s];
     for (int v = 0; v < VECTOR_COUNT; v++)
@@ -423,17 +426,17 @@ static void set_meets(unsigned program, const Making *making, double slowest)
 }
 
 /* Nowhere where there is no memory for it. */
-static ParticleAttribute make_scalar(Making *making, Scalar scalar, double slowest)
+static ParticleAttribute make_scalar(Making *making, Scalar scalar, double slowest, unsigned *buffer,
+                                     size_t *capacity)
 {
     Derived *derived = making->derived;
     const Recipe *recipe = &scalar_recipes[scalar];
     const unsigned program = derived->scalar_program[scalar];
-    if (!reserve(derived, &derived->scalar_buffer[scalar], &derived->scalar_capacity[scalar],
-                 making->particles->count, 4, scalar_list[scalar].name))
+    if (!reserve(derived, buffer, capacity, making->particles->count, 4, scalar_list[scalar].name))
         return (ParticleAttribute){0};
     if (recipe->meets)
         set_meets(program, making, slowest);
-    return make(making, recipe, program, derived->scalar_buffer[scalar], 4);
+    return make(making, recipe, program, *buffer, 4);
 }
 
 ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
@@ -441,10 +444,9 @@ ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *spac
 {
     const Scalar air = SCALAR_TRAPPED_AIR;
     Making making = {derived, space, particles, false, {0}};
-    if (particles->scalar[air].buffer ||
-        !due(true, derived->scalar_program[air], &scalar_recipes[air], particles))
+    if (!due(true, derived->scalar_program[air], &scalar_recipes[air], particles))
         return particles->scalar[air];
-    return make_scalar(&making, air, slowest);
+    return make_scalar(&making, air, slowest, &derived->foam_buffer, &derived->foam_capacity);
 }
 
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
@@ -457,7 +459,8 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
         if (particles->scalar[s].buffer ||
             !due(wanted_scalars(wants) & SCALAR_BIT(s), program, &scalar_recipes[s], particles))
             continue;
-        particles->scalar[s] = make_scalar(&making, (Scalar)s, 0);
+        particles->scalar[s] =
+            make_scalar(&making, (Scalar)s, 0, &derived->scalar_buffer[s], &derived->scalar_capacity[s]);
     }
     if (wants->vectors & VECTOR_BIT(VECTOR_VELOCITY))
         particles->vector[VECTOR_VELOCITY] = particles->velocity;

@@ -49,9 +49,11 @@ typedef struct Derived {
     size_t scalar_capacity[SCALAR_COUNT], vector_capacity[VECTOR_COUNT]; /* particles */
     bool sorts;                                                          /* `neighbourhood` is there */
     Neighbourhood neighbourhood;
-    DerivedPack pack[2]; /* of velocities; of a scalar */
-    unsigned births;     /* buffer: the table of ParticleBuffers.births */
-    const char *lacks;   /* what the GPU had no memory for since derived_give_back; NULL: nothing */
+    DerivedPack pack[2];  /* of velocities; of a scalar */
+    unsigned births;      /* buffer: the table of ParticleBuffers.births */
+    unsigned foam_buffer; /* of derived_trapped_air */
+    size_t foam_capacity;
+    const char *lacks; /* what the GPU had no memory for since derived_give_back; NULL: nothing */
 } Derived;
 
 /* Makes the programs for what is wanted and not there yet. False when a shader does not compile. */
@@ -70,9 +72,9 @@ void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpa
                   ParticleBuffers *particles);
 
 /* SCALAR_TRAPPED_AIR of particles that air is near and that are at least so fast, m/s, and 0 of the others,
-   which costs next to nothing where all are slower. It is no scalar of the state for anyone else, and not put
-   there; where the state has that of all, it is that. Up to the next call of this or of derived_fill. Its
-   program is made by derived_follow. */
+   which costs next to nothing where all are slower. It is no scalar of the state, which colours are of, and
+   not put there. Up to the next call of this. Its program is made by derived_follow; where it can't be made,
+   it is what the state has. */
 ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
                                       const ParticleBuffers *particles, double slowest);
 

@@ -30,8 +30,8 @@ vec3 reflected(Surface s, vec3 mirror)
 
 // The sides of a tank in air mirror rays that come to them from within at a slant: what one sees in a side through the top or through
 // the next side is the tank's floor, and water is as deep at its edges as elsewhere. The floor, on which the tank stands, mirrors
-// nothing. Up to which cosine to the wall's normal they do: by half more than the index of refraction is above 1, water lets nothing out
-// that came in through a flat top or the next side. Else it would within some 30 degrees of the surface, and end in a fog there.
+// nothing. Up to which cosine to the wall's normal they do: that of an index half as far again above 1 as the fluid's. Water's own lets
+// rays out that came in through a flat top within some 30 degrees of it, and they would end in a fog.
 float mirrored_cosine()
 {
     float index = 1.0 + 1.54 * max(refraction_index - 1.0, 0.0);

@@ -127,11 +127,11 @@ static void derive(Cloud *cloud)
         assert_true(particles.vector[v].buffer || count == 0);
         read_back(&particles.vector[v], count, cloud->vector[v]);
     }
-    particles.scalar[SCALAR_TRAPPED_AIR].buffer = 0;
-    particles.scalar[SCALAR_TRAPPED_AIR] =
-        derived_trapped_air(&derived, &cloud->space, &particles, cloud->slowest);
+    const ParticleAttribute foam = derived_trapped_air(&derived, &cloud->space, &particles, cloud->slowest);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    read_back(&particles.scalar[SCALAR_TRAPPED_AIR], count, cloud->fast_air);
+    read_back(&foam, count, cloud->fast_air);
+    read_back(&particles.scalar[SCALAR_TRAPPED_AIR], count,
+              cloud->scalar[SCALAR_TRAPPED_AIR]); /* as it was */
     derived_destroy(&derived);
     upload_destroy(upload);
 }

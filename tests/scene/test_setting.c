@@ -46,6 +46,7 @@ static void test_there_and_back(void **state)
                                            "fluids[0].color=[0.2, 0.4, 0.6]",
                                            "gravity=[0, -3.3, 0.1]",
                                            "solver.step.dt=0.0033333333333333335",
+                                           "probes=[{name: all, force: {}}]",
                                            "view.camera.from=[0.1, 0.2, 0.3]",
                                            "view.camera.to=[0, 0.1234567890123, 0]",
                                            "views[0].range=[0, 2]",
@@ -152,9 +153,27 @@ static void test_settle(void **state)
         }
 }
 
+/* What is of an element goes where the file has a list of other elements; what is of another list stays. */
+static void test_within(void **state)
+{
+    (void)state;
+    SettingList mine = {.count = 0}, file = {.count = 0};
+    static const char *const settings[] = {"solids[0].box.centre=[0, 1, 0]", "solids_like[0].a=1",
+                                           "drains[0].shut=true", "gravity=[0, 0, 0]"};
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
+        setting_list_add(&mine, settings[i]);
+    setting_list_add(&file, "solids=[{sphere: {radius: 0.1}}]");
+    setting_list_add(&file, "drains[0].shut=false");
+    setting_list_remove_within(&mine, &file);
+    assert_int_equal(mine.count, 3);
+    assert_string_equal(mine.set[0], settings[1]);
+    setting_list_free(&mine);
+    setting_list_free(&file);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_there_and_back), cmocka_unit_test(test_kinds),
-                                       cmocka_unit_test(test_settle)};
+                                       cmocka_unit_test(test_settle), cmocka_unit_test(test_within)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
