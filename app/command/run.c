@@ -165,9 +165,6 @@ static bool begin_forces(const Session *session, const Args *args, bool resumed,
 {
     if (!args->forces)
         return true;
-    if (resumed && access(args->forces, F_OK) != 0)
-        fprintf(stderr, "%s: there is no such table to go on with; it begins at t = %.4g s\n", args->forces,
-                session->info.time);
     return forces_log_open(&look->forces, args->forces, session->scene.world.solid_count,
                            resumed ? session->info.time : -1, error);
 }

@@ -3,14 +3,6 @@
 #include "app/base/output.h"
 #include "app/dist/share.h"
 
-#include <stdio.h>
-#include <unistd.h>
-
-static bool agree(bool ok, Error *error)
-{
-    return dist_share()->agree(ok, error);
-}
-
 bool dist_forces_feel(const Stand *stand, const Args *args, Error *error)
 {
     const Session *session = &stand->session;
@@ -20,22 +12,17 @@ bool dist_forces_feel(const Stand *stand, const Args *args, Error *error)
 
 bool dist_forces_check(const Stand *stand, const Args *args, Error *error)
 {
-    return agree(stand->rank > 0 || !args->forces || output_check(args->forces, error), error);
-}
-
-static bool open_log(ForcesLog *log, const Session *session, const char *path, bool resumed, Error *error)
-{
-    if (resumed && access(path, F_OK) != 0)
-        fprintf(stderr, "%s: there is no such table to go on with; it begins at t = %.4g s\n", path,
-                session->info.time);
-    return forces_log_open(log, path, session->scene.world.solid_count, resumed ? session->info.time : -1,
-                           error);
+    return dist_agree(stand->rank > 0 || !args->forces || output_check(args->forces, error), error);
 }
 
 bool dist_forces_begin(ForcesLog *log, const Stand *stand, const Args *args, bool resumed, Error *error)
 {
+    const Session *session = &stand->session;
+    const double keep = resumed ? session->info.time : -1;
     return !args->forces ||
-           agree(stand->rank > 0 || open_log(log, &stand->session, args->forces, resumed, error), error);
+           dist_agree(stand->rank > 0 ||
+                          forces_log_open(log, args->forces, session->scene.world.solid_count, keep, error),
+                      error);
 }
 
 bool dist_forces_frame(ForcesLog *log, ProbeSeries *probes, Stand *stand, const Args *args, Error *error)
@@ -47,10 +34,10 @@ bool dist_forces_frame(ForcesLog *log, ProbeSeries *probes, Stand *stand, const 
     probe_series_forces(probes, &stand->session, &forces);
     if (stand->rank == 0)
         ok = forces_log_add(log, stand->session.info.time, &forces, error);
-    return agree(ok, error);
+    return dist_agree(ok, error);
 }
 
 bool dist_forces_end(ForcesLog *log, Error *error)
 {
-    return agree(forces_log_close(log, error), error);
+    return dist_agree(forces_log_close(log, error), error);
 }

@@ -4,19 +4,14 @@
 #include "app/lab/probe_chart.h"
 #include "sim/dist/dist.h"
 
-static bool agree(bool ok, Error *error)
-{
-    return dist_share()->agree(ok, error);
-}
-
 bool dist_probes_check(const Stand *stand, const Args *args, Error *error)
 {
-    return agree(stand->rank > 0 || run_probes_check(&stand->session, args, error), error);
+    return dist_agree(stand->rank > 0 || run_probes_check(&stand->session, args, error), error);
 }
 
 bool dist_probes_check_table(const Stand *stand, const Args *args, bool resumed, Error *error)
 {
-    return agree(stand->rank > 0 || run_probes_check_table(args, resumed, error), error);
+    return dist_agree(stand->rank > 0 || run_probes_check_table(args, resumed, error), error);
 }
 
 bool dist_probes_begin(DistProbes *probes, Stand *stand, const Args *args, bool resumed, Error *error)
@@ -29,8 +24,8 @@ bool dist_probes_begin(DistProbes *probes, Stand *stand, const Args *args, bool 
         dist_die("no memory for the probes; use fewer of them");
     near_read(&probes->near, probes->probes, stand->session.world);
     probes->series.given = &probes->near.cloud;
-    return agree(stand->rank > 0 || run_probes_begin(&probes->series, &stand->session, args, resumed, error),
-                 error);
+    return dist_agree(
+        stand->rank > 0 || run_probes_begin(&probes->series, &stand->session, args, resumed, error), error);
 }
 
 bool dist_probes_step(DistProbes *probes, const Stand *stand, Error *error)
@@ -38,7 +33,7 @@ bool dist_probes_step(DistProbes *probes, const Stand *stand, Error *error)
     if (!probes->probes)
         return true;
     near_read(&probes->near, probes->probes, stand->session.world);
-    return agree(stand->rank > 0 || probe_series_step(&probes->series, &stand->session, error), error);
+    return dist_agree(stand->rank > 0 || probe_series_step(&probes->series, &stand->session, error), error);
 }
 
 /* The world has been asked behind the step whether it is sound: that it is asked again by one rank alone is
@@ -46,7 +41,7 @@ bool dist_probes_step(DistProbes *probes, const Stand *stand, Error *error)
 bool dist_probes_frame(DistProbes *probes, const Stand *stand, Error *error)
 {
     return !probes->probes ||
-           agree(stand->rank > 0 || probe_series_frame(&probes->series, &stand->session, error), error);
+           dist_agree(stand->rank > 0 || probe_series_frame(&probes->series, &stand->session, error), error);
 }
 
 bool dist_probes_end(DistProbes *probes, const Stand *stand, const Args *args, Error *error)
@@ -57,7 +52,7 @@ bool dist_probes_end(DistProbes *probes, const Stand *stand, const Args *args, E
     if (stand->rank == 0)
         ok = probe_series_close(&probes->series, error) &&
              run_probes_draw(&probes->series, &stand->session, args, error);
-    return agree(ok, error);
+    return dist_agree(ok, error);
 }
 
 void dist_probes_free(DistProbes *probes)

@@ -108,7 +108,7 @@ static int finish(const DistRun *run, Error *error)
         session_report(&run->stand.session, run->args, &summary);
         ok = write_json(run, error);
     }
-    if (!dist_share()->agree(ok, error)) {
+    if (!dist_agree(ok, error)) {
         stand_say(&run->stand, error->message);
         return EXIT_FAILED;
     }
@@ -160,7 +160,7 @@ static bool check_files(const DistRun *run, bool goes_on, Error *error)
 {
     const Args *args = run->args;
     const bool ok = run->stand.rank > 0 || !args->json || json_file_check(args->json, error);
-    return dist_share()->agree(ok, error) && dist_forces_check(&run->stand, args, error) &&
+    return dist_agree(ok, error) && dist_forces_check(&run->stand, args, error) &&
            dist_probes_check_table(&run->stand, args, goes_on, error);
 }
 

@@ -20,7 +20,7 @@ static hid_t transfer_together(void)
     return transfer;
 }
 
-static bool agree(bool ok, Error *error)
+bool dist_agree(bool ok, Error *error)
 {
     int rank, ranks, failed;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
@@ -57,7 +57,7 @@ const SnapshotShare *dist_share(void)
 {
     static SnapshotShare share = {.access = access_together,
                                   .transfer = transfer_together,
-                                  .agree = agree,
+                                  .agree = dist_agree,
                                   .end = end_all,
                                   .tell = tell,
                                   .held = ranks_owned,

@@ -47,6 +47,10 @@ static bool keep_rows(FILE *from, FILE *to, const char *header, double keep)
 static bool keep_old(ForcesLog *log, const char *path, const char *header, double keep, Error *error)
 {
     FILE *old = keep >= 0 ? fopen(path, "r") : NULL;
+    if (keep >= 0 && !old && errno != ENOENT)
+        return error_set(error, "%.300s: %s", path, strerror(errno));
+    if (keep >= 0 && !old)
+        fprintf(stderr, "%s: there is no such table to go on with; it begins at t = %.4g s\n", path, keep);
     const bool kept = !old || keep_rows(old, log->file, header, keep);
     if (old)
         fclose(old);

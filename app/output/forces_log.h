@@ -22,9 +22,9 @@ typedef struct ForcesLog {
 } ForcesLog;
 
 /* Begins a table of so many solids that gets its name with its first row, or in forces_log_close: until then
-   an older one stays. The rows that a table of that name has up to `keep` (s) stay: less than 0 for a new
-   run. False with the reason: it can't be written, another slosh writes it, or what is there is another
-   table. */
+   an older one stays. The rows that a table of that name has up to `keep` (s) stay, and that there is none is
+   said: less than 0 for a new run. False with the reason: it can't be written, another slosh writes it, or
+   what is there is another table. */
 bool forces_log_open(ForcesLog *log, const char *path, int solids, double keep, Error *error);
 
 /* Adds a row, of means; none where no time went by. It is the system's from then on: a program that is killed

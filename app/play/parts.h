@@ -103,8 +103,9 @@ static inline Look play_look(const Play *play, int panel)
    looked at. */
 void events_take(Play *play);
 
-/* In the middle of a picture: what is held follows a picture sooner. The second one between its passes, of a
-   Play: what has a state of its own to look at waits. */
+/* In the middle of a picture: what is held follows a picture sooner. The second one is called between the
+   passes of a picture (gl_timer_between, with a Play), and looks only where the mouse or a key holds
+   something. */
 void events_follow_hand(Play *play);
 void events_between_passes(void *of_play);
 

@@ -16,8 +16,8 @@ typedef struct Differ {
 
 /* Both are scenes that were read. Numbers are written so that they are read as the same bits. A list of
    another length, or with an element of another kind, is said whole. Of `views` that are more or less each
-   entry is said, after "views=[]" where there are less. The bytes of files that a scene
-   names are not looked at. */
+   entry is said, after "views=[]" where there are less. The bytes of files that a scene names are not looked
+   at. */
 void scene_differ(const Scene *before, const Scene *now, Differ *out);
 
 /* "a, b, c and 4 more": the paths, for people. */

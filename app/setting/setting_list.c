@@ -81,26 +81,26 @@ static bool holds(const char *setting, const char *other)
            other[length] == '[';
 }
 
-void setting_list_remove_around(SettingList *list, const SettingList *paths)
+/* What holds one of the paths, or is held by one. */
+static void remove_held(SettingList *list, const SettingList *paths, bool around)
 {
     for (int i = list->count - 1; i >= 0; i--) {
-        bool around = false;
+        bool found = false;
         for (int k = 0; k < paths->count; k++)
-            around |= holds(list->set[i], paths->set[k]);
-        if (around)
+            found |= around ? holds(list->set[i], paths->set[k]) : holds(paths->set[k], list->set[i]);
+        if (found)
             take_out(list, i);
     }
 }
 
+void setting_list_remove_around(SettingList *list, const SettingList *paths)
+{
+    remove_held(list, paths, true);
+}
+
 void setting_list_remove_within(SettingList *list, const SettingList *paths)
 {
-    for (int i = list->count - 1; i >= 0; i--) {
-        bool within = false;
-        for (int k = 0; k < paths->count; k++)
-            within |= holds(paths->set[k], list->set[i]);
-        if (within)
-            take_out(list, i);
-    }
+    remove_held(list, paths, false);
 }
 
 void setting_list_remove_under(SettingList *list, const char *begin)

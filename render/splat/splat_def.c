@@ -49,7 +49,7 @@ const Key splat_keys[] = {
            "w1: a sphere's share falls to its rim; w1w2: and with its depth; none: each pixel is its foremost sphere's"),
     CHOICE_OF("view.splat.shape", L | KEY_INDEX | KEY_REBUILD, splat_shape_names, AT(shape),
            "perspective: exact spheres; paper: circles on the screen; ellipsoid: stretched as their neighbours lie; "
-           "auto: ellipsoid, but perspective with a level or opaque with weights other than w1w2"),
+           "auto: ellipsoid, but perspective with a level, and opaque with weights none or w1"),
     CHOICE_OF("view.splat.sprite", L | KEY_INDEX | KEY_REBUILD, splat_sprite_names, AT(sprite),
            "quad; point: a GL point, which drivers cut at some size; auto: points on a software driver while they are small, else quads"),
     CHOICE_OF("view.splat.show", L | KEY_INDEX | KEY_REBUILD, splat_show_names, AT(show), "a stage of the way to the picture"),

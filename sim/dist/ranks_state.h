@@ -43,8 +43,8 @@ typedef struct Clock {
 
 Clock clock_now(void);
 
-/* What it did since then was computing; was none, though what it is a part of will be called so; an exchange.
- */
+/* The time since then counts as computing; does not, within a longer time that will be counted so; counts as
+   an exchange. */
 void computed(Ranks *ranks, Clock since);
 void not_computed(Ranks *ranks, Clock since);
 void exchanged(Ranks *ranks, Clock since);
