@@ -202,7 +202,7 @@ static bool held(const Hold *hold, const float from[3], float x[3])
 }
 
 /* Where what the pairs add up to, kg m, takes particle i. */
-static inline void move_one(const Hold *hold, size_t i, const bool wide)
+static inline __attribute__((always_inline)) void move_one(const Hold *hold, size_t i, const bool wide)
 {
     const CpuParticles *p = &hold->cpu->now;
     const float w = p->own[INVERSE_MASS][i], from[3] = {p->x[i], p->y[i], p->z[i]},
@@ -234,11 +234,11 @@ static void move_body(const CpuRange *range)
     Hold hold;
     hold_make(range->cpu, &hold);
     cpu_pairs(range, &pbf_push);
-    const bool wide = range->cpu->constants->wide;
-    for (size_t i = range->begin; i < range->end; i++)
-        if (wide)
+    if (range->cpu->constants->wide)
+        for (size_t i = range->begin; i < range->end; i++)
             move_one(&hold, i, true);
-        else
+    else
+        for (size_t i = range->begin; i < range->end; i++)
             move_one(&hold, i, false);
 }
 
