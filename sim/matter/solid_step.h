@@ -63,10 +63,9 @@ static inline WayBounds way_bounds(const float before[3], const float x[3])
 /* True where solid_guard would find nothing to do, as for nearly all particles beside what stands still. */
 static inline bool solid_step_beside(const SolidStep *step, int dimensions, const WayBounds *way)
 {
-    bool beside = false;
-    for (int k = 0; k < dimensions; k++)
-        beside |= (way->high[k] < step->low[k]) | (way->low[k] > step->high[k]);
-    return beside & step->still;
+    return step->still && (way->high[0] < step->low[0] || way->low[0] > step->high[0] ||
+                           way->high[1] < step->low[1] || way->low[1] > step->high[1] ||
+                           (dimensions == 3 && (way->high[2] < step->low[2] || way->low[2] > step->high[2])));
 }
 
 /* Keeps a particle that went from `before` to x out of the solid, on the side from which it came, however
