@@ -133,13 +133,27 @@ SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
     const __m256 AB = _mm256_unpackhi_ps(a, b), CD = _mm256_unpackhi_ps(c, d);
     return (f8x4){(f8)_mm256_shuffle_ps(ab, cd, 0x44), (f8)_mm256_shuffle_ps(ab, cd, 0xee),
                   (f8)_mm256_shuffle_ps(AB, CD, 0x44), (f8)_mm256_shuffle_ps(AB, CD, 0xee)};
-#else
-    f8x4 out;
-    for (int k = 0; k < LANES; k++) {
-        const float *from = p[j[k]];
-        out.x[k] = from[0], out.y[k] = from[1], out.z[k] = from[2], out.w[k] = from[3];
+#elif defined(__SSE2__)
+    union {
+        f8 wide;
+        __m128 half[2];
+    } x, y, z, w;
+    for (int k = 0; k < 2; k++, j += 4) {
+        const __m128 a = _mm_load_ps(p[j[0]]), b = _mm_load_ps(p[j[1]]), c = _mm_load_ps(p[j[2]]),
+                     d = _mm_load_ps(p[j[3]]);
+        const __m128 ab = _mm_unpacklo_ps(a, b), cd = _mm_unpacklo_ps(c, d);
+        const __m128 AB = _mm_unpackhi_ps(a, b), CD = _mm_unpackhi_ps(c, d);
+        x.half[k] = _mm_movelh_ps(ab, cd), y.half[k] = _mm_movehl_ps(cd, ab);
+        z.half[k] = _mm_movelh_ps(AB, CD), w.half[k] = _mm_movehl_ps(CD, AB);
     }
-    return out;
+    return (f8x4){x.wide, y.wide, z.wide, w.wide};
+#else
+    const float *const a = p[j[0]], *const b = p[j[1]], *const c = p[j[2]], *const d = p[j[3]],
+                       *const e = p[j[4]], *const f = p[j[5]], *const g = p[j[6]], *const h = p[j[7]];
+    return (f8x4){{a[0], b[0], c[0], d[0], e[0], f[0], g[0], h[0]},
+                  {a[1], b[1], c[1], d[1], e[1], f[1], g[1], h[1]},
+                  {a[2], b[2], c[2], d[2], e[2], f[2], g[2], h[2]},
+                  {a[3], b[3], c[3], d[3], e[3], f[3], g[3], h[3]}};
 #endif
 }
 

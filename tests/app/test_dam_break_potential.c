@@ -442,7 +442,7 @@ static void write_pressure(const char *path)
     const Surface end = fall_on(120, 0.01, 0.03, behind, on);
     fprintf(stderr, "with the wall: area %g at the end\n", area(&end));
     fputs(
-        "# slosh, tests/app/test_dam_break_potential.c: SLOSH_POTENTIAL_WALL=FILE build/ci/tests/test_app_dam_break_potential\n"
+        "# slosh, tests/app/test_dam_break_potential.c: SLOSH_POTENTIAL_WALL=FILE build/release/tests/test_app dam_break_potential\n"
         "# The column of dam-break-potential.csv in a tank of five widths: pressure over rho g a, the mean over the lowest 0.2 a "
         "of the wall behind the column and of the wall that it meets at T = 3.5; potential flow by 120 boundary elements, whose "
         "jet along that wall is cut off where it is thinner than 0.03 a; "
@@ -462,7 +462,7 @@ static void write_file(const char *path)
     const Surface end = fall(120, 0.01, z, h);
     fprintf(stderr, "area %g, energy %g at the end\n", area(&end), energy(&end));
     fputs(
-        "# slosh, tests/app/test_dam_break_potential.c: SLOSH_POTENTIAL=FILE build/ci/tests/test_app_dam_break_potential\n"
+        "# slosh, tests/app/test_dam_break_potential.c: SLOSH_POTENTIAL=FILE build/release/tests/test_app dam_break_potential\n"
         "# The column of Martin and Moyce 1952 (n^2 = 2) without viscosity and walls' friction, let go at once: potential "
         "flow by 120 boundary elements, within 1 %. T = t sqrt(2 g / a), Z = x / a of the front, H = y / a at the wall.\nT,Z,H\n",
         file);

@@ -795,6 +795,8 @@ static void test_help_lists_every_row(void **state)
 
 int main(void)
 {
+    toy_method_add();
+    toy_view_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_the_shown_view_has_its_keys_and_no_other, no_gl_errors),
         cmocka_unit_test_teardown(test_warnings_move_nothing, no_gl_errors),

@@ -136,6 +136,7 @@ static void a_gpu_has_no_such_method(void **state)
 
 int main(void)
 {
+    toy_method_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_run_goes_on_from_a_file, folder_setup, folder_teardown),
         cmocka_unit_test_setup_teardown(and_on_a_gpu, folder_setup, folder_teardown),

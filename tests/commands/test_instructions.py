@@ -4,7 +4,7 @@ Valgrind counts them, in the functions of the program alone: what the C library 
 and on how the heap lies. The set of instructions is forced, the same on each processor that has it. A change that costs or
 saves more than SLACK fails, so that what a step costs changes knowingly:
 
-    python3 tests/commands/test_instructions.py build/ci/slosh --write
+    python3 tests/commands/test_instructions.py build/release/slosh --write
 
 writes the file anew; its difference belongs into the commit. Another compiler has other counts: then it is skipped."""
 import concurrent.futures

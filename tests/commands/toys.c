@@ -2,3 +2,9 @@
  */
 #include "tests/render/toy_view.h"
 #include "tests/sim/toy_method.h"
+
+static __attribute__((constructor)) void add(void)
+{
+    toy_method_add();
+    toy_view_add();
+}

@@ -221,7 +221,7 @@ static void what_is_not_for_a_gpu_is_refused(void **state)
     surface_gpu_destroy(&gpu);
 }
 
-/* For figures SLOSH_POINTS=1e7 build/ci/tests/test_gl_surface: points that stay, with their seeds. */
+/* For figures SLOSH_POINTS=1e7 build/release/tests/test_gl surface: points that stay, with their seeds. */
 static void points_a_second(void **state)
 {
     (void)state;

@@ -173,6 +173,7 @@ static int teardown(void **state)
 
 int main(void)
 {
+    toy_method_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_live_key_reaches_both, no_gl_errors),

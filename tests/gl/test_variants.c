@@ -765,6 +765,7 @@ static int variants_teardown(void **state)
 
 int main(void)
 {
+    toy_method_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(every_form_is_made, no_gl_errors),
         cmocka_unit_test_teardown(worlds_live, no_gl_errors),

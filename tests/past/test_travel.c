@@ -1,6 +1,7 @@
 /* Back and forth in time: each place has the bits of the straight run, and the recording stays one line. The
    solver is on its thread or on the GPU; ThreadSanitizer watches. */
 #include "tests/past/past_rig.h"
+#include "tests/program.h"
 
 enum { MIB = 1 << 20, FRAMES = 24, JUMPS = 30 };
 
@@ -647,13 +648,13 @@ static void time_it(const char *scene)
     free(file);
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
-    if (argc == 3 && strcmp(argv[1], "--time") == 0) {
+    if (test_argc == 2 && strcmp(test_argv[0], "--time") == 0) {
         if (!(context = headless_create(HEADLESS_GPU_AUTO, &error)))
             return 1;
         backends_add();
-        time_it(argv[2]);
+        time_it(test_argv[1]);
         headless_destroy(context);
         return 0;
     }

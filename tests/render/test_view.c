@@ -120,6 +120,7 @@ static void a_view_follows_what_auto_stands_for(void **state)
 
 int main(void)
 {
+    toy_view_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(it_draws_by_its_own_settings, no_gl_errors),
         cmocka_unit_test(scenes_have_its_key),

@@ -50,7 +50,8 @@ static const ViewKind view_toy = {.name = "toy",
                                   .create = toy_create,
                                   .destroy = free,
                                   .draw = toy_draw};
-static __attribute__((constructor)) void toy_view_add(void)
+/* Before the first scene is read. */
+static void toy_view_add(void)
 {
     view_add(&view_toy);
 }

@@ -248,6 +248,7 @@ static void particles_have_the_pressure_of_their_method(void **state)
 
 int main(void)
 {
+    toy_method_add();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(passes_name_columns_that_exist),
         cmocka_unit_test(what_is_saved_is_a_scalar),

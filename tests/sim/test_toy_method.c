@@ -25,5 +25,6 @@ static void toy_lives(void **state)
 
 int main(void)
 {
+    toy_method_add();
     return cmocka_run_group_tests(((const struct CMUnitTest[]){cmocka_unit_test(toy_lives)}), NULL, NULL);
 }

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "sim/cpu/pair_set.h"
+#include "tests/program.h"
 #include "walk_forms/forms.h"
 
 #include <time.h>
@@ -190,10 +191,10 @@ static int time_forms(double particles)
     return 0;
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
-    if (argc > 1 && strcmp(argv[1], "--time") == 0 && has_avx2())
-        return time_forms(argc > 2 ? strtod(argv[2], NULL) : 100000);
+    if (test_argc > 0 && strcmp(test_argv[0], "--time") == 0 && has_avx2())
+        return time_forms(test_argc > 1 ? strtod(test_argv[1], NULL) : 100000);
     const struct CMUnitTest tests[] = {cmocka_unit_test(each_form_is_brute_force)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,7 +50,8 @@ static Method toy = {.name = "toy", .help = "springs that harden",
                      .passes = (const Pass *const[]){&spring, NULL}, .settle = &spring, .substep = substep};
 /* clang-format on */
 
-static __attribute__((constructor)) void toy_method_add(void)
+/* Before the first scene is read. */
+static void toy_method_add(void)
 {
     method_add(&toy);
 }

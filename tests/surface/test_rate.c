@@ -1,6 +1,6 @@
 /* Points a second of each sampler on each kind of field, and how even a large set is. A few points under
-   ctest, to see that all of it runs; for figures SLOSH_POINTS=1e7 build/ci/tests/test_surface_rate on a quiet
-   machine: by the clock, and by the time that processors worked, times two. */
+   ctest, to see that all of it runs; for figures SLOSH_POINTS=1e7 build/release/tests/test_surface rate on a
+   quiet machine: by the clock, and by the time that processors worked, times two. */
 #include "fixture.h"
 
 #include "sim/base/stage.h"

@@ -34,7 +34,7 @@ def missing(page, text):
     folders = [span for span in spans if re.fullmatch(r'[\w./-]+/', span) and not span.startswith('build/')]
     tools = re.findall(r'(?<![\w/])tools/[a-z]\w*(?:\.py)?', text)
     links = [link.split('#')[0] for link in re.findall(r'\]\(([^)\s]+)\)', text) if '://' not in link]
-    tests = [f'tests/{folder}/test_{name}.c' for folder, name in re.findall(r'\btest_([a-z]+)_(\w+)\b(?!\.)', text)
+    tests = [f'tests/{folder}/test_{name}.c' for folder, name in re.findall(r'\btest_([a-z]+) ([a-z]\w+)', text)
              if (ROOT / 'tests' / folder).is_dir()]
     return ([name for name in [*paths, *folders] if not stands(page, name)] +
             [name for name in [*tools, *tests] if not (ROOT / name).exists()] +
@@ -51,7 +51,7 @@ class Docs(unittest.TestCase):
 
     def test_what_pages_name_is_there(self):
         self.assertEqual([f'{page.relative_to(ROOT)}: {name}' for page in PAGES for name in missing(page, page.read_text())], [])
-        self.assertEqual(missing(ROOT / 'README.md', '`sim/no.c` `nowhere/` tools/nothing [a](no.md) `test_sim_nosuch`'),
+        self.assertEqual(missing(ROOT / 'README.md', '`sim/no.c` `nowhere/` tools/nothing [a](no.md) `test_sim nosuch`'),
                          ['sim/no.c', 'nowhere/', 'tools/nothing', 'tests/sim/test_nosuch.c', 'no.md'])
 
     def test_pictures_are_small_and_have_their_command(self):
