@@ -38,9 +38,9 @@ static void arrays_destroy(Cpu *cpu)
     columns_destroy(&cpu->spare);
     if (cpu->fluid_at != cpu->owned_at)
         free(cpu->fluid_at);
-    void *const all[] = {cpu->cell,       cpu->spare_cell, cpu->rank,        cpu->order,
-                         cpu->cell_start, cpu->owned_at,   cpu->boundary_at, cpu->fluid_before,
-                         cpu->partial,    cpu->place,      cpu->motion,      cpu->ghost};
+    void *const all[] = {cpu->cell,     cpu->spare_cell,  cpu->rank,         cpu->order,     cpu->cell_start,
+                         cpu->owned_at, cpu->boundary_at, cpu->fluid_before, cpu->partial,   cpu->place,
+                         cpu->motion,   cpu->ghost,       cpu->copy_of,      cpu->copy_side, cpu->copy_start};
     for (size_t k = 0; k < sizeof all / sizeof *all; k++)
         free(all[k]);
     neighbour_lists_destroy(&cpu->lists);
@@ -62,8 +62,9 @@ static bool columns_fit(Cpu *cpu)
     cpu->saved = column_rows(own, COLUMN_SAVED, cpu->constants);
     cpu->sorted = column_rows(own, COLUMN_SORTED, cpu->constants);
     cpu->of_fluids = column_rows(own, COLUMN_FLUIDS, NULL);
-    return columns_create(&cpu->now, &cpu->all, cpu->capacity, &cpu->bytes) &&
-           columns_create(&cpu->spare, &cpu->sorted, cpu->capacity, &cpu->bytes);
+    const size_t room = cpu->capacity + cpu->copy_room;
+    return columns_create(&cpu->now, &cpu->all, room, &cpu->bytes) &&
+           columns_create(&cpu->spare, &cpu->sorted, room, &cpu->bytes);
 }
 
 static bool cpu_adapt(void *state, Error *error)
@@ -86,8 +87,14 @@ static bool arrays_create(Cpu *cpu, Error *error)
     for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
         ok &= (*integers[k] = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
     ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
-    ok &= (cpu->place = array(cpu, cpu->capacity + 1, sizeof *cpu->place)) != NULL;
-    ok &= (cpu->motion = array(cpu, cpu->capacity + 1, sizeof *cpu->motion)) != NULL;
+    const size_t read = cpu->capacity + cpu->copy_room + 1;
+    ok &= (cpu->place = array(cpu, read, sizeof *cpu->place)) != NULL;
+    ok &= (cpu->motion = array(cpu, read, sizeof *cpu->motion)) != NULL;
+    if (s->periodic.any) {
+        ok &= (cpu->copy_of = array(cpu, read, sizeof *cpu->copy_of)) != NULL;
+        ok &= (cpu->copy_side = array(cpu, cpu->copy_room, sizeof *cpu->copy_side)) != NULL;
+        ok &= (cpu->copy_start = array(cpu, s->cells.count + 1, sizeof *cpu->copy_start)) != NULL;
+    }
     ok &= neighbour_lists_create(&cpu->lists, cpu->capacity, neighbours_expected(s));
     if (s->boundary.count > 0 || cpu->foreign) {
         ok &= (cpu->owned_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
@@ -121,7 +128,7 @@ static void *cpu_create(const Constants *constants, const WorldDef *def, const I
 {
     const int threads = cpu_def(def)->threads, simd = cpu_def(def)->simd;
     PairSet pairs;
-    if (!pair_set_choose(simd, constants->periodic.any, &pairs, error))
+    if (!pair_set_choose(simd, &pairs, error))
         return NULL;
     Cpu *cpu = calloc(1, sizeof *cpu);
     if (!cpu) {
@@ -154,6 +161,7 @@ static Cpu bare(const Cpu *cpu)
         .count = cpu->count,
         .owned = cpu->owned,
         .capacity = cpu->capacity,
+        .copy_room = cpu->copy_room,
         .foreign = cpu->foreign,
         .gauge = cpu->gauge,
         .guarded = cpu->guarded,
@@ -188,6 +196,13 @@ bool cpu_share(Cpu *cpu, const uint8_t *foreign)
     return move_into(cpu, &to);
 }
 
+bool cpu_copies_grow(Cpu *cpu)
+{
+    Cpu to = bare(cpu);
+    to.copy_room = cpu->copies + cpu->copies / 4 + CPU_GRAIN;
+    return move_into(cpu, &to);
+}
+
 bool cpu_grow(Cpu *cpu, size_t capacity)
 {
     Cpu to = bare(cpu);
@@ -201,7 +216,9 @@ PairArgs cpu_pair_args(Cpu *cpu)
     PairArgs args = {
         .constants = cpu->constants,
         .count = cpu->count,
+        .none = (uint32_t)(cpu->count + cpu->copies),
         .cell_start = cpu->cell_start,
+        .copy_start = cpu->copy_start,
         .cell = cpu->cell,
         .foreign = cpu->foreign,
         .id = p->id,
@@ -227,10 +244,6 @@ PairArgs cpu_pair_args(Cpu *cpu)
         .term = p->term,
     };
     memcpy(args.own, p->own, sizeof args.own);
-    for (int k = 0; k < 3; k++) {
-        args.fold[k] = cpu->constants->periodic.axis[k] ? cpu->constants->periodic.size[k] : 0;
-        args.fold_inverse[k] = args.fold[k] > 0 ? 1 / args.fold[k] : 0;
-    }
     return args;
 }
 
@@ -283,6 +296,7 @@ const Backend backend_cpu = {
     .destroy = cpu_destroy,
     .adapt = cpu_adapt,
     .pose = cpu_pose,
+    .leave = cpu_leave,
     .drift = cpu_drift,
     .grid = cpu_grid,
     .run = cpu_run_pass,

@@ -135,14 +135,29 @@ void cpu_cells(Cpu *cpu)
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, find_cells, cpu);
 }
 
-void cpu_sort(Cpu *cpu)
+static void count_cells(Cpu *cpu)
 {
     const size_t cells = cpu->constants->cells.count;
-
     memset(cpu->cell_start, 0, (cells + 2) * sizeof *cpu->cell_start);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, take_places, cpu);
     for (size_t cell = 0; cell <= cells; cell++)
         cpu->cell_start[cell + 1] += cpu->cell_start[cell];
+}
+
+void cpu_sort(Cpu *cpu)
+{
+    const size_t cells = cpu->constants->cells.count;
+
+    count_cells(cpu);
+    if (cpu->copy_start && !cpu_copies_fit(cpu)) {
+        if (cpu_copies_grow(cpu)) {
+            cpu_cells(cpu);
+            count_cells(cpu);
+            cpu_copies_fit(cpu);
+        } else {
+            cpu_copies_drop(cpu);
+        }
+    }
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, place_particles, cpu);
     parallel_ranges(cpu->threads, cells, 4 * CPU_GRAIN, sort_cells, cpu);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, move_particles, cpu);
@@ -150,6 +165,8 @@ void cpu_sort(Cpu *cpu)
     columns_swap(&cpu->sorted, &cpu->now, &cpu->spare);
     cpu->gridded = cpu->count;
     cpu->lists.ready = false;
+    if (cpu->copies > 0)
+        cpu_copies_place(cpu);
     if (cpu->owned_at)
         cpu_find(cpu);
 }

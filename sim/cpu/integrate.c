@@ -40,7 +40,7 @@ static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Cpu
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
     const WallsFar inside = walls_far(&cpu->constants->walls, 0);
-    const bool solids = drift->step->solids, periodic = cpu->constants->periodic.any;
+    const bool solids = drift->step->solids, wraps = cpu->constants->periodic.any && !cpu->lists.ready;
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
         float x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
@@ -53,7 +53,7 @@ static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Cpu
             held += guard(drift, &inside, i, x, v, felt);
             place_put(free, x, wide ? left : NULL);
         }
-        if (periodic)
+        if (wraps)
             periodic_wrap(&cpu->constants->periodic, x, wide ? left : NULL);
         for (int k = 0; wide && k < 3; k++)
             p->own[COLUMNS_LEFT + k][i] = left[k];
@@ -94,6 +94,35 @@ void cpu_drift(void *state, const BoxStep *step)
         cpu_boundary_move(cpu, step->solids);
     if (cpu->forces)
         cpu_feel_drift(cpu);
+}
+
+static void wrap_range(void *context, size_t begin, size_t end)
+{
+    const Cpu *cpu = context;
+    const CpuParticles *p = &cpu->now;
+    const bool wide = cpu->constants->wide;
+    for (size_t i = begin; i < end; i++) {
+        float x[3] = {p->x[i], p->y[i], p->z[i]}, left[3] = {0};
+        if (!cpu_owns(cpu, i))
+            continue;
+        for (int k = 0; wide && k < 3; k++)
+            left[k] = p->own[COLUMNS_LEFT + k][i];
+        periodic_wrap(&cpu->constants->periodic, x, wide ? left : NULL);
+        for (int k = 0; wide && k < 3; k++)
+            p->own[COLUMNS_LEFT + k][i] = left[k];
+        p->x[i] = x[0];
+        p->y[i] = x[1];
+        p->z[i] = x[2];
+    }
+}
+
+void cpu_leave(void *state)
+{
+    Cpu *cpu = state;
+    if (!cpu->constants->periodic.any)
+        return;
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, wrap_range, cpu);
+    cpu->lists.ready = false;
 }
 
 typedef struct Kick {

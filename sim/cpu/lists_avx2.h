@@ -34,20 +34,10 @@ SIMD_INLINE void keep(void *out, i8 from, Kept kept)
     _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32((__m256i)from, kept.lanes));
 }
 
-SIMD_INLINE f8 away8(const PairArgs *args, int axis, f8 d)
-{
-    (void)args, (void)axis;
-#ifdef PAIRS_PERIODIC
-    return shortest(d, args->fold[axis], args->fold_inverse[axis]);
-#else
-    return d;
-#endif
-}
-
 /* How far x is from the box along an axis; 0 within. */
-SIMD_INLINE f8 outside(const PairArgs *args, const Around *box, int axis, f8 x)
+SIMD_INLINE f8 outside(const Around *box, int axis, f8 x)
 {
-    const f8 d = away8(args, axis, x - f8_splat(box->middle[axis]));
+    const f8 d = x - f8_splat(box->middle[axis]);
     return f8_positive((f8)((i8)d & i8_splat(INT32_MAX)) - f8_splat(box->half[axis]));
 }
 
@@ -61,8 +51,7 @@ SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint3
     int count = block->count;
     for (uint32_t j = begin; j < end; j += LANES) {
         const f8 x = f8_load(px + j), y = f8_load(py + j), z = f8_load(pz + j);
-        const f8 dx = outside(args, &box, 0, x), dy = outside(args, &box, 1, y),
-                 dz = outside(args, &box, 2, z);
+        const f8 dx = outside(&box, 0, x), dy = outside(&box, 1, y), dz = outside(&box, 2, z);
         const i8 there = lane_index < i8_splat((int32_t)(end - j));
         const Kept seen = kept((dx * dx + dy * dy + dz * dz < reach2) & there);
         keep(block->x + count, (i8)x, seen);
@@ -85,8 +74,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     i8 coincident = i8_splat(0); /* counted down */
     int32_t *to = out->at;
     for (int k = 0; k < count; k += LANES) {
-        const f8 dx = away8(args, 0, at.x - f8_load(x + k)), dy = away8(args, 1, at.y - f8_load(y + k)),
-                 dz = away8(args, 2, at.z - f8_load(z + k));
+        const f8 dx = at.x - f8_load(x + k), dy = at.y - f8_load(y + k), dz = at.z - f8_load(z + k);
         f8 r2 = dx * dx + dy * dy + dz * dz;
         if (count - k < LANES)
             r2 = f8_select(lane_index < i8_splat(count - k), r2, f8_splat(PAST));

@@ -41,18 +41,6 @@ SIMD_INLINE float block_reach2(const PairArgs *args)
     return h * h * 1.0001f;
 }
 
-/* The shortest way along an axis. */
-SIMD_INLINE float away(const PairArgs *args, int axis, float d)
-{
-    (void)args, (void)axis;
-#ifdef PAIRS_PERIODIC
-    const float turns = d * args->fold_inverse[axis], large = 0x1.8p23F; /* as f8_round does it */
-    return d - args->fold[axis] * ((turns + large) - large);
-#else
-    return d;
-#endif
-}
-
 /* The lists of a group as they were found, one behind the other, each filled up to whole LANES: where each
    begins and how many entries it has. */
 typedef struct Found {

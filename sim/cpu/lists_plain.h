@@ -6,9 +6,9 @@
 #include "sim/cpu/lists_block.h"
 
 /* How far x is from the box along an axis; 0 within. */
-SIMD_INLINE float outside(const PairArgs *args, const Around *box, int axis, float x)
+SIMD_INLINE float outside(const Around *box, int axis, float x)
 {
-    const float d = fabsf(away(args, axis, x - box->middle[axis])) - box->half[axis];
+    const float d = fabsf(x - box->middle[axis]) - box->half[axis];
     return d > 0 ? d : 0;
 }
 
@@ -23,8 +23,7 @@ static void block_add(const PairArgs *args, const Around *around_box, uint32_t b
     const int count = (int)(end - begin);
     float square[BLOCK_MOST + LANES];
     for (int k = 0; k < count; k++) {
-        const float dx = outside(args, &box, 0, x[k]), dy = outside(args, &box, 1, y[k]),
-                    dz = outside(args, &box, 2, z[k]);
+        const float dx = outside(&box, 0, x[k]), dy = outside(&box, 1, y[k]), dz = outside(&box, 2, z[k]);
         square[k] = dx * dx + dy * dy + dz * dz;
     }
     int used = block->count;
@@ -48,8 +47,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     int coincident = 0;
     for (int k = 0; k < count; k++) {
         // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): block_add wrote `count` of them
-        const float dx = away(args, 0, at[0] - x[k]), dy = away(args, 1, at[1] - y[k]),
-                    dz = away(args, 2, at[2] - z[k]);
+        const float dx = at[0] - x[k], dy = at[1] - y[k], dz = at[2] - z[k];
         square[k] = dx * dx + dy * dy + dz * dz;
         coincident += square[k] < least * least;
     }

@@ -14,7 +14,10 @@
 typedef struct PairArgs {
     const Constants *constants;
     size_t count;               /* particles */
+    uint32_t none;              /* whom lists are filled up with: behind the particles and their copies */
     const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
+    const uint32_t *copy_start; /* first copy of each cell outside of the box (sim/cpu/copies.c), `count` not
+                                   counted; cells + 1; NULL: no sides are periodic */
     const uint32_t *cell;       /* of each particle */
     const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, which have no lists; NULL */
     const ParticleId *id;
@@ -23,7 +26,6 @@ typedef struct PairArgs {
     const float (*place)[4];               /* of each {x, y, z, p V^2}, and behind the last {PAST, ...} */
     const float (*motion)[4];              /* {vx, vy, vz, V}, and behind the last 0 */
     NeighbourLists *lists;
-    float fold[3], fold_inverse[3]; /* size of the box along its periodic axes, m, and 1 / m; 0 */
     const float *volume;            /* m3: set before forces */
     const float *pressure_term;     /* p V^2, J m3: set before forces */
     const float *viscosity;         /* Pa s, of each particle; NULL with one fluid */

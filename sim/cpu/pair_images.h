@@ -96,7 +96,7 @@ SIMD_INLINE Themselves themselves(const PairArgs *args, size_t i)
 {
     Themselves own;
     for (uint32_t k = 0; k < LANES; k++)
-        own.j[k] = i + k < args->count ? (uint32_t)i + k : (uint32_t)args->count;
+        own.j[k] = i + k < args->count ? (uint32_t)i + k : args->none;
     return own;
 }
 

@@ -31,7 +31,7 @@ static int wanted_by_environment(void)
     return simd_kinds[kind].name ? kind : -1;
 }
 
-bool pair_set_choose(int simd, bool periodic, PairSet *set, Error *error)
+bool pair_set_choose(int simd, PairSet *set, Error *error)
 {
     int kind = simd == SIMD_AUTO ? wanted_by_environment() : simd;
     if (kind < 0)
@@ -41,14 +41,11 @@ bool pair_set_choose(int simd, bool periodic, PairSet *set, Error *error)
         return error_set(error, "this processor has no %s; leave solver.simd at auto", simd_kinds[simd].name);
     if (kind == SIMD_AUTO || !has_avx2())
         kind = has_avx2() ? SIMD_AVX2 : SIMD_BASELINE;
-    if (kind == SIMD_AVX2)
-        *set = periodic ? PAIR_AVX2_PERIODIC : PAIR_AVX2;
-    else
-        *set = periodic ? PAIR_BASELINE_PERIODIC : PAIR_BASELINE;
+    *set = kind == SIMD_AVX2 ? PAIR_AVX2 : PAIR_BASELINE;
     return true;
 }
 
 const char *pair_set_name(PairSet set)
 {
-    return simd_kinds[set == PAIR_AVX2 || set == PAIR_AVX2_PERIODIC ? SIMD_AVX2 : SIMD_BASELINE].name;
+    return simd_kinds[set == PAIR_AVX2 ? SIMD_AVX2 : SIMD_BASELINE].name;
 }

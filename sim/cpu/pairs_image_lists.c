@@ -22,7 +22,7 @@ SIMD_INLINE uint32_t list_image(const PairArgs *args, size_t i, const Mirrored *
     const Near near = near_of(args, i);
     uint32_t count[LANES] = {0}, most = 0;
     for (size_t row = 0; row < rows; row++)
-        i8_store((int32_t *)to + row * LANES, i8_splat((int32_t)args->count));
+        i8_store((int32_t *)to + row * LANES, i8_splat((int32_t)args->none));
     see(args, image, own.j, to, count);
     NEIGHBOURS (near, j)
         see(args, image, j, to, count);

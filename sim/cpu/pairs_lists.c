@@ -6,40 +6,40 @@
 #include "sim/cpu/lists_plain.h"
 #endif
 
+/* Nine rows of three cells, each of particles or of copies. */
 typedef struct Rows {
     int count;
-    uint32_t begin[CELL_ROWS], end[CELL_ROWS];
+    uint32_t begin[27], end[27];
 } Rows;
 
-#ifndef PAIRS_PERIODIC
-/* The particles [begin, end) that stand in the three cells of one row next to `cell`; row 0..8. Not in a box
-   with periodic sides. */
-static inline void pair_row(const PairArgs *args, uint32_t cell, int row, uint32_t *begin, uint32_t *end)
+static void rows_add(Rows *rows, uint32_t begin, uint32_t end)
 {
-    const int *size = args->constants->cells.size;
-    const long middle = (long)cell + ((long)(row / 3 - 1) * size[1] + (row % 3 - 1)) * size[0];
-    *begin = args->cell_start[middle - 1];
-    *end = args->cell_start[middle + 2];
+    if (begin == end)
+        return;
+    if (rows->count > 0 && rows->end[rows->count - 1] == begin) {
+        rows->end[rows->count - 1] = end;
+        return;
+    }
+    rows->begin[rows->count] = begin;
+    rows->end[rows->count++] = end;
 }
-#endif
 
+/* All that stand in the cells next to `cell`, itself included, copies across periodic sides among them. */
 static void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
 {
     const Constants *s = args->constants;
+    const int *size = s->cells.size;
+    const uint32_t *start = args->cell_start, *copies = args->copy_start, count = (uint32_t)args->count;
     rows->count = 0;
-#ifdef PAIRS_PERIODIC
-    CellRow row[CELL_ROWS];
-    const int count = cell_rows(s, args->cell_start, cell, row);
-    for (int k = 0; k < count; k++) {
-        if (cell_row_again(s, &row[k]))
-            continue;
-        rows->begin[rows->count] = row[k].begin;
-        rows->end[rows->count++] = row[k].end;
+    for (int row = s->first_row; row < s->last_row; row++) {
+        const long middle = (long)cell + ((long)(row / 3 - 1) * size[1] + (row % 3 - 1)) * size[0];
+        if (!copies)
+            rows_add(rows, start[middle - 1], start[middle + 2]);
+        for (long at = middle - 1; copies && at <= middle + 1; at++) {
+            rows_add(rows, start[at], start[at + 1]);
+            rows_add(rows, count + copies[at], count + copies[at + 1]);
+        }
     }
-#else
-    for (int row = s->first_row; row < s->last_row; row++, rows->count++)
-        pair_row(args, cell, row, &rows->begin[rows->count], &rows->end[rows->count]);
-#endif
 }
 
 /* Of the particles [begin, end) of one cell. False when the block is too small for the crowd around them. */
@@ -98,7 +98,7 @@ static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Blo
         list_block(args, i, block, &out);
     else
         list_rows(args, i, rows, &out);
-    i8_store(out.at, i8_splat((int32_t)args->count));
+    i8_store(out.at, i8_splat((int32_t)args->none));
     const uint32_t count = (uint32_t)(out.at - first);
     found->first[lane] = found->used;
     found->count[lane] = count;
@@ -120,8 +120,7 @@ static void list_group(const PairArgs *args, size_t i, const Found *found, uint3
     lists->rows[i / LANES] = 0;
     if (rows == 0 || !neighbour_lists_fit(lists, memory, (size_t)*used + room))
         return;
-    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, (uint32_t)args->count,
-               memory->index + *used);
+    interleave(lists->found[i / LISTS_GRAIN].index, found, rows, args->none, memory->index + *used);
     lists->rows[i / LANES] = rows | (found->coincident ? LISTS_COINCIDENT : 0);
     *used += rows * LANES;
 }

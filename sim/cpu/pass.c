@@ -8,8 +8,18 @@ PAIR_LOOPS(lists);
 PAIR_LOOPS(image_lists);
 PAIR_LOOPS(tension);
 
+bool cpu_name_among(const char *list, const char *name)
+{
+    const size_t size = strlen(name);
+    for (const char *at = list; at && (at = strstr(at, name)); at += size)
+        if ((at == list || at[-1] == ' ') && (at[size] == ' ' || at[size] == 0))
+            return true;
+    return false;
+}
+
 typedef struct Running {
     Cpu *cpu;
+    const Pass *pass;
     const CpuLoop *loop;
     const PassInput *input;
 } Running;
@@ -53,11 +63,16 @@ static void run_loop(Running *running)
     Cpu *cpu = running->cpu;
     const bool walks = running->loop->walks;
     if (walks) {
+        const size_t none = cpu->count + cpu->copies;
         if (!running->loop->packed)
             parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, pack, running);
-        columns_clear(&cpu->all, &cpu->now, cpu->count); /* lists are filled up with it */
-        memcpy(cpu->place[cpu->count], (float[]){PAST, PAST, PAST, 0}, 16);
-        memset(cpu->motion[cpu->count], 0, 16);
+        if (cpu->copies > 0) {
+            cpu_copies_update(cpu, running->pass);
+            cpu_copies_pack(cpu);
+        }
+        columns_clear(&cpu->all, &cpu->now, none); /* lists are filled up with it */
+        memcpy(cpu->place[none], (float[]){PAST, PAST, PAST, 0}, 16);
+        memset(cpu->motion[none], 0, 16);
         if (!cpu->lists.ready)
             cpu->lists.full = false;
     }
@@ -73,7 +88,7 @@ void cpu_run_pass(void *state, const Pass *pass, const PassInput *input)
     if (mirrors)
         cpu_boundary_fill(cpu, input->apparent);
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {
-        Running running = {cpu, loop, input};
+        Running running = {cpu, pass, loop, input};
         run_loop(&running);
     }
     if (cpu->forces && cpu->boundary_at && pass->cpu->solid && input->dt > 0)

@@ -41,6 +41,9 @@ typedef struct CpuPass {
     SolidForce solid; /* of the pass that has run; NULL: it pushes nothing that stays */
 } CpuPass;
 
+/* Whether the name is one of the list, which has blanks between them; as Pass.reads. */
+bool cpu_name_among(const char *list, const char *name);
+
 /* The pair sums of a range. */
 static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
 {

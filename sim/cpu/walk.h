@@ -57,14 +57,6 @@ SIMD_INLINE Near near_of(const PairArgs *args, size_t i)
    j points to their indices. */
 #define NEIGHBOURS(near, j) for (const uint32_t *j = (near).first; j < (near).end; j += LANES)
 
-#ifdef PAIRS_PERIODIC
-/* The shortest way between two, along an axis that may go through a side. */
-SIMD_INLINE f8 shortest(f8 d, float size, float inverse)
-{
-    return d - f8_splat(size) * f8_round(d * f8_splat(inverse));
-}
-#endif
-
 /* A neighbour each: x_ij = x_i - x_j, m; r^2, and of lanes past their list's end far more than h^2; p_j
  * V_j^2.
  */
@@ -73,28 +65,16 @@ typedef struct Separation {
 } Separation;
 
 /* From neighbours at p, as args->place has them. */
-SIMD_INLINE Separation apart(const PairArgs *args, Place at, f8x4 p)
+SIMD_INLINE Separation apart(Place at, f8x4 p)
 {
     Separation d = {.x = at.x - p.x, .y = at.y - p.y, .z = at.z - p.z, .term = p.w};
-#ifndef PAIRS_PERIODIC
-    (void)args;
-#else
-    const float *size = args->fold, *inverse = args->fold_inverse;
-    d.x = shortest(d.x, size[0], inverse[0]);
-    d.y = shortest(d.y, size[1], inverse[1]);
-    d.z = shortest(d.z, size[2], inverse[2]);
-#endif
     d.r2 = d.x * d.x + d.y * d.y + d.z * d.z;
-#ifdef PAIRS_PERIODIC
-    const i8 there = p.x != f8_splat(PAST); /* nor where boundary particles are set aside */
-    d.r2 = f8_select(there, d.r2, f8_splat(PAST));
-#endif
     return d;
 }
 
 SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t *j)
 {
-    return apart(args, at, f8_load4(args->place, j));
+    return apart(at, f8_load4(args->place, j));
 }
 
 /* v_j, m/s, and V_j, m3. */

@@ -33,7 +33,7 @@ PAIR_LOOP(dfsph_push)
 /* sum F v_ij . x_ij of an image. */
 SIMD_INLINE f8 rate_by(const PairArgs *args, const Mirrored *image, f8x4 vi, f8x4 near, f8x4 v)
 {
-    const Separation d = apart(args, image->at, near);
+    const Separation d = apart(image->at, near);
     return shape(image_q(args->constants, d.r2), DFSPH_KERNEL) *
            ((image->sign.x * vi.x - v.x) * d.x + (image->sign.y * vi.y - v.y) * d.y +
             (image->sign.z * vi.z - v.z) * d.z);
@@ -46,7 +46,7 @@ SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi)
     f8 sum = f8_splat(0);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j), v = motion(args, j);
-        Separation d = apart(args, at, p);
+        Separation d = apart(at, p);
         if (__builtin_expect(near.coincident, 0))
             d = separate_to(args, i, j, d, TWINS_PART);
         sum += shape(f8_sqrt(d.r2) * inverse_h, DFSPH_KERNEL) *

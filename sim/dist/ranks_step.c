@@ -4,21 +4,11 @@
 
 #include <string.h>
 
-/* Whether the name is among those of the list. */
-static bool among(const char *list, const char *name)
-{
-    const size_t size = strlen(name);
-    for (const char *at = list; at && (at = strstr(at, name)); at += size)
-        if ((at == list || at[-1] == ' ') && (at[size] == ' ' || at[size] == 0))
-            return true;
-    return false;
-}
-
 static uint64_t rows_named(const Cpu *cpu, const char *list)
 {
     uint64_t rows = 0;
     for (int r = 0; r < cpu->all.count; r++)
-        if (among(list, cpu->all.row[r]->name))
+        if (cpu_name_among(list, cpu->all.row[r]->name))
             rows |= UINT64_C(1) << r;
     return rows;
 }
@@ -91,6 +81,14 @@ void ranks_drift(void *state, const BoxStep *step)
     cpu_drift(ranks->cpu, step);
     stale(ranks, "position velocity");
     computed(ranks, begin);
+}
+
+void ranks_leave(void *state)
+{
+    Ranks *ranks = state;
+    cpu_leave(ranks->cpu);
+    if (ranks->cpu->constants->periodic.any)
+        stale(ranks, "position");
 }
 
 void ranks_run(void *state, const Pass *pass, const PassInput *input)

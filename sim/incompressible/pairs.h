@@ -29,7 +29,7 @@ typedef struct DensitySums {
 SIMD_INLINE void density_by(const PairArgs *args, const Mirrored *image, f8x4 near, float times,
                             f8 inverse_mass, DensitySums *sum)
 {
-    const Separation d = apart(args, image->at, near);
+    const Separation d = apart(image->at, near);
     const f8 q = image_q(args->constants, d.r2), f = f8_splat(times) * shape(q, INCOMPRESSIBLE_KERNEL);
     sum->n += height(q, INCOMPRESSIBLE_KERNEL);
     sum->x += image->sign.x * f * d.x;
@@ -45,7 +45,7 @@ SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, con
     const Place at = place_of(args, i);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
-        Separation d = apart(args, at, p);
+        Separation d = apart(at, p);
         if (__builtin_expect(near.coincident, 0))
             d = separate_to(args, i, j, d, TWINS_PART);
         const f8 q = f8_sqrt(d.r2) * inverse_h, f = shape(q, INCOMPRESSIBLE_KERNEL);
@@ -87,7 +87,7 @@ SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, fl
 /* (k_i + k_j) F x_ij of an image, in its particle's axes. */
 SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x4 near, Place *sum)
 {
-    const Separation d = apart(args, image->at, near);
+    const Separation d = apart(image->at, near);
     const f8 push = (ki + d.term) * shape(image_q(args->constants, d.r2), INCOMPRESSIBLE_KERNEL);
     sum->x += image->sign.x * push * d.x;
     sum->y += image->sign.y * push * d.y;
@@ -101,7 +101,7 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
     const Place at = place_of(args, i);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
-        Separation d = apart(args, at, p);
+        Separation d = apart(at, p);
         if (__builtin_expect(near.coincident, 0))
             d = separate_to(args, i, j, d, TWINS_PART);
         const f8 push = (ki + d.term) * shape(f8_sqrt(d.r2) * inverse_h, INCOMPRESSIBLE_KERNEL);

@@ -20,9 +20,9 @@ SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const Images *images, 
     f8 sum = f8_splat(0);
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
-        sum += weight(apart(args, at, p).r2, inverse_h, poly6);
+        sum += weight(apart(at, p).r2, inverse_h, poly6);
         for (int m = 1; images && m <= images->count; m++)
-            sum += weight(apart(args, images->of[m].at, p).r2, inverse_h, poly6);
+            sum += weight(apart(images->of[m].at, p).r2, inverse_h, poly6);
     }
     if (images) {
         const Themselves own = themselves(args, i);
@@ -58,7 +58,7 @@ SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 pi, f8x
 {
     const Constants *s = args->constants;
     const float least = 1e-9f * s->support_radius; /* no bit of another r2 */
-    const Separation d = apart(args, image->at, near);
+    const Separation d = apart(image->at, near);
     const f8 r = f8_sqrt(d.r2 + f8_splat(least * least)), t = closeness(r * f8_splat(1 / s->support_radius));
     const f8 push = f8_splat(s->pressure_scale) * (t * t) * (pi + d.term) / r;
     sum->x += image->sign.x * push * d.x;
@@ -86,7 +86,7 @@ SIMD_INLINE Place force_of(const PairArgs *args, size_t i, const Images *images,
 
     NEIGHBOURS (near, j) {
         const f8x4 p = f8_load4(args->place, j);
-        Separation d = apart(args, at, p);
+        Separation d = apart(at, p);
         if (__builtin_expect(near.coincident, 0))
             d = separate(args, i, j, d);
 

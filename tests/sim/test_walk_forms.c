@@ -49,7 +49,7 @@ static bool has_avx2(void)
 {
     PairSet set;
     Error none;
-    return pair_set_choose(0, false, &set, &none) && set == PAIR_AVX2; /* the widest that there is */
+    return pair_set_choose(0, &set, &none) && set == PAIR_AVX2; /* the widest that there is */
 }
 
 /* What a walk makes of a particle, and the sum of all terms taken as positive: {sum of (1 - r/h)^3 with its
