@@ -4,6 +4,7 @@
 #include "app/dist/options.h"
 #include "sim/dist/ranks.h"
 #include "sim/gl/backends.h"
+#include "sim/world/backend.h"
 
 #include <mpi.h>
 #include <stdio.h>

@@ -7,6 +7,7 @@
 #include "app/output/snapshot_parts.h"
 #include "app/output/snapshot_share.h"
 #include "sim/matter/flow.h"
+#include "sim/world/method.h"
 
 #include <stdio.h>
 #include <stdlib.h>

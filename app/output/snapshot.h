@@ -11,7 +11,6 @@
 
 #include "app/scene/scene.h"
 #include "sim/base/error.h"
-#include "sim/world/method.h"
 #include "sim/world/world_state.h"
 
 #include <stdbool.h>

@@ -2,6 +2,7 @@
 #include "app/output/snapshot_file.h"
 #include "app/output/snapshot_share.h"
 #include "app/scene/keys.h"
+#include "sim/world/method.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,6 +2,7 @@
 #include "app/scene/advise_parts.h"
 #include "sim/matter/fall.h"
 #include "sim/matter/fill.h"
+#include "sim/world/method.h"
 #include "sim/world/step_control.h"
 
 #include <math.h>

@@ -3,13 +3,14 @@
 #ifndef SLOSH_RANKS_H
 #define SLOSH_RANKS_H
 
-#include "sim/world/backend.h"
 #include "sim/world/world_state.h"
+
+struct Backend; /* sim/world/backend.h */
 
 /* Its name in a def; slosh-dist puts it in the place of "cpu". backend_add it first. Reads of the
    particles (world_read) give each rank its own, ranks_owned of them. */
 #define RANKS_BACKEND "ranks"
-extern const Backend backend_ranks;
+extern const struct Backend backend_ranks;
 
 /* What the ranks of this process' world did since the last call. */
 typedef struct RanksFigures {

@@ -1,4 +1,5 @@
 #include "sim/gl/backends.h"
+#include "sim/world/backend.h"
 
 void backends_add(void)
 {

@@ -3,9 +3,11 @@
 #define SLOSH_BACKENDS_H
 
 #include "sim/base/room.h"
-#include "sim/world/backend.h"
+#include "sim/matter/world_def.h"
 
-extern const Backend backend_compute, backend_fragment;
+struct Backend; /* sim/world/backend.h */
+
+extern const struct Backend backend_compute, backend_fragment;
 
 /* The settings of fragment's grid, whose layers hold four particles a cell each. */
 typedef struct IN_A_ROOM FragmentDef {
@@ -16,10 +18,8 @@ typedef struct IN_A_ROOM FragmentDef {
 /* Of fragment's grid, for a world of this def. */
 int fragment_layers(const WorldDef *def);
 
-static inline FragmentDef *fragment_def(const WorldDef *def)
-{
-    return backend_def(def, &backend_fragment);
-}
+/* Its own settings in a def. */
+FragmentDef *fragment_def(const WorldDef *def);
 
 /* Adds them to the list of sim/world/backend.h; before any scene is read. */
 void backends_add(void);

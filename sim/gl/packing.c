@@ -1,4 +1,5 @@
 #include "sim/gl/packing.h"
+#include "sim/world/method.h"
 
 #include <string.h>
 

@@ -4,7 +4,8 @@
 #define SLOSH_GL_PACKING_H
 
 #include "sim/world/column.h"
-#include "sim/world/method.h"
+
+struct Method; /* sim/world/method.h */
 
 enum { PACKED_WORDS = 4, PACKED_BUFFERS = 4, PACKED_COLUMNS = 8 };
 
@@ -23,13 +24,13 @@ typedef struct Packing {
 } Packing;
 
 /* The method's columns that a table has. */
-ColumnRows packing_rows(const Packing *packing, const Method *method);
+ColumnRows packing_rows(const Packing *packing, const struct Method *method);
 
 /* Fills the entries of a buffer with the columns that it has, and the other way round: particle i is entry i,
    or place[i]. Columns that are NULL are left out. */
-void packing_pack(const Packing *packing, int buffer, const Method *method, const ParticleColumns *from,
-                  size_t count, const ParticleId *place, uint32_t *entries);
-void packing_unpack(const Packing *packing, int buffer, const Method *method, const uint32_t *entries,
+void packing_pack(const Packing *packing, int buffer, const struct Method *method,
+                  const ParticleColumns *from, size_t count, const ParticleId *place, uint32_t *entries);
+void packing_unpack(const Packing *packing, int buffer, const struct Method *method, const uint32_t *entries,
                     size_t count, const ParticleColumns *to);
 
 #endif

@@ -12,8 +12,14 @@
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
 #include "sim/matter/world_def.h"
-#include "sim/world/method.h"
+#include "sim/world/column.h"
 #include "sim/world/step_control.h"
+#include "sim/world/step_parts.h"
+
+struct Method; /* sim/world/method.h */
+
+/* Bytes for the struct that a method makes of its settings. */
+enum { METHOD_CONSTANTS_SIZE = 256 };
 
 /* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
    whatever the box; one empty layer on each side saves the neighbour search its bounds. Along a periodic axis
@@ -36,7 +42,7 @@ typedef struct ImplicitViscosity {
 } ImplicitViscosity;
 
 typedef struct Constants {
-    const Method *method;
+    const struct Method *method;
     float support_radius;      /* h, m */
     float rest_number_density; /* n0, 1/m3 */
     float kernel_scale;        /* its value at r = 0, calibrated, 1/m3 */

@@ -4,6 +4,7 @@
 #define SLOSH_GAUGE_H
 
 #include "sim/world/constants.h"
+#include "sim/world/method.h"
 #include "sim/world/reading.h"
 
 #include <math.h>

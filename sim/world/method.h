@@ -5,11 +5,11 @@
 #include "sim/base/error.h"
 #include "sim/base/key.h"
 #include "sim/base/stage.h"
-#include "sim/box/wall_drag.h"
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
 #include "sim/matter/world_def.h"
 #include "sim/world/column.h"
+#include "sim/world/step_parts.h"
 
 struct ApparentGravity; /* sim/box/box_step.h */
 struct Constants;       /* sim/world/constants.h */
@@ -50,27 +50,12 @@ typedef struct ShaderBuffer {
     bool (*needed)(const struct Constants *constants);
 } ShaderBuffer;
 
-enum { METHOD_BUFFERS_MAX = 4, METHOD_CONSTANTS_SIZE = 256 };
+enum { METHOD_BUFFERS_MAX = 4 };
 
 /* What a method's density is made with, and what its forces are the slope of. */
 typedef struct MethodKernels {
     const Kernel *density, *slope;
 } MethodKernels;
-
-/* The rate of friction (sim/matter/viscosity.h) for a def's method, kernel, support and dimensions, 1/m2. */
-typedef struct StepFriction {
-    double laminar, artificial; /* the latter 0 where the def has none */
-    double alpha;               /* of the artificial viscosity */
-    DragWeight walls;           /* how walls that hold fluid weigh theirs */
-} StepFriction;
-
-enum { SOLVES_OF_METHOD = 2, SOLVE_VISCOSITY = SOLVES_OF_METHOD, SOLVES_MAX };
-
-/* One of its solvers that iterate, if it has any (sim/world/iterate.h). */
-typedef struct MethodSolver {
-    const char *name;                   /* for words: "density"; NULL: there is none of this number */
-    const char *tolerance, *iterations; /* the paths of its keys */
-} MethodSolver;
 
 /* Where a method says what of a scene will not hold or has no effect, though nothing in it is wrong. */
 typedef struct MethodAdvice {

@@ -1,5 +1,6 @@
 #include "sim/world/particles.h"
 
+#include "sim/world/method.h"
 #include "sim/world/sums.h"
 
 #include <math.h>

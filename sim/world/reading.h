@@ -5,8 +5,8 @@
 #include "sim/base/scalar.h"
 #include "sim/box/box_filter.h"
 #include "sim/world/column.h"
-#include "sim/world/method.h"
 #include "sim/world/step_control.h"
+#include "sim/world/step_parts.h"
 
 #include <stdint.h>
 

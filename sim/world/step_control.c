@@ -2,6 +2,7 @@
 
 #include "sim/matter/fall.h"
 #include "sim/matter/viscosity.h"
+#include "sim/world/method.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
 #define SLOSH_STEP_CONTROL_H
 
 #include "sim/matter/world_def.h"
-#include "sim/world/method.h"
+#include "sim/world/step_parts.h"
 
 #include <stdbool.h>
 

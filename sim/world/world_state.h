@@ -7,12 +7,13 @@
 #include "sim/body/body_state.h"
 #include "sim/world/column.h"
 #include "sim/world/live.h"
-#include "sim/world/method.h"
 #include "sim/world/reading.h"
 #include "sim/world/step_control.h"
 #include "sim/world/world.h"
 
 #include <stddef.h>
+
+struct Method; /* sim/world/method.h */
 
 /* What sim/world/energy_watch.h compares with; zero: nothing yet. */
 typedef struct EnergyMark {
@@ -57,10 +58,10 @@ enum {
 /* Zero-initialise it; owns its columns. Particles stand in any order, `id` tells who is who. */
 typedef struct WorldState {
     WorldNumbers numbers;
-    size_t count, capacity;    /* particles; room for them */
-    const Method *method;      /* whose columns these are, beside those of terms that its def names */
-    ParticleColumns particles; /* those that are saved */
-    Births births;             /* none, where emitters sent some out: not known */
+    size_t count, capacity;      /* particles; room for them */
+    const struct Method *method; /* whose columns these are, beside those of terms that its def names */
+    ParticleColumns particles;   /* those that are saved */
+    Births births;               /* none, where emitters sent some out: not known */
 } WorldState;
 
 /* Of what world_save copies beside the particles. */

@@ -3,6 +3,7 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/scene/keys.h"
+#include "sim/world/method.h"
 #include "sim/world/world.h"
 
 #include <hdf5.h>

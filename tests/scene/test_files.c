@@ -5,6 +5,7 @@
 #include "sim/gl/backends.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
+#include "sim/world/method.h"
 #include "sim/world/step_control.h"
 
 #include <dirent.h>

@@ -6,6 +6,7 @@
 #include "app/scene/keys.h"
 #include "render/pbsr/pbsr_def.h"
 #include "sim/gl/backends.h"
+#include "sim/world/method.h"
 
 #include <math.h>
 #include <stdlib.h>

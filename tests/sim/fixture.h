@@ -3,6 +3,7 @@
 #define SLOSH_TEST_FIXTURE_H
 
 #include "sim/gl/backends.h"
+#include "sim/world/backend.h"
 #include "sim/world/method.h"
 #include "sim/world/world.h"
 

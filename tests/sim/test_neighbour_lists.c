@@ -61,6 +61,17 @@ static int relation(const Cpu *cpu, size_t i, size_t j, double reach)
     return fabs(r / reach - 1) < 1e-5 ? -1 : r < reach;
 }
 
+/* Of which particle entry j is: across a periodic side it is a copy, which stands near. */
+static size_t listed_one(const Cpu *cpu, size_t i, size_t j)
+{
+    const CpuParticles *p = &cpu->now;
+    const double d[3] = {(double)(p->x[i] - p->x[j]), (double)(p->y[i] - p->y[j]),
+                         (double)(p->z[i] - p->z[j])};
+    assert_true(sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) <
+                1.00001 * (double)cpu->constants->support_radius);
+    return j < COUNT ? j : cpu->copy_of[j];
+}
+
 /* Whether another one is where it is. */
 static bool check_list(const Cpu *cpu, size_t i, const char *name)
 {
@@ -72,12 +83,14 @@ static bool check_list(const Cpu *cpu, size_t i, const char *name)
     uint32_t k = 0;
     bool twin = false;
     memset(listed, 0, sizeof listed);
-    for (; k < rows && list[k * LANES] < COUNT; k++) {
-        assert_true(list[k * LANES] != i && !listed[list[k * LANES]]);
-        listed[list[k * LANES]] = 1;
+    const size_t none = COUNT + cpu->copies;
+    for (; k < rows && list[k * LANES] < none; k++) {
+        const size_t j = listed_one(cpu, i, list[k * LANES]);
+        assert_true(j != i && !listed[j]);
+        listed[j] = 1;
     }
     for (; k < rows; k++)
-        assert_int_equal(list[k * LANES], COUNT);
+        assert_int_equal(list[k * LANES], none);
     for (size_t j = 0; j < COUNT; j++) {
         const int near = relation(cpu, i, j, h);
         twin |= j != i && relation(cpu, i, j, 1e-6 * h) == 1;

@@ -75,6 +75,11 @@ static bool lacks_a_term(const WorldDef *def, Error *error)
     return false;
 }
 
+FragmentDef *fragment_def(const WorldDef *def)
+{
+    return backend_def(def, &backend_fragment);
+}
+
 /* The lattice puts ceil(support)^dimensions particles into a cell at most. */
 int fragment_layers(const WorldDef *def)
 {

@@ -164,6 +164,7 @@ Cloud *cloud_create(size_t side, const Shape *shape)
         abort();
     cloud->shape = *shape;
     cloud->args.count = side * side * side;
+    cloud->args.none = (uint32_t)cloud->args.count;
     number_cells(cloud, side);
     const uint64_t *order = sorted(cloud, side);
     fill_cells(cloud, order);
