@@ -16,13 +16,21 @@ solver: {method: wcsph, delta_sph: 0.1, sound_speed: 30, step: {dt: 0.002, subst
 """
 
 
-class Ablate(command.CommandTest):
-    def run_it(self, *words):
+class AblateTest(command.CommandTest):
+    def run_it(self, *words, env=None):
         return subprocess.run([command.PROGRAM, 'bench', *words, '--ablate', '--json', 'out.json'], cwd=self.folder,
-                              capture_output=True, text=True, timeout=200, check=False)
+                              capture_output=True, text=True, timeout=200, check=False, env=env)
 
     def rows(self):
         return json.loads(self.read('out.json'))
+
+    def without_valgrind(self):
+        """An environment in which it is not found: what it counts is most of the time of small scenes."""
+        os.mkdir(self.path('bin'))
+        return {**os.environ, 'PATH': self.path('bin')}
+
+
+class Ablate(AblateTest):
 
     def test_terms_and_what_they_change(self):
         self.write('tank.yaml', SCENE)
@@ -47,15 +55,6 @@ class Ablate(command.CommandTest):
         self.assertGreater(whole['instructions_step'], 1e5)
         self.assertGreater(by_name['solver.delta_sph']['saves_instructions'], 0.05)
         self.assertLess(abs(by_name['box.slip']['saves_instructions']), 0.01)
-
-    def test_what_is_counted_is_what_is_timed(self):
-        self.write('tank.yaml', SCENE.replace(', slip: none', '').replace('delta_sph: 0.1, ', ''))  # one term is enough
-        counted = {}
-        for words in ((), ('--particles', '30')):
-            done = self.run_it('tank.yaml', '--time', '0.02', '--threads', '1', '--quiet', *words)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            counted[words] = self.rows()[0]['instructions_step']
-        self.assertLess(counted['--particles', '30'], 0.5 * counted[()])  # 120 without
 
     def test_interrupt_ends_valgrind(self):
         """It is told of by the process alone, as kill does it; nothing of its own is left."""
@@ -89,10 +88,12 @@ class Ablate(command.CommandTest):
     def test_a_term_without_which_the_run_breaks(self):
         # thick fluid by explicit friction at that step: the solver that iterates is needed
         self.write('tank.yaml', SCENE.replace('fluids: [{', 'fluids: [{viscosity: 20000, ').replace('method: wcsph, delta_sph: 0.1', 'viscosity: implicit'))
-        done = self.run_it('tank.yaml', '--time', '0.1', '--threads', '1', '--quiet')
-        self.assertEqual((done.returncode, done.stdout), (0, ''), done.stderr)
+        done = self.run_it('tank.yaml', '--time', '0.1', '--threads', '1', env=self.without_valgrind())
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('valgrind is not installed', done.stdout)
         by_name = {row['term']: row for row in self.rows()}
         self.assertEqual(by_name[None]['outcome'], 'holds')
+        self.assertIsNone(by_name[None]['instructions_step'])
         broken = by_name['solver.viscosity']
         self.assertEqual((broken['advice'], broken['runs'], broken['changes']), ('needed', 0, None), broken)
         self.assertEqual(broken['outcome'], 'blown up')
@@ -115,9 +116,9 @@ class Ablate(command.CommandTest):
 
     def test_interrupt_shows_what_there_is(self):
         self.write('tank.yaml', SCENE)
-        process = subprocess.Popen([command.PROGRAM, 'bench', 'tank.yaml', '--ablate', '--time', '30', '--json', 'out.json'],
+        process = subprocess.Popen([command.PROGRAM, 'bench', 'tank.yaml', '--ablate', '--time', '10', '--threads', '1', '--json', 'out.json'],
                                    cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                   start_new_session=True, preexec_fn=command.obey_interrupts)
+                                   start_new_session=True, preexec_fn=command.obey_interrupts, env=self.without_valgrind())
         self.addCleanup(process.kill)
         while 'ablate' not in process.stderr.readline():
             self.assertIsNone(process.poll(), 'the program ended too early')

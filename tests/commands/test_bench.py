@@ -24,44 +24,40 @@ class Case(command.CommandTest):
         return done
 
 
-class Bench(Case):
+class BenchTest(Case):
     def bench(self, *arguments, code=0):
         path = os.path.join(self.folder, "bench.json")
         self.slosh_out("bench", SCENE, "--json", path, "--frames", "8", *arguments, code=code)
         with open(path, encoding="utf-8") as file:
             return json.load(file)
 
-    def test_it_begins_where_it_is_told(self):
-        (result,) = self.bench('--view', 'none', '--time', '0.2')
-        self.assertAlmostEqual(result['time'], 0.2 + 3 * 0.004, 6)
-
-    def test_stages_sum_to_the_frame(self):
-        # Medians of a noisy machine: three tries for stages within 10 % of the frame.
-        for attempt in range(3):
-            (result,) = self.bench("--clock", "finish", "--size", "256x256", "--frames", "20")
-            total = sum(stage["median_ms"] for stage in result["stages"])
-            if abs(total / result["frame_ms"] - 1) <= 0.1:
-                break
-        self.assertLessEqual(abs(total / result["frame_ms"] - 1), 0.1)
+    def check_stages(self, result):
         self.assertEqual(list(result), FIELDS)
         self.assertAlmostEqual(sum(stage["share"] for stage in result["stages"]), 1, places=6)
         self.assertEqual({stage["clock"] for stage in result["stages"] if stage["part"] == "render"}, {"finish"})
         self.assertEqual([s["name"] for s in result["stages"] if s["part"] == "sim"], STAGES_SIM)
         self.assertEqual([s["name"] for s in result["stages"] if s["part"] == "upload"], ["upload"])
         self.assertEqual(result["view"], "spheres")
-        self.assertEqual(result["size"], [256, 256])
-        self.assertEqual(result["frames"], 20)
+
+
+class Bench(BenchTest):
+    def test_it_begins_where_it_is_told(self):
+        (result,) = self.bench('--view', 'none', '--time', '0.2')
+        self.assertAlmostEqual(result['time'], 0.2 + 3 * 0.004, 6)
+
+    def test_stages_have_shares_of_the_frame(self):
+        (result,) = self.bench("--clock", "finish", "--size", "64x64", "--frames", "3")
+        self.check_stages(result)
+        for stage in result["stages"]:
+            self.assertTrue(0 < stage["share"] < 1 and stage["median_ms"] > 0, stage)
+        self.assertEqual((result["size"], result["frames"]), ([64, 64], 3))
 
     def test_view_none_draws_nothing(self):
-        for _ in range(5):  # a median against a mean: noise does not come five times
-            (result,) = self.bench("--view", "none")
-            steps = result["particles"] * result["substeps"] / (1e-3 * result["sim_ms"])
-            if abs(steps / result["particle_steps_per_second"] - 1) < 0.5:
-                break
-        self.assertLess(abs(steps / result["particle_steps_per_second"] - 1), 0.5)
+        (result,) = self.bench("--view", "none")
         self.assertEqual([s["name"] for s in result["stages"]], STAGES_SIM)
         self.assertIsNone(result["renderer"])
         self.assertAlmostEqual(result["dt"], result["dt_substep"] * result["substeps"], places=9)
+        self.assertGreater(result["particle_steps_per_second"], 0)
 
     def test_splat_tells_coverage_and_fragments(self):
         done = self.slosh_out("bench", SCENE, "--json", "b.json", "--frames", "2", "--size", "160x120",

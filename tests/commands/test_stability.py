@@ -110,7 +110,7 @@ class Stability(command.CommandTest):
         self.assertEqual(seen, {'looks', 'sentinel'})
 
     def test_kill_and_the_same_again(self):
-        words = [*BOTH, '--time', '10', '--threads', '1']
+        words = [*SOUND, '--time', '10', '--threads', '1']
         whole = self.run_it(*words, output='whole.svg')
         self.assertEqual(whole.returncode, 0, whole.stderr)
         for number, code in ((signal.SIGKILL, -9), (signal.SIGINT, 130)):
@@ -150,7 +150,7 @@ class Stability(command.CommandTest):
         self.assertEqual(self.text('out.csv'), 'key,role,method,backend,\n')
 
     def test_two_maps_of_one_name_keep_each_others_trials(self):
-        words = [*BOTH, '--time', '10', '--threads', '1']
+        words = [*BOTH, '--time', '3', '--threads', '1']
         self.assertEqual(self.run_it(*SOUND, '--sweep', 'method=wcsph').returncode, 0)
         theirs = self.text('out.csv').splitlines()
         os.remove(self.path('out.csv'))

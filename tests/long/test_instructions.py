@@ -1,10 +1,10 @@
-"""How many instructions each function takes in a step of a small scene, against tests/commands/instructions.txt.
+"""How many instructions each function takes in a step of a small scene, against tests/long/instructions.txt.
 
 Valgrind counts them, in the functions of the program alone: what the C library and OpenMP's take depends on the processor
 and on how the heap lies. The set of instructions is forced, the same on each processor that has it. A change that costs or
 saves more than SLACK fails, so that what a step costs changes knowingly:
 
-    python3 tests/commands/test_instructions.py build/release/slosh --write
+    python3 tests/long/test_instructions.py build/release/slosh --write
 
 writes the file anew; its difference belongs into the commit. Another compiler has other counts: then it is skipped."""
 import concurrent.futures
@@ -16,6 +16,7 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "commands"))
 import command
 
 FILE = pathlib.Path(__file__).with_name("instructions.txt")
