@@ -42,6 +42,8 @@ typedef struct PlayFigures {
     double events_ms;                       /* CPU time of events for a picture, mean */
     double cpus_busy;                       /* CPU time over wall time */
     double speed, display_scale;
+    bool at_rest; /* all that was asked for is done and shown; nothing more comes until somebody acts, */
+    bool finer_to_come; /* but the same picture in more detail */
     bool paused, fullscreen, camera_auto, panel, help, scenes;
     double box_position[3], box_orientation[4]; /* the hand's part of the pose */
     double camera_from[3], camera_to[3];

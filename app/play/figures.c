@@ -143,6 +143,9 @@ void figures_of(const Play *play, PlayFigures *figures)
     add_view(&play->model.open.scene.view, figures);
     add_view_settings(&play->model.open.scene, figures);
     add_readout(&play->readout, figures);
+    figures->at_rest = play->model.status.rests && !model_fresh(&play->model) && !play->files.shoot &&
+                       picture_rests(&play->picture);
+    figures->finer_to_come = play->picture.finer;
     figures->views = scene_view_count(&play->model.open.scene);
     for (int i = 0; i < figures->views; i++)
         figures->times[i] =
