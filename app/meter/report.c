@@ -47,6 +47,8 @@ static json_t *session_json(const PlayFigures *f)
     solved_json(json, &f->solved);
     if (json) {
         json_object_set_new(json, "session", json_string(f->script));
+        json_object_set_new(json, "box_size", vector(f->box_size, 3));
+        json_object_set_new(json, "video_pictures", json_integer((json_int_t)f->video_pictures));
         json_object_set_new(json, "times", vector(f->times, f->views));
         json_object_set_new(json, "limits", limits_json(f->limited));
         json_object_set_new(json, "view_settings", json_loads(f->view_settings, 0, NULL));
