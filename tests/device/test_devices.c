@@ -1,5 +1,6 @@
 /* The devices against a stand-in for hidapi: what comes, goes, fails, stalls and lies. */
 #include "tests/device/hid_stand_in.h"
+#include "tests/scratch.h"
 
 #include "app/device/device_survey.h"
 #include "app/device/device_trouble.h"
@@ -414,8 +415,8 @@ static void a_survey_tells_what_may_be_opened(void **state)
 static void a_process_is_found_by_its_name(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/slosh-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[SCRATCH_PATH];
+    scratch_folder(folder);
     assert_int_equal(device_process(folder, "spacenavd"), 0);
     static const char *const names[] = {"17", "432", "self"};
     for (int i = 0; i < 3; i++) {
@@ -430,13 +431,6 @@ static void a_process_is_found_by_its_name(void **state)
     assert_int_equal(device_process(folder, "spacenavd"), 432);
     assert_int_equal(device_process(folder, "spacenav"), 0);
     assert_int_equal(device_process("/nowhere", "spacenavd"), 0);
-    for (int i = 0; i < 3; i++) {
-        snprintf(path, sizeof path, "%s/%s/comm", folder, names[i]);
-        unlink(path);
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        rmdir(path);
-    }
-    rmdir(folder);
 }
 
 int main(void)

@@ -2,6 +2,7 @@
    sooner than somebody waits for it. */
 #define _GNU_SOURCE /* syscall */
 #include "tests/render/fixture.h"
+#include "tests/scratch.h"
 
 #include "sim/gl/program.h"
 #include "sim/gl/timer.h"
@@ -59,8 +60,8 @@ static Load load_create(void)
 {
     Load load;
     Error error = {0};
-    char folder[] = "/tmp/slosh-load-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[SCRATCH_PATH];
+    scratch_folder(folder);
     static const char *const text[2] = {
         "void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0, 1); }\n",
         "layout(location = 0) uniform int rounds;\nlayout(location = 0) out float sum;\n"
@@ -75,11 +76,6 @@ static Load load_create(void)
     program_set_directory(folder);
     load.program = program_create_pair("load", name[0], name[1], &error);
     program_set_directory(NULL);
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, name[i]);
-        unlink(path);
-    }
-    rmdir(folder);
     if (!load.program)
         fail_msg("%s", error.message);
     glCreateTextures(GL_TEXTURE_2D, 1, &load.texture);
