@@ -91,8 +91,10 @@ class Time(PlayerTest):
             self.rest()
             shot.add(self.shoot())
         self.assertEqual(len(shot), 3)
-        states = {self.picture_at(0.04 * k, '--size', f'{size[0]}x{size[1]}') for k in range(11)}
-        self.assertTrue(shot < states)
+        code, said = self.slosh('render', 'a.h5part', '-o', 'states', '--fps', '25', '--size', f'{size[0]}x{size[1]}', '--quiet')
+        self.assertEqual(code, 0, said)
+        states = {self.read(f'states/{name}') for name in os.listdir(self.path('states'))}
+        self.assertTrue(len(states) > 8 and shot < states)
         self.quit()
 
 
