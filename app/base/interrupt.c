@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t signals;
+static volatile sig_atomic_t signals, asked;
 
 static void on_signal(int number)
 {
@@ -39,4 +39,24 @@ void interrupt_install(void)
 bool interrupted(void)
 {
     return signals != 0;
+}
+
+static void on_ask(int number)
+{
+    (void)number;
+    asked = 1;
+}
+
+void interrupt_hear_ask(void)
+{
+    struct sigaction hear = {.sa_handler = on_ask, .sa_flags = SA_RESTART};
+    sigemptyset(&hear.sa_mask);
+    sigaction(SIGUSR1, &hear, NULL);
+}
+
+bool interrupt_asked(void)
+{
+    const bool was = asked != 0;
+    asked = 0; /* two that came before a look are one */
+    return was;
 }

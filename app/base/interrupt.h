@@ -15,4 +15,10 @@ void interrupt_install(void);
 /* Whether such a signal came: loops poll it and end early, with a whole file. */
 bool interrupted(void);
 
+/* From now on SIGUSR1 asks how it stands, as it asks dd. */
+void interrupt_hear_ask(void);
+
+/* Whether it came since the last call. */
+bool interrupt_asked(void);
+
 #endif

@@ -50,6 +50,7 @@ int cmd_play(const Args *args)
                              .past_bytes = (size_t)(args->past * 1048576),
                              .mapping = &mapping,
                              .device = args->device,
+                             .json = args->json,
                              .quiet = args->quiet};
     static PlayFigures figures;
     Error error = {{0}};

@@ -35,18 +35,20 @@ static json_t *session_json(const PlayFigures *f)
                   (json_int_t)f->scenes_opened, "color_by", f->color_by, "colormap", f->colormap, "speed",
                   f->speed, "display_scale", f->display_scale, "processor", bench_processor(), "compiler",
                   bench_compiler, "options", bench_options);
-    json_t *hands =
-        json_pack("{s:b, s:b, s:b, s:b, s:b, s:b, s:o, s:o, s:o, s:o, s:i}", "paused", f->paused,
-                  "fullscreen", f->fullscreen, "camera_auto", f->camera_auto, "panel", f->panel, "help",
-                  f->help, "scenes", f->scenes, "box_position", vector(f->box_position, 3), "box_orientation",
-                  vector(f->box_orientation, 4), "camera_from", vector(f->camera_from, 3), "camera_to",
-                  vector(f->camera_to, 3), "gl_errors", f->gl_errors);
+    json_t *hands = json_pack(
+        "{s:b, s:b, s:b, s:b, s:b, s:b, s:b, s:b, s:o, s:o, s:o, s:o, s:i}", "at_rest", f->at_rest,
+        "finer_to_come", f->finer_to_come, "paused", f->paused, "fullscreen", f->fullscreen, "camera_auto",
+        f->camera_auto, "panel", f->panel, "help", f->help, "scenes", f->scenes, "box_position",
+        vector(f->box_position, 3), "box_orientation", vector(f->box_orientation, 4), "camera_from",
+        vector(f->camera_from, 3), "camera_to", vector(f->camera_to, 3), "gl_errors", f->gl_errors);
     if (json)
         json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands),
             json_object_update(json, devices);
     solved_json(json, &f->solved);
     if (json) {
         json_object_set_new(json, "session", json_string(f->script));
+        json_object_set_new(json, "box_size", vector(f->box_size, 3));
+        json_object_set_new(json, "video_pictures", json_integer((json_int_t)f->video_pictures));
         json_object_set_new(json, "times", vector(f->times, f->views));
         json_object_set_new(json, "limits", limits_json(f->limited));
         json_object_set_new(json, "view_settings", json_loads(f->view_settings, 0, NULL));

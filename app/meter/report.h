@@ -36,13 +36,17 @@ typedef struct PlayFigures {
     double sim_ms, render_ms; /* a frame of the solver, a picture: means */
     double latency_median_ms, latency_p95_ms;
     size_t latency_events;
+    size_t video_pictures; /* of the last video */
     uint64_t device_reports;
     double report_median_ms, report_p99_ms; /* from the report of a motion device to its command */
     double panel_ms;                        /* CPU time of the panel in a picture, mean; 0 when never shown */
     double events_ms;                       /* CPU time of events for a picture, mean */
     double cpus_busy;                       /* CPU time over wall time */
     double speed, display_scale;
+    bool at_rest; /* all that was asked for is done and shown; nothing more comes until somebody acts, */
+    bool finer_to_come; /* but the same picture in more detail */
     bool paused, fullscreen, camera_auto, panel, help, scenes;
+    double box_size[3];                         /* of the last picture, m */
     double box_position[3], box_orientation[4]; /* the hand's part of the pose */
     double camera_from[3], camera_to[3];
     int gl_errors;

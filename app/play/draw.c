@@ -206,8 +206,8 @@ static void count_picture(Play *play, double began)
 
 bool draw_needs_fluid(const Play *play)
 {
-    return play->picture.dirty || picture_unsettled(&play->picture) || model_fresh(&play->model) ||
-           files_due(&play->files);
+    return play->picture.dirty || play->picture.finer || picture_unsettled(&play->picture) ||
+           model_fresh(&play->model) || files_due(&play->files);
 }
 
 void draw_picture(Play *play)

@@ -38,6 +38,7 @@ static void add_model(const Model *model, PlayFigures *figures)
     figures->sim_ms = status->frames ? status->solved_ms / (double)status->frames : 0;
     figures->speed = model->speed;
     figures->paused = model->paused;
+    memcpy(figures->box_size, model->particles.box_size, sizeof figures->box_size);
     memcpy(figures->box_position, status->hand.position, sizeof figures->box_position);
     memcpy(figures->box_orientation, status->hand.orientation, sizeof figures->box_orientation);
     snprintf(figures->scene, sizeof figures->scene, "%s", model->open.scene.path);
@@ -143,6 +144,10 @@ void figures_of(const Play *play, PlayFigures *figures)
     add_view(&play->model.open.scene.view, figures);
     add_view_settings(&play->model.open.scene, figures);
     add_readout(&play->readout, figures);
+    figures->at_rest = play->model.status.rests && !model_fresh(&play->model) && !play->files.shoot &&
+                       picture_rests(&play->picture);
+    figures->finer_to_come = play->picture.finer;
+    figures->video_pictures = play->files.pictures;
     figures->views = scene_view_count(&play->model.open.scene);
     for (int i = 0; i < figures->views; i++)
         figures->times[i] =

@@ -162,6 +162,11 @@ bool picture_unsettled(const Picture *picture)
     return picture->panels && panels_behind(picture->panels) && wall_ms() >= picture->begun_ms + SETTLE_MS;
 }
 
+bool picture_rests(const Picture *picture)
+{
+    return !picture->dirty && !picture->over && !(picture->panels && panels_behind(picture->panels));
+}
+
 bool picture_shaders_changed(Picture *picture)
 {
     if (wall_ms() < picture->shaders_due_ms)
@@ -187,7 +192,7 @@ void picture_draw(Picture *picture, const ParticleBuffers *const states[], const
         panels_set_title(picture->panels, i, &titles[i], &error); /* no font: it has the one before */
     panels_set_covered(picture->panels, covered_left, &error);    /* no room: they lie where they were */
     panels_draw(picture->panels, states, picture->timer ? picture->timer : picture->pauses);
-    picture->dirty |= panels_unfinished(picture->panels);
+    picture->finer = panels_unfinished(picture->panels);
     gl_timer_frame(picture->timer, &picture->gl_times);
 }
 

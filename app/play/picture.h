@@ -21,6 +21,7 @@ typedef struct Picture {
     int width, height;      /* of the framebuffer; 0 while the window is minimised */
     double refresh;         /* pictures a second that the display shows */
     bool dirty;             /* a picture is due though no new state is there; */
+    bool finer;             /* the same one is due again, with more of what makes it fine; */
     bool over;              /* of what lies over the fluid alone */
     double begun_ms;        /* wall time at which the last one was begun */
     void *asked;            /* a GLsync: behind all that the GPU was asked to draw; NULL: not asked for yet */
@@ -53,6 +54,9 @@ bool picture_shaders_changed(Picture *picture);
 bool picture_reload(Picture *picture, const PlayScene *open, Error *error);
 
 bool picture_visible(const Picture *picture);
+
+/* Nothing is to be drawn again but a finer picture of the same, and the last one has its own numbers. */
+bool picture_rests(const Picture *picture);
 
 /* The last picture has stood for a while and has numbers of the one before: renderer_behind. */
 bool picture_unsettled(const Picture *picture);

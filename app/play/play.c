@@ -132,6 +132,18 @@ static void pause_or_draw(Play *play)
         window_wait(play->window, 1e-3 * fmin(hand_busy(play) ? HELD_MS : IDLE_MS, work));
 }
 
+/* Somebody wants to know how it stands. */
+static void tell_figures(Session *session)
+{
+    static PlayFigures figures;
+    Error error = {{0}};
+    figures_of(&session->play, &figures);
+    if (!session->setup->json)
+        play_print(&figures, stderr);
+    else if (!play_write_json(&figures, session->setup->json, &error))
+        notice_error(&session->play.notice, error.message);
+}
+
 static bool run(Session *session, Error *error)
 {
     Play *play = &session->play;
@@ -147,6 +159,8 @@ static bool run(Session *session, Error *error)
         if (!picture_follow_size(&play->picture, play->window, error))
             return false;
         play->picture.dirty |= notice_changed(&play->notice) | overlay_follow(&play->overlay);
+        if (interrupt_asked())
+            tell_figures(session);
         if (!play->quit)
             pause_or_draw(play);
     }
@@ -220,6 +234,7 @@ int play(const PlaySetup *setup, PlayFigures *figures)
     session->play.shake_seconds = setup->shake_seconds;
     input_begin(&session->play.input);
     interrupt_install();
+    interrupt_hear_ask();
     snprintf(figures->scene, sizeof figures->scene, "%s", setup->scene);
     const bool ok = play_session(session, figures);
     if (close_all(session))

@@ -15,6 +15,7 @@ typedef struct PlaySetup {
     const Mapping *mapping;        /* of motion devices; NULL: they are left alone */
     const char *device;            /* --device, or NULL: what is plugged in */
     double shake_seconds;          /* more than 0: the box is shaken by a script for so long, then all ends */
+    const char *json; /* SIGUSR1 writes the figures so far there; NULL: to standard error, for people */
     bool quiet;
 } PlaySetup;
 

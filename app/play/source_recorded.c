@@ -34,6 +34,7 @@ static void status(PlayScene *open, SimulatorStatus *out)
     *out = (SimulatorStatus){
         .ready = player.reel.answered,
         .paused = player.paused,
+        .rests = player.rests,
         .realtime = true,
         .speed = player.speed,
         .time = player.reel.time,

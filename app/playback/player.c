@@ -219,6 +219,8 @@ void player_status(const Player *player, PlayerStatus *status)
     *status = (PlayerStatus){.reel = player->status,
                              .paused = player->paused,
                              .loop = player->loop,
+                             .rests = player->steps == 0 && !player->wants && player->status.answered &&
+                                      (player->paused || (at_end(player) && !loops(player))),
                              .speed = player->speed,
                              .played_s = player->played_s,
                              .failures = player->failures};

@@ -31,6 +31,7 @@ void player_step(Player *player, int steps, bool held);
 typedef struct PlayerStatus {
     ReelStatus reel;
     bool paused, loop;
+    bool rests; /* what was asked for is shown, and no other step is due until somebody acts */
     double speed;
     double played_s;    /* of the file's time since the start, jumps apart */
     unsigned failures;  /* counts steps that could not be shown, each once in a row, and that the file was

@@ -162,6 +162,8 @@ void simulator_status(Simulator *simulator, SimulatorStatus *status)
     pthread_mutex_lock(&simulator->lock);
     *status = simulator->status;
     status->paused = simulator->paused;
+    status->rests = simulator->rests && (simulator->paused || status->failed) && simulator->singles == 0 &&
+                    !simulator->reset && !simulator->saving && !simulator->wish.pending;
     status->ended = simulator->ended;
     status->saving = simulator->saving;
     status->realtime = simulator->realtime;

@@ -174,6 +174,7 @@ typedef struct SimulatorStatus {
     bool failed; /* it stopped, or could not be made: `message` says why; a reset starts it anew */
     bool ended;  /* the thread; nothing will be done any more */
     bool paused, realtime;
+    bool rests;         /* all that was asked for is done, and no frame is due until somebody acts */
     char message[1024]; /* of the failure, or of a command that could not be obeyed; "" */
     unsigned messages;  /* counts messages */
     unsigned solids;    /* counts changes of solids and box, which simulator_settings has */

@@ -63,6 +63,7 @@ struct Simulator {
     pthread_t thread;
     pthread_mutex_t lock; /* of all down to `obeyed` */
     pthread_cond_t changed;
+    bool rests;             /* no work was found, at the last look for it */
     bool quit, ended, idle; /* idle: no frame was due for as long as something forbade it */
     bool paused, realtime, reset;
     int singles; /* frames that are due although paused */

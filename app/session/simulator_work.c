@@ -87,7 +87,9 @@ static bool find_work(Simulator *simulator, Work *work, double *until)
         work->frame = true;
         simulator->singles -= simulator->singles > 0;
     }
-    return work->save || work->reset || work->travel || work->frame;
+    const bool found = work->save || work->reset || work->travel || work->frame;
+    simulator->rests = !found;
+    return found;
 }
 
 /* Waits for it; false at the end. */

@@ -95,6 +95,7 @@ static ImU32 imgui_color(uint32_t rgba)
 struct Text {
     ImGuiContext *context;
     ImFont *font;
+    float pixels;     // high; the font itself knows it no sooner than at the first words
     ImDrawList *list; // of the picture in progress
     ImVec2 origin;    // of the part that it draws
 };
@@ -107,6 +108,7 @@ Text *text_create(float pixels, Error *error)
         return nullptr;
     }
     text->context = create_context();
+    text->pixels = pixels;
     {
         Current current(text->context);
         text->font = add_font("DejaVuSans.ttf", pixels, nullptr, error);
@@ -127,7 +129,7 @@ void text_destroy(Text *text)
 
 float text_height(const Text *text)
 {
-    return text->font->FontSize;
+    return text->pixels;
 }
 
 void text_begin(Text *text, int width, int height)

@@ -10,6 +10,8 @@
 
 #include <cmocka.h>
 
+#include "tests/scratch.h"
+
 #include <dirent.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -21,34 +23,17 @@
 /* setup and teardown: *state is the folder's name, and the working folder is in it. */
 static inline int folder_setup(void **state)
 {
-    char *folder = strdup("/tmp/slosh-test-XXXXXX");
-    if (!folder || !mkdtemp(folder) || chdir(folder) != 0)
+    char *folder = malloc(SCRATCH_SIZE);
+    if (!folder || chdir(scratch_folder(folder)) != 0)
         return -1;
     *state = folder;
     return 0;
 }
 
-/* A folder and the files and folders in it. */
-static inline void remove_all(const char *folder)
-{
-    char path[600];
-    struct dirent *entry;
-    DIR *dir = opendir(folder);
-    while (dir && (entry = readdir(dir))) {
-        bool itself = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
-        int length = snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (!itself && length < (int)sizeof path && unlink(path) != 0)
-            remove_all(path);
-    }
-    if (dir)
-        closedir(dir);
-    rmdir(folder);
-}
-
 static inline int folder_teardown(void **state)
 {
     int left = chdir("/");
-    remove_all(*state);
+    scratch_remove(*state);
     free(*state);
     return left;
 }

@@ -1,4 +1,5 @@
 /* Rows of a chart: kept in a file, compared with the reference, the front among them. */
+#include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
 #include "app/lab/chart_row.h"
@@ -143,12 +144,10 @@ static void nothing_on_the_front_is_beaten(void **state)
 static void the_chart_says_its_orders(void **state)
 {
     (void)state;
-    char file_path[] = "/tmp/slosh_chart_XXXXXX.svg";
+    char file_path[SCRATCH_SIZE];
     static char svg[1 << 20];
     const ChartWords words = {"A title", "error: front", "backend x left out: none here"};
-    const int file = mkstemps(file_path, 4);
-    assert_true(file >= 0);
-    close(file);
+    scratch_file(file_path, ".svg");
     rows.count = 0;
     for (int i = 0; i < 3; i++) {
         const double spacing = 0.1 / (1 << i);
@@ -162,7 +161,6 @@ static void the_chart_says_its_orders(void **state)
     assert_non_null(in);
     svg[fread(svg, 1, sizeof svg - 1, in)] = 0;
     fclose(in);
-    unlink(file_path);
     const char *const there[] = {"wcsph, cpu, long steps: order 2.00",
                                  "mueller, cpu, long steps: order 1.00",
                                  "wcsph, cpu, support=2.6, long steps: order 1.00",
@@ -179,14 +177,13 @@ static void the_chart_says_its_orders(void **state)
     assert_null(strstr(svg, "mueller, cpu, 0, number")); /* it is behind at every time: no label */
 }
 
-static char path[32];
+static char path[SCRATCH_SIZE];
 
 static int make_file(void **state)
 {
     (void)state;
-    snprintf(path, sizeof path, "/tmp/slosh_chart_XXXXXX");
-    const int file = mkstemp(path);
-    return file < 0 ? -1 : close(file);
+    scratch_file(path, "");
+    return 0;
 }
 
 static int remove_file(void **state)
@@ -294,7 +291,7 @@ static void an_impossible_row_is_left_out(void **state)
     fclose(file);
     const char *second = strstr(whole, "0000000000000065,");
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        char *said = NULL, expected[200];
+        char *said = NULL, expected[400];
         size_t size = 0;
         const char *cell = strstr(second, cells[i][0]);
         assert_non_null(cell);
@@ -321,7 +318,7 @@ static void another_s_file_is_kept(void **state)
     assert_false(chart_rows_read(&again, path, NULL, &error));
     assert_non_null(strstr(error.message, "no chart wrote it"));
     write_text(older, sizeof older - 1);
-    char *said = NULL, expected[200];
+    char *said = NULL, expected[400];
     size_t size = 0;
     FILE *file = open_memstream(&said, &size);
     assert_true(chart_rows_read(&again, path, file, &error));

@@ -1,5 +1,6 @@
 /* slosh fit against all settings of a small grid, of a dam break in the plane. Costs are particles times
    steps: no other program on the machine changes them. */
+#include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
 #include "app/fit/fit_plan.h"
@@ -13,7 +14,7 @@ static Args args;
 static FitPlan plan;
 static FitSpace real;
 static Error error;
-static char csv[] = "/tmp/slosh_fit_XXXXXX";
+static char csv[SCRATCH_SIZE];
 static int asked;
 
 /* Particles times steps of a simulated second: all steps are fixed, "1.25 ms". */
@@ -161,14 +162,8 @@ static int make_csv(void **state)
 {
     (void)state;
     backends_add();
-    const int file = mkstemp(csv);
-    return file < 0 ? -1 : close(file);
-}
-
-static int remove_csv(void **state)
-{
-    (void)state;
-    return unlink(csv);
+    scratch_file(csv, "");
+    return 0;
 }
 
 int main(void)
@@ -177,5 +172,5 @@ int main(void)
         cmocka_unit_test(the_cheapest),
         cmocka_unit_test(the_most_accurate),
     };
-    return cmocka_run_group_tests(tests, make_csv, remove_csv);
+    return cmocka_run_group_tests(tests, make_csv, NULL);
 }

@@ -1,4 +1,6 @@
 /* slosh stability: trials that are kept. */
+#include "tests/scratch.h"
+
 #include "app/stability/stable_row.h"
 
 #include <setjmp.h>
@@ -17,13 +19,6 @@ static StableRow row_of(uint64_t key, StableFinder finder)
     return row;
 }
 
-static void new_path(char path[32])
-{
-    snprintf(path, 32, "/tmp/slosh-stable-XXXXXX");
-    close(mkstemp(path));
-    unlink(path);
-}
-
 static void add(StableRows *rows, uint64_t key, StableFinder finder)
 {
     const StableRow row = row_of(key, finder);
@@ -34,10 +29,10 @@ static void add(StableRows *rows, uint64_t key, StableFinder finder)
 static void rows_of_two_maps_come_together(void **state)
 {
     (void)state;
-    char path[32];
+    char path[SCRATCH_SIZE];
     StableRows own = {0}, theirs = {0};
     Error error;
-    new_path(path);
+    scratch_name(path, "");
     assert_true(stable_rows_merge(&own, path, &error)); /* no file yet */
     add(&own, 1, FOUND_BY_NOBODY);
     add(&own, 2, FOUND_BY_LOOK);
@@ -53,23 +48,21 @@ static void rows_of_two_maps_come_together(void **state)
     assert_non_null(stable_rows_find(&own, 4));
     stable_rows_free(&own);
     stable_rows_free(&theirs);
-    unlink(path);
 }
 
 /* Only one that is not there is empty: what cannot be read is not to be replaced. */
 static void an_unreadable_table_is_refused(void **state)
 {
     (void)state;
-    char path[32];
+    char path[SCRATCH_SIZE];
     StableRows rows = {0};
     Error error;
-    new_path(path);
+    scratch_name(path, "");
     assert_true(stable_rows_read(&rows, path, NULL, &error));
     assert_int_equal(symlink(path, path), 0);
     assert_false(stable_rows_read(&rows, path, NULL, &error));
     assert_non_null(strstr(error.message, "cannot be read: Too many levels of symbolic links"));
     assert_false(stable_rows_merge(&rows, path, &error));
-    unlink(path);
 }
 
 int main(void)

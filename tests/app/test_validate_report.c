@@ -1,4 +1,5 @@
 /* What validate says of a figure that has no value: words in the table, null in the JSON. */
+#include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
 #include "app/lab/validate_report.h"
@@ -89,14 +90,13 @@ static void a_run_that_broke_says_so_itself(void **state)
 static void json_says_what_failed(void **state)
 {
     (void)state;
-    char text[4096], path[] = "/tmp/validate_report_XXXXXX";
+    char text[4096], path[SCRATCH_SIZE];
     Error error = {{0}};
-    close(mkstemp(path));
+    scratch_file(path, "");
     CaseResult *result = result_of(none, none);
     snprintf(result->failure, sizeof result->failure, "a particle moved too far");
     assert_true(validate_write_json(result, &outcome, 1, "no memory", path, &error));
     all_of(fopen(path, "r"), text);
-    unlink(path);
     assert_non_null(strstr(text, "\"failure\": \"a particle moved too far\""));
     assert_non_null(strstr(text, "\"error\": \"no memory\""));
 }
@@ -104,12 +104,11 @@ static void json_says_what_failed(void **state)
 static void a_figure_without_a_value_is_null(void **state)
 {
     (void)state;
-    char text[4096], path[] = "/tmp/validate_report_XXXXXX";
+    char text[4096], path[SCRATCH_SIZE];
     Error error = {{0}};
-    close(mkstemp(path));
+    scratch_file(path, "");
     assert_true(validate_write_json(result_of(none, good), &outcome, 1, NULL, path, &error));
     all_of(fopen(path, "r"), text);
-    unlink(path);
     assert_non_null(strstr(text, "\"value\": null"));
     assert_non_null(strstr(text, "\"error\": null"));
     assert_non_null(strstr(text, "\"passed\": false"));
@@ -121,7 +120,7 @@ static void a_figure_without_a_value_is_null(void **state)
 static void how_it_went_is_told(void **state)
 {
     (void)state;
-    char text[4096], path[] = "/tmp/validate_report_XXXXXX";
+    char text[4096], path[SCRATCH_SIZE];
     Error error = {{0}};
     CaseResult *result = result_of(good, bad);
     snprintf(result->scene.world.method, NAME_SIZE, "dfsph");
@@ -131,10 +130,9 @@ static void how_it_went_is_told(void **state)
     assert_non_null(strstr(text, "  missed: waves of its own  squeezed\n"));
     assert_non_null(
         strstr(text, "  squeezed at t = 0.5 s: fluid has lost volume: it is pressed by 7 % in the mean\n"));
-    close(mkstemp(path));
+    scratch_file(path, "");
     assert_true(validate_write_json(result, &outcome, 1, NULL, path, &error));
     all_of(fopen(path, "r"), text);
-    unlink(path);
     assert_non_null(strstr(text, "\"outcome\": \"squeezed\""));
     assert_non_null(strstr(text, "\"outcome_words\": \"fluid has lost volume"));
     assert_non_null(strstr(text, "\"why\": \"waves of its own\""));

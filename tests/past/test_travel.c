@@ -325,8 +325,7 @@ static void time_runs_on_in_the_past_as_it_did(void **state)
         rig_turn(&rig);
     while (rig.status.time < run.time[FRAMES] && wall_ms() < until);
     simulator_pause(rig.simulator, true);
-    usleep(100000);
-    rig_turn(&rig);
+    rig_rest(&rig);
     assert_false(rig.status.past.behind);
     assert_int_equal(rig.status.messages, 0);
     for (int k = 0; k < 3; k++) { /* what it did beyond is kept as ever */
@@ -622,8 +621,7 @@ static void time_it(const char *scene)
     while (rig.status.time < SECONDS && !rig.status.failed)
         rig_turn(&rig);
     simulator_pause(rig.simulator, true);
-    usleep(500000);
-    rig_turn(&rig);
+    rig_rest(&rig);
     const double frame = (wall_ms() - began) / (double)rig.status.frames;
     const SimulatorPast *past = &rig.status.past;
     const double copy = time_of_a_state(&rig), end = past->to;

@@ -29,21 +29,14 @@ static size_t shown(Player *player)
     PlayerStatus status;
     ParticleBuffers particles;
     const double until = wall_ms() + 20000;
-    do {
-        player_work(player, now_ms);
-        player_status(player, &status);
-        usleep(1000);
-        assert_true(wall_ms() < until);
-    } while (!status.reel.answered || !player_take(player, &particles));
-    for (int k = 0; k < 3; k++) { /* steps that wait */
-        player_work(player, now_ms);
-        usleep(2000);
+    for (int k = 0; k < 4; k++) { /* steps that wait: one comes after the other */
+        do {
+            player_work(player, now_ms);
+            player_status(player, &status);
+            usleep(500);
+            assert_true(wall_ms() < until);
+        } while (!status.reel.answered || (k == 0 && !player_take(player, &particles)));
     }
-    do {
-        player_work(player, now_ms);
-        player_status(player, &status);
-        assert_true(wall_ms() < until);
-    } while (!status.reel.answered);
     assert_true(player_take(player, &particles));
     assert_int_equal(particles.count, status.reel.index + 1);
     return status.reel.index;
@@ -82,8 +75,12 @@ static void rest_is_neither_played_nor_polled(void **state)
     player = player_create(&recorded, NULL, false, &error);
     must(player, &error);
     player_set_loop(player, true);
-    for (int k = 0; k < 200; k++, usleep(1000))
+    do {
         player_work(player, now_ms += 10);
+        player_status(player, &status);
+        usleep(500);
+    } while (!status.reel.answered);
+    run(player, 2);
     assert_true(isinf(player_work(player, now_ms)));
     player_status(player, &status);
     assert_true(status.played_s == 0);

@@ -1,5 +1,6 @@
 /* PNG files: what is written is what is read, and a write that fails is told. */
 #include "tests/render/fixture.h"
+#include "tests/scratch.h"
 
 #include "app/output/image.h"
 
@@ -21,15 +22,14 @@ static void test_round_trip(void **state)
 {
     (void)state;
     Error error = {0};
-    char path[] = "/tmp/slosh-image-XXXXXX";
-    close(mkstemp(path));
+    char path[SCRATCH_SIZE];
+    scratch_file(path, "");
     Image written = noise(37, 21), read;
     assert_true(image_write(&written, NULL, path, &error));
     assert_true(image_read(path, &read, &error));
     assert_int_equal(read.width, 37);
     assert_int_equal(read.height, 21);
     assert_memory_equal(read.rgb, written.rgb, 3 * 37 * 21);
-    unlink(path);
     image_destroy(&written);
     image_destroy(&read);
 }

@@ -1,5 +1,6 @@
 /* Shaders that do not compile say where. */
 #include "tests/render/fixture.h"
+#include "tests/scratch.h"
 
 #include "sim/gl/program.h"
 
@@ -7,11 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char folder[64];
+static char folder[SCRATCH_SIZE];
 
 static void write_shader(const char *name, const char *text)
 {
-    char path[128];
+    char path[SCRATCH_PATH];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -21,9 +22,7 @@ static void write_shader(const char *name, const char *text)
 
 static int folder_setup(void **state)
 {
-    snprintf(folder, sizeof folder, "/tmp/slosh-shaders-XXXXXX");
-    if (!mkdtemp(folder))
-        return 1;
+    scratch_folder(folder);
     write_shader("good.vert", "void main() { gl_Position = vec4(0); }\n");
     write_shader("good.glsl", "float one() { return 1.0; }\n");
     program_set_directory(folder);
@@ -32,14 +31,7 @@ static int folder_setup(void **state)
 
 static int folder_teardown(void **state)
 {
-    static const char *const names[] = {"good.vert", "good.glsl", "bad.glsl", "bad.frag", "good.frag"};
-    char path[128];
     program_set_directory(NULL);
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
-        unlink(path);
-    }
-    rmdir(folder);
     return context_teardown(state);
 }
 

@@ -1,11 +1,55 @@
-/* The stage clock tells where the time goes. */
+/* The stage clock tells where the time goes: by a clock that the test turns, and a GPU whose work is done no
+   sooner than somebody waits for it. */
+#define _GNU_SOURCE /* syscall */
 #include "tests/render/fixture.h"
+#include "tests/scratch.h"
 
 #include "sim/gl/program.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
+#include <sys/syscall.h>
+#include <time.h>
 #include <unistd.h>
+
+static _Thread_local double turned_ms; /* by hand, in this thread; 0: the clock runs by itself */
+static double asked_ms;                /* what the work takes that was asked for */
+static int done;                       /* draws that were waited for */
+static PFNGLFINISHPROC finish;
+
+/* In the C library's place. */
+int clock_gettime(clockid_t clock, struct timespec *now)
+{
+    if (clock != CLOCK_MONOTONIC || turned_ms == 0)
+        return (int)syscall(SYS_clock_gettime, clock, now);
+    now->tv_sec = (time_t)(turned_ms / 1000);
+    now->tv_nsec = (long)(1e6 * (turned_ms - 1e3 * (double)now->tv_sec));
+    return 0;
+}
+
+/* A draw takes a millisecond, and what else was asked for its own time. */
+static void APIENTRY finish_asked(void)
+{
+    finish();
+    turned_ms += asked_ms + draw_check_draws - done;
+    done = draw_check_draws;
+    asked_ms = 0;
+}
+
+static void clock_turn(void)
+{
+    finish = (PFNGLFINISHPROC)eglGetProcAddress("glFinish");
+    epoxy_glFinish = finish_asked;
+    turned_ms = floor(wall_ms());
+    done = draw_check_draws;
+    asked_ms = 0;
+}
+
+static void clock_let_go(void)
+{
+    epoxy_glFinish = finish;
+    turned_ms = 0;
+}
 
 typedef struct Load {
     unsigned program, framebuffer, texture, vertex_array;
@@ -16,8 +60,8 @@ static Load load_create(void)
 {
     Load load;
     Error error = {0};
-    char folder[] = "/tmp/slosh-load-XXXXXX", path[64];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], path[SCRATCH_PATH];
+    scratch_folder(folder);
     static const char *const text[2] = {
         "void main() { gl_Position = vec4(4 * (gl_VertexID & 1) - 1, 2 * (gl_VertexID & 2) - 1, 0, 1); }\n",
         "layout(location = 0) uniform int rounds;\nlayout(location = 0) out float sum;\n"
@@ -32,11 +76,6 @@ static Load load_create(void)
     program_set_directory(folder);
     load.program = program_create_pair("load", name[0], name[1], &error);
     program_set_directory(NULL);
-    for (int i = 0; i < 2; i++) {
-        snprintf(path, sizeof path, "%s/%s", folder, name[i]);
-        unlink(path);
-    }
-    rmdir(folder);
     if (!load.program)
         fail_msg("%s", error.message);
     glCreateTextures(GL_TEXTURE_2D, 1, &load.texture);
@@ -63,6 +102,7 @@ static void load_run(const Load *load, int rounds)
     glProgramUniform1i(load->program, 0, rounds);
     glBindVertexArray(load->vertex_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    asked_ms += rounds;
 }
 
 /* Work that hides what a stage itself costs: hardware is a thousand times faster. */
@@ -75,23 +115,22 @@ static void run_frame(const Load *load, GlTimer *timer)
     load_run(load, 100 * least);
 }
 
-/* 100 times the work gets at least 90 % of the time, and the stages sum to the frame within 10 %. */
+/* Each stage has the time of its own work, and that of none before it. */
 static void test_finish(void **state)
 {
     (void)state;
     Load load = load_create();
     GlTimer *timer = gl_timer_create(GL_CLOCK_FINISH);
     assert_string_equal(gl_timer_clock_name(timer), "finish");
-    run_frame(&load, NULL); /* compiles */
-    glFinish();
+    const int least = gl_renderer_is_software() ? 5 : 2000;
+    clock_turn();
     StageTimes times = {0};
-    double began = wall_ms();
+    load_run(&load, 7); /* of no stage */
     run_frame(&load, timer);
-    double whole = wall_ms() - began;
+    clock_let_go();
     assert_true(gl_timer_frame(timer, &times));
-    double sum = times.ms[STAGE_SHADE] + times.ms[STAGE_SHADOW];
-    assert_true(times.ms[STAGE_SHADE] >= 0.9 * sum);
-    assert_true(fabs(sum - whole) <= 0.1 * whole);
+    assert_true(fabs(times.ms[STAGE_SHADOW] - (least + 1)) < 1e-3);
+    assert_true(fabs(times.ms[STAGE_SHADE] - (100 * least + 1)) < 1e-3);
     assert_false(times.ran[STAGE_GRID]);
     gl_timer_destroy(timer);
     load_destroy(&load);
@@ -117,7 +156,7 @@ static void test_query_order(void **state)
             assert_int_equal(times.ran[STAGE_OVERLAY], known > 0);
             assert_true(times.ran[STAGE_SHADE] && times.ms[STAGE_SHADE] >= 0);
             if (!gl_renderer_is_software())
-                assert_true(times.ms[STAGE_SHADE] > 0.9 * (times.ms[STAGE_SHADE] + times.ms[STAGE_SHADOW]));
+                assert_true(times.ms[STAGE_SHADE] > times.ms[STAGE_SHADOW]);
             known++;
         }
     }
@@ -147,8 +186,7 @@ static bool has_stage(const char *view, Stage stage)
     return stage_part(stage) == PART_RENDER && (own || !named);
 }
 
-/* A whole picture: every pass has its stage, and between them nothing is lost. The best of some, since others
- * run too. */
+/* A whole picture: every pass has its stage, and between them nothing is lost. */
 static void picture_stages(const char *view)
 {
     Error error = {0};
@@ -167,20 +205,22 @@ static void picture_stages(const char *view)
     Renderer *renderer = renderer_create(&def, &world, 640, 480, &error);
     GlTimer *timer = gl_timer_create(GL_CLOCK_FINISH);
     assert_non_null(renderer);
-    double best = 1;
-    for (int frame = 0; frame < 6; frame++) {
+    for (int frame = 0; frame < 3; frame++) { /* the first one makes things */
         StageTimes times = {0};
+        clock_turn();
         double sum = 0, began = wall_ms();
         renderer_draw(renderer, &buffers, timer);
+        glFinish();
         double whole = wall_ms() - began;
+        clock_let_go();
         assert_true(gl_timer_frame(timer, &times));
         for (int stage = 0; stage < STAGE_COUNT; stage++) {
             assert_int_equal(times.ran[stage], has_stage(view, (Stage)stage));
             sum += times.ms[stage];
         }
-        best = frame ? fmin(best, fabs(whole - sum) / whole) : 1; /* the first frame makes things */
+        print_message("%s: %g draws, in stages %g\n", view, whole, sum);
+        assert_true(whole > 2 && fabs(whole - sum) < 1e-3);
     }
-    assert_true(best <= 0.1);
     gl_timer_destroy(timer);
     renderer_destroy(renderer);
     upload_destroy(upload);

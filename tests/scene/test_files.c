@@ -1,5 +1,6 @@
 /* Scene files on disk: those that are shipped, where they are looked for, and what is no file. */
 #include "tests/scene/scene_text.h"
+#include "tests/scratch.h"
 
 #include "app/base/path.h"
 #include "sim/gl/backends.h"
@@ -16,18 +17,13 @@
 
 static Scene scene;
 static Error error;
-static char folder[] = "/tmp/slosh_scene_XXXXXX";
+static char folder[SCRATCH_SIZE];
 
 static int make_folder(void **state)
 {
     (void)state;
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    return rmdir(folder);
+    scratch_folder(folder);
+    return 0;
 }
 
 static bool load(const char *name, size_t particles)
@@ -149,7 +145,7 @@ static void scenes_are_found_beside_the_sources(void **state)
 static void a_file_here_goes_first(void **state)
 {
     (void)state;
-    char path[256];
+    char path[SCRATCH_PATH];
     snprintf(path, sizeof path, "%s/mine.yaml", folder);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -192,7 +188,7 @@ static void an_unreadable_file_is_refused(void **state)
         print_message("skipped: root may read every file\n");
         skip();
     }
-    char path[256];
+    char path[SCRATCH_PATH];
     snprintf(path, sizeof path, "%s/locked.yaml", folder);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -215,5 +211,5 @@ int main(void)
         cmocka_unit_test(what_is_no_file_is_refused),
         cmocka_unit_test(an_unreadable_file_is_refused),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, NULL);
 }

@@ -1,6 +1,7 @@
 /* Meshes that a scene names: files that are right, that can be mended, and that cannot be had. */
 #include "tests/mesh_models.h"
 #include "tests/scene/scene_text.h"
+#include "tests/scratch.h"
 
 #include "app/mesh_file/mesh_count.h"
 #include "app/mesh_file/mesh_file.h"
@@ -10,13 +11,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/slosh_meshes_XXXXXX", scene_path[200];
+static char folder[SCRATCH_SIZE], scene_path[SCRATCH_PATH];
 static Scene scene;
 static Notes notes;
 
 static const char *in_folder(const char *name)
 {
-    static char path[256];
+    static char path[400];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
 }
@@ -249,16 +250,8 @@ static void formats_agree(void **state)
 static int make_folder(void **state)
 {
     (void)state;
-    snprintf(scene_path, sizeof scene_path, "%s/tank.yaml", mkdtemp(folder));
+    snprintf(scene_path, sizeof scene_path, "%s/tank.yaml", scratch_folder(folder));
     return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    char command[300];
-    snprintf(command, sizeof command, "rm -r %s", folder);
-    return system(command) != 0;
 }
 
 int main(void)
@@ -271,5 +264,5 @@ int main(void)
         cmocka_unit_test(counts_before_reading),
         cmocka_unit_test(formats_agree),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, NULL);
 }

@@ -1,5 +1,6 @@
 /* Tables of heights and velocities at the start: files that are right, and files that are not. */
 #include "tests/scene/scene_text.h"
+#include "tests/scratch.h"
 
 #include "app/scene/field_file.h"
 #include "sim/matter/fill.h"
@@ -107,12 +108,12 @@ static void bad_files_are_told(void **state)
 
 /* --- of a scene --- */
 
-static char folder[] = "/tmp/slosh-tables-XXXXXX";
-static char scene_path[64];
+static char folder[SCRATCH_SIZE];
+static char scene_path[SCRATCH_PATH];
 
 static void write_file(const char *name, const char *text)
 {
-    char path[96];
+    char path[SCRATCH_PATH];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -205,19 +206,7 @@ static void tables_that_a_scene_cannot_have(void **state)
 static int make_folder(void **state)
 {
     (void)state;
-    snprintf(scene_path, sizeof scene_path, "%s/tank.yaml", mkdtemp(folder));
-    return 0;
-}
-
-static int remove_folder(void **state)
-{
-    (void)state;
-    static const char *const names[] = {"/heights.csv", "/flow.csv", ""};
-    char path[96];
-    for (int k = 0; k < 3; k++) {
-        snprintf(path, sizeof path, "%s%s", folder, names[k]);
-        remove(path);
-    }
+    snprintf(scene_path, sizeof scene_path, "%s/tank.yaml", scratch_folder(folder));
     return 0;
 }
 
@@ -231,5 +220,5 @@ int main(void)
         cmocka_unit_test(the_speed_of_a_table_counts),
         cmocka_unit_test(tables_that_a_scene_cannot_have),
     };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
+    return cmocka_run_group_tests(tests, make_folder, NULL);
 }

@@ -1,6 +1,7 @@
 /* Volume data from a header and a raw file. */
 #include "tests/near.h"
 #include "tests/scene/scene_text.h"
+#include "tests/scratch.h"
 
 #include "app/base/physical.h"
 #include "app/volume/volume_file.h"
@@ -100,12 +101,12 @@ static void write_file(const char *path, const void *bytes, size_t size)
 static void a_raw_file_of_another_length_is_refused(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/slosh_volume_XXXXXX", header[64], raw[64];
+    char folder[SCRATCH_SIZE], header[SCRATCH_PATH], raw[SCRATCH_PATH];
     const unsigned char bytes[25] = {0, 2, [23] = 4};
     VolumeData volume;
     float *values;
     Error error = {{0}};
-    assert_non_null(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(header, sizeof header, "%s/v.yaml", folder);
     snprintf(raw, sizeof raw, "%s/v.raw", folder);
     write_file(header, whole, strlen(whole));
@@ -125,9 +126,6 @@ static void a_raw_file_of_another_length_is_refused(void **state)
     check_near((double)volume.value[11], 12, 0, "the last value");
     assert_int_equal(volume.size[1], 3);
     free(values);
-    unlink(header);
-    unlink(raw);
-    rmdir(folder);
 }
 
 /* A raw file of so many bytes, which must be refused. */
@@ -151,8 +149,8 @@ static void check_raw_refused(const char *folder, const char *raw_name, const ch
 static void a_raw_file_that_cannot_be_read_whole_is_refused(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/slosh_raw_XXXXXX", pipe[64], large[64];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], pipe[SCRATCH_PATH], large[SCRATCH_PATH];
+    scratch_folder(folder);
     snprintf(pipe, sizeof pipe, "%s/pipe", folder);
     snprintf(large, sizeof large, "%s/large", folder);
     assert_int_equal(mkfifo(pipe, 0600), 0);
@@ -166,9 +164,6 @@ static void a_raw_file_that_cannot_be_read_whole_is_refused(void **state)
     write_file(large, "", 0);
     if (physical_bytes() < 0x1p34 && truncate(large, (off_t)1 << 32) == 0) /* of holes */
         check_raw_refused(folder, "large", "[65536, 32768, 2]", "no memory for 4294967296 values, 17.2 GB; ");
-    unlink(large);
-    unlink(pipe);
-    rmdir(folder);
 }
 
 /* More than are read at a time. */
@@ -178,11 +173,11 @@ static void long_raw_files_are_read_to_their_end(void **state)
     enum { LONG = 20000 };
     static const char text[] = "file: l.raw\nsize: [2, 2, 5000]\ntype: uint8\nspacing: [1, 1, 1]\n";
     static unsigned char bytes[LONG];
-    char folder[] = "/tmp/slosh_long_XXXXXX", header[64], raw[64];
+    char folder[SCRATCH_SIZE], header[SCRATCH_PATH], raw[SCRATCH_PATH];
     VolumeData volume;
     float *values;
     Error error = {{0}};
-    assert_non_null(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(header, sizeof header, "%s/l.yaml", folder);
     snprintf(raw, sizeof raw, "%s/l.raw", folder);
     for (int i = 0; i < LONG; i++)
@@ -194,9 +189,6 @@ static void long_raw_files_are_read_to_their_end(void **state)
     for (int i = 0; i < LONG; i++)
         assert_true(values[i] == (float)bytes[i]);
     free(values);
-    unlink(header);
-    unlink(raw);
-    rmdir(folder);
 }
 
 /* With the place of the first one. */
@@ -205,8 +197,8 @@ static void what_is_no_number_is_refused(void **state)
     (void)state;
     static const char text[] = "file: n.raw\nsize: [2, 2, 2]\ntype: float32\nspacing: [1, 1, 1]\n";
     const float bad[] = {NAN, INFINITY};
-    char folder[] = "/tmp/slosh_number_XXXXXX", header[64], raw[64];
-    assert_non_null(mkdtemp(folder));
+    char folder[SCRATCH_SIZE], header[SCRATCH_PATH], raw[SCRATCH_PATH];
+    scratch_folder(folder);
     snprintf(header, sizeof header, "%s/n.yaml", folder);
     snprintf(raw, sizeof raw, "%s/n.raw", folder);
     write_file(header, text, strlen(text));
@@ -220,20 +212,17 @@ static void what_is_no_number_is_refused(void **state)
         assert_null(read);
         assert_non_null(strstr(error.message, i ? "n.raw: value 1 0 1 is inf" : "n.raw: value 1 0 1 is nan"));
     }
-    unlink(header);
-    unlink(raw);
-    rmdir(folder);
 }
 
 /* Files of a scene's layers: read once, refused with the place. */
 static void layers_have_their_files(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/slosh_layers_XXXXXX", header[64], raw[64], text[1024];
+    char folder[SCRATCH_SIZE], header[SCRATCH_PATH], raw[SCRATCH_PATH], text[1024];
     const unsigned char bytes[24] = {0, 2, [23] = 4};
     static Scene scene;
     Error error = {{0}};
-    assert_non_null(mkdtemp(folder));
+    scratch_folder(folder);
     snprintf(header, sizeof header, "%s/v.yaml", folder);
     snprintf(raw, sizeof raw, "%s/v.raw", folder);
     write_file(header, whole, strlen(whole));
@@ -262,9 +251,6 @@ static void layers_have_their_files(void **state)
     assert_refused(text, "scene.yaml:10:27: of a file a layer is a surface");
     assert_refused(LEAST "view: {pbsr: {layers: [{file: none.yaml}]}}\n",
                    "scene.yaml:7:31: none.yaml: cannot be opened");
-    unlink(header);
-    unlink(raw);
-    rmdir(folder);
 }
 
 int main(void)

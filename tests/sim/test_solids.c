@@ -82,10 +82,7 @@ static void what_is_outside_the_box_is_left_out(void **state)
         assert_true(moves ? boundary.count > 50000 : boundary.count > 500 && boundary.count < 2000);
         boundary_destroy(&boundary);
         World *world = fixture_world(&def);
-        const double began = wall_ms();
-        fixture_step(world, fixture_count(20, 5));
-        assert_true(wall_ms() - began <
-                    20000); /* it takes 0.1 s; with all in the cells of the rim, minutes */
+        fixture_step(world, fixture_count(20, 5)); /* minutes with all in the cells of the rim: a hang */
         assert_true(least_clearance(world, &def) > -1e-5);
         world_destroy(world);
     }

@@ -2,12 +2,14 @@
 #ifndef SLOSH_TESTS_TOY_SHADERS_H
 #define SLOSH_TESTS_TOY_SHADERS_H
 
+#include "tests/scratch.h"
+
 #include "sim/gl/shader_source.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 
-static char toy_folder[] = "/tmp/slosh-toy-XXXXXX";
+static char toy_folder[SCRATCH_SIZE];
 
 static inline void toy_shell(const char *command)
 {
@@ -18,17 +20,16 @@ static inline void toy_shell(const char *command)
 
 static inline void toy_shaders_add(void)
 {
-    assert_non_null(mkdtemp(toy_folder));
-    toy_shell("cp -rs " SLOSH_SOURCE_DIR "/shaders/. %s && cp -rs " SLOSH_SOURCE_DIR
-              "/tests/sim/toy %s/sim/");
+    scratch_folder(toy_folder);
+    toy_shell("cp -rs '" SLOSH_SOURCE_DIR "/shaders/.' '%s' && cp -rs '" SLOSH_SOURCE_DIR
+              "/tests/sim/toy' '%s/sim/'");
     shader_source_set_directory(toy_folder);
 }
 
 static inline void toy_shaders_remove(void)
 {
     shader_source_set_directory(NULL);
-    toy_shell("rm -r %s");
-    snprintf(toy_folder, sizeof toy_folder, "/tmp/slosh-toy-XXXXXX");
+    scratch_remove(toy_folder);
 }
 
 #endif

@@ -1,5 +1,6 @@
 /* The maps of the view splat, pixel by pixel, against the paper's equations in double: Adams, Lenaerts, Dutré
  * 2006. */
+#include "tests/scratch.h"
 #include "tests/splat/splat_fixture.h"
 
 #include "sim/gl/program.h"
@@ -109,11 +110,11 @@ static void a_colour_holds_to_the_rim(void **state)
 static void depths_may_be_rounded_otherwise(void **state)
 {
     (void)state;
-    char directory[] = "/tmp/slosh_shadersXXXXXX", command[512];
-    assert_non_null(mkdtemp(directory));
+    char directory[SCRATCH_SIZE], command[5 * SCRATCH_SIZE];
+    scratch_folder(directory);
     snprintf(command, sizeof command,
-             "cp -r '%s'/shaders/. %s && "
-             "sed -i 's/? hit.depth :/? hit.depth * 0.999995 :/' %s/splat/splat_depth.frag",
+             "cp -r '%s'/shaders/. '%s' && "
+             "sed -i 's/? hit.depth :/? hit.depth * 0.999995 :/' '%s/splat/splat_depth.frag'",
              SLOSH_SOURCE_DIR, directory, directory);
     assert_int_equal(system(command), 0);
     SplatScene scene = splat_scene((double[]){0.3, 0.6, 3}, (double[]){0, 0.5, 0}, 30, 0.2);
@@ -132,8 +133,6 @@ static void depths_may_be_rounded_otherwise(void **state)
         moved += rounded[i].depth < exact[i].depth;
     }
     assert_true(covered > 1000 && moved == covered);
-    snprintf(command, sizeof command, "rm -r %s", directory);
-    assert_int_equal(system(command), 0);
     free(exact);
     free(rounded);
     free(scene.particles);

@@ -5,7 +5,6 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), '..', 'commands'))
 import command
-import test_window
 from test_window import STILL, Window
 
 FLOW = STILL.replace('0.5]}}]}', '0.5]}}], emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 1}]}') \
@@ -14,23 +13,21 @@ VIEW, EMITTER, DRAIN = (60, 286), (169, 350), (169, 372)  # a heading, and switc
 
 
 class Gates(Window):
-    pictures = test_window.Panel.pictures
-
     def click(self, place):
         self.drag(1, [place, place])
-        self.pictures(3)
+        self.drawn(3)
 
     def test_switches(self):
         """The session does it again; a saved scene begins with what is shut."""
         self.write('still.yaml', FLOW)
         self.open('still.yaml', '--record', 'a.rec', size=(760, 600))
         self.keys('p')
-        self.pictures(5)
+        self.drawn(5)
         self.click(VIEW)
         for switch in EMITTER, DRAIN, EMITTER, EMITTER:
             self.click(switch)
         self.keys('ctrl+shift+s')
-        self.pictures(1)
+        self.wait_said('still-2.yaml')
         self.quit()
         shut = re.findall(r'^\d+ shut(.*)$', self.read('a.rec').decode(), re.M)
         self.assertEqual(shut, [' fluids[0].emit[0] drains[0]', ' fluids[0].emit[0]', '', ' fluids[0].emit[0]'])

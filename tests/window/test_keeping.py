@@ -54,7 +54,7 @@ class SavedScene(Window):
         self.open('still.yaml')
         self.drag(1, [(240, 180), (300, 150)])
         self.keys('space', 's', 'w', 'ctrl+shift+s', 'ctrl+shift+s')
-        self.shown(0.1)
+        self.rest()
         out = self.quit()
         self.assertEqual(self.read('still-2.yaml'), b'mine')
         settings = self.settings('still-3.yaml')
@@ -68,7 +68,7 @@ class SavedScene(Window):
         self.open('still.yaml', '--set', 'fluids[0].viscosity=0.25')
         self.drag(1, [(240, 180), (300, 150)])
         self.keys('space', 's', 'i')
-        self.shown(0.2)
+        self.rest()
         out = self.quit()
         shot, = self.files('png')
         data = self.read(shot)
@@ -101,7 +101,7 @@ class SavedScene(Window):
         self.open('scenes/hands.yaml', '--record', 'a.rec')
         self.keys('shift+q', 'q')  # hold
         self.drag(1, [pixel([x, 0.7, 0]) for x in (-0.3, -0.35, -0.38)])
-        self.shown(0.3)  # it comes there
+        self.runs(0.3)  # it comes there
         self.drag(3, [pixel([x, 0.7, 0]) for x in (-0.38, -0.36, -0.3)])
         self.drag(1, [pixel([x, 0.61, -0.09]) for x in (0.21, 0.23, 0.25)])
         self.at(*pixel([0, 0.7, 0]))
@@ -109,9 +109,8 @@ class SavedScene(Window):
         self.display.press('ctrl')
         self.drag(1, [(200, 180), (220, 180), (240, 180)], 'shift')
         self.display.release('ctrl')
-        self.shown(0.3)
+        self.runs(0.3)
         self.keys('ctrl+shift+s')
-        self.shown(0.1)
         self.write('scenes/hands.yaml', HANDS.replace('dt: 0.01', 'dt: 0.008'))
         self.wait_for(lambda: b'hands.yaml was saved: ' in self.read('said.txt'), self.process)
         self.keys('Escape')  # puts the tool away

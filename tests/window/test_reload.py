@@ -2,7 +2,6 @@
 import os
 import resource
 import sys
-import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), '..', 'commands'))
 import command
@@ -17,11 +16,7 @@ class Reload(Window):
         self.open('still.yaml')
         self.said_before = 0
 
-    def said_now(self):
-        with open(self.path('said.txt')) as said:
-            return said.read()
-
-    def wait_said(self, words):
+    def wait_said(self, words, times=1):
         """After what was said the last time."""
         self.wait_for(lambda: words in self.said_now()[self.said_before:], self.process)
         self.said_before = len(self.said_now())
@@ -37,7 +32,7 @@ class Reload(Window):
         self.drag(1, [(240, 180), (300, 150)])
         self.save(STILL + 'gravity: [0, -3, 0]\nview: {color_by: density}\n')
         self.wait_said(f'{SAVED}: ')
-        self.shown(0.1)
+        self.drawn()
         self.keys('ctrl+s')
         self.wait_said('the session')
         out = self.quit()
@@ -50,7 +45,7 @@ class Reload(Window):
         self.drag(1, [(240, 180), (300, 150)])
         self.keys('s', 'v')
         self.display.press('Left')
-        self.shown(0.2)
+        self.until(lambda now: now['box_position'][0] < -0.02)
         self.display.release('Left')
         self.save(STILL.replace('spacing: 0.1', 'spacing: 0.125'), whole=False)
         self.wait_said(f'{SAVED}: begins anew with particles.spacing')
@@ -88,7 +83,7 @@ class Reload(Window):
         resource.prlimit(self.process.pid, resource.RLIMIT_FSIZE, (8192, resource.RLIM_INFINITY))
         self.save(STILL.replace('spacing: 0.1', 'spacing: 0.125'))
         self.wait_said('recording: cannot be written: File too large')
-        self.shown(0.3)
+        self.runs(0.3)
         self.assertNotIn('begins anew', self.said_now())
         self.assertEqual(self.said_now().count('recording: cannot be written: File too large'), 1, self.said_now())
         resource.prlimit(self.process.pid, resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
@@ -109,7 +104,7 @@ class Reload(Window):
         os.remove(self.path('still.yaml'))  # between two writes, and back before anyone asks
         self.save(STILL)
         self.wait_said('still.yaml is right again')
-        time.sleep(0.2)
+        self.drawn()
         out = self.quit()
         self.assertEqual(out['scenes_opened'], 1)
         self.assertNotIn('still.yaml was', self.messages)

@@ -65,17 +65,10 @@ class Session(Window):
         """So long, in which the box goes to the left."""
         self.open('still.yaml', '--record', 'a.rec')
         self.display.press('Left')
-        self.shown(0.3)
+        self.until(lambda now: now['box_position'][0] < -0.05)
         self.display.release('Left')
-        self.shown(seconds)
+        self.runs(seconds)
         return self.quit()
-
-    def said_now(self):
-        with open(self.path('said.txt')) as said:
-            return said.read()
-
-    def wait_said(self, words, times=1):
-        self.wait_for(lambda: self.said_now().count(words) >= times, self.process)
 
     def test_given(self):
         """Its bits and its end; R does it again, and then the box is in the hand."""
@@ -83,13 +76,13 @@ class Session(Window):
         self.open('a.rec', '--record', 'b.rec')
         self.wait_said('the recorded session ends here, with the same bits')
         self.keys('comma', 'comma')  # back in it, and on: it stays what it was
-        self.shown(0.2)
+        self.rest()
         self.keys('End', 'space', 'r')
         self.wait_said('with the same bits', 2)
         self.keys('space')
         self.display.press('Right')
         self.keys('space')
-        self.shown(0.4)
+        self.until(lambda now: now['steps'] > recorded['steps'] and now['box_position'][0] > recorded['box_position'][0])
         self.display.release('Right')
         out = self.quit()
         self.assertEqual(out['session'], 'same')
@@ -111,7 +104,7 @@ class Session(Window):
         self.assertNotIn('taken over', self.said_now())
         self.drag(1, [(240, 180), (280, 180)], 'shift')
         self.wait_said('you have taken over from the recorded session')
-        self.shown(0.3)
+        self.runs(0.3)
         out = self.quit()
         self.assertEqual((out['session'], out['scenes_opened']), ('left', 2))
         self.assertNotIn('ends here', self.messages)

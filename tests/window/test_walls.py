@@ -28,9 +28,10 @@ class Walls(Window):
         self.open('walls.yaml')
         self.keys('shift+b')
         self.drag(1, [pixel([x, 0.5, 0]) for x in (0.5 + ARROW, 0.48 + ARROW, 0.45 + ARROW)])
-        self.shown(1.5)
+        self.until(lambda now: now['box_size'][0] < 0.92)
+        self.runs(0.3)  # and no farther
         self.keys('ctrl+s')
-        self.shown(0.3)
+        self.wait_said('the session')
         out = self.quit()
         self.assertEqual((out['box_position'], out['camera_auto']), ([0, 0, 0], False))
         for a, b in zip(out['camera_from'], EYE):
@@ -44,11 +45,11 @@ class Walls(Window):
     def test_keys_make_it_larger_and_smaller(self):
         self.open('walls.yaml')
         self.keys('ctrl+equal', 'ctrl+minus')
-        self.shown(0.3)
+        self.runs(0.3)
         self.keys('space', 'ctrl+s')
-        self.shown(0.3)
+        self.wait_said('the session')
         self.keys('Home', 'shift+comma')  # a second back: it is undone
-        self.shown(0.3)
+        self.rest()
         self.quit()
         first, *smaller = self.recorded()
         self.assertEqual(first, [1.05, 1.05, 1.05])
@@ -62,7 +63,8 @@ class Walls(Window):
         self.open('walls.yaml')
         self.keys('shift+b')
         self.drag(1, [pixel([x, 0.5, 0]) for x in (0.5 + ARROW, 0.48 + ARROW, 0.45 + ARROW, 0.4 + ARROW, 0.3 + ARROW)])
-        self.shown(0.3)
+        self.wait_said('no room in a smaller box')
+        self.runs(0.3)
         self.quit()
         self.assertEqual(self.messages.count('no room in a smaller box'), 1)
 
