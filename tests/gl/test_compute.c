@@ -188,6 +188,35 @@ static void no_particle_at_all(void **state)
     world_destroy(gpu);
 }
 
+static WorldGauge gauge_of(World *world)
+{
+    WorldGauge gauge = {0};
+    world_gauge_ask(world);
+    while (!world_gauge(world, &gauge))
+        glFinish();
+    return gauge;
+}
+
+/* What is plotted, of all particles of each group. */
+static void gauges_are_those_of_the_cpu(void **state)
+{
+    (void)state;
+    WorldDef def = stirred_def(3);
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    fixture_step(cpu, 20);
+    copy_state(cpu, gpu);
+    copy_state(cpu, cpu); /* its densities are of those places then */
+    const WorldGauge is = gauge_of(gpu), wanted = gauge_of(cpu);
+    assert_true(wanted.kinetic_energy > 0 && wanted.density_error_max > 0);
+    assert_float_equal(is.kinetic_energy / wanted.kinetic_energy, 1, 1e-4);
+    assert_float_equal(is.potential_energy / wanted.potential_energy, 1, 1e-4);
+    assert_float_equal(is.compression_energy / wanted.compression_energy, 1, 1e-3);
+    assert_float_equal(is.density_error_mean / wanted.density_error_mean, 1, 1e-3);
+    assert_float_equal(is.density_error_max / wanted.density_error_max, 1, 1e-3);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
 /* Whoever is the fastest in a work group: steps and the sentinel go by it. */
 static void the_fastest_is_found(void **state)
 {
@@ -238,6 +267,7 @@ int main(void)
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_run_is_the_same_each_time, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
+        cmocka_unit_test_teardown(gauges_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(the_fastest_is_found, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
     };
