@@ -162,6 +162,9 @@ static void rod_swings(void **state)
                 crossings[count++] = dt * (i - angle / (angle - last));
             last = angle;
             near(hypot(now.pose.position[0], now.pose.position[1]), 0.5 * length, 1e-12, "its length");
+            double v[3];
+            body_velocity(&now.pose, body.at, v);
+            near(hypot(v[0], v[1]), 0, 1e-12, "the speed of its hinge");
         }
         /* The second one swings by 0.46: the period is longer by 1 + a^2 / 16. */
         const double wide = aslant ? 1 + pow(atan2(push, g), 2) / 16 : 1;

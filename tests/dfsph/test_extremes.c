@@ -242,6 +242,37 @@ static void thick_fluid_stands_longer_steps(void **state)
     world_destroy(world);
 }
 
+/* Particles at rest that stand far too close part by places, and by a fifth of a spacing a step at most. */
+static void crowds_part_in_small_moves(void **state)
+{
+    (void)state;
+    enum { EDGE = 6, COUNT = EDGE * EDGE * EDGE };
+    static float x[3 * COUNT];
+    WorldDef def = def_in(3, 2, 2, 2);
+    double most = 0;
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.dt = 1.0 / 60;
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 3; k++) {
+            const int index = (int[]){i % EDGE, i / EDGE % EDGE, i / EDGE / EDGE}[k];
+            x[3 * i + k] = (float)(0.7 * def.spacing * (index - 0.5 * EDGE) + (k == 1));
+        }
+    def.initial = &(InitialState){.count = COUNT, .position = x};
+    World *world = fixture_world(&def);
+    fixture_step(world, 1);
+    State s = fixture_read(world);
+    for (int i = 0; i < COUNT; i++) {
+        const float *to = s.position + (size_t)(4 * i);
+        const double d[3] = {(double)to[0] - (double)x[3 * i], (double)to[1] - (double)x[3 * i + 1],
+                             (double)to[2] - (double)x[3 * i + 2]};
+        most = fmax(most, sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
+    }
+    printf("a crowd parts by %.3f spacings\n", most / def.spacing);
+    assert_true(most > 0.15 * def.spacing && most < 0.201 * def.spacing);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -252,6 +283,7 @@ int main(void)
         cmocka_unit_test(a_box_at_the_limits_of_a_hand_holds),
         cmocka_unit_test(one_particle_falls_and_lies),
         cmocka_unit_test(a_tolerance_of_nothing_ends),
+        cmocka_unit_test(crowds_part_in_small_moves),
     };
     return cmocka_run_group_tests_name("dfsph.extremes", tests, NULL, NULL);
 }

@@ -188,6 +188,61 @@ static void no_particle_at_all(void **state)
     world_destroy(gpu);
 }
 
+static WorldGauge gauge_of(World *world)
+{
+    WorldGauge gauge = {0};
+    world_gauge_ask(world);
+    while (!world_gauge(world, &gauge))
+        glFinish();
+    return gauge;
+}
+
+/* What is plotted, of all particles of each group. */
+static void gauges_are_those_of_the_cpu(void **state)
+{
+    (void)state;
+    WorldDef def = stirred_def(3);
+    World *cpu = world_on(def, "cpu"), *gpu = world_on(def, "compute");
+    fixture_step(cpu, 20);
+    copy_state(cpu, gpu);
+    copy_state(cpu, cpu); /* its densities are of those places then */
+    const WorldGauge is = gauge_of(gpu), wanted = gauge_of(cpu);
+    assert_true(wanted.kinetic_energy > 0 && wanted.density_error_max > 0);
+    assert_float_equal(is.kinetic_energy / wanted.kinetic_energy, 1, 1e-4);
+    assert_float_equal(is.potential_energy / wanted.potential_energy, 1, 1e-4);
+    assert_float_equal(is.compression_energy / wanted.compression_energy, 1, 1e-3);
+    assert_float_equal(is.density_error_mean / wanted.density_error_mean, 1, 1e-3);
+    assert_float_equal(is.density_error_max / wanted.density_error_max, 1, 1e-3);
+    world_destroy(cpu);
+    world_destroy(gpu);
+}
+
+/* Whoever is the fastest in a work group: steps and the sentinel go by it. */
+static void the_fastest_is_found(void **state)
+{
+    (void)state;
+    enum { ROW = 128 };
+    static float x[3 * ROW], v[3 * ROW];
+    WorldDef def = fixture_def(0.3 * ROW, 1, 1);
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.initial = &(InitialState){.count = ROW, .position = x, .velocity = v};
+    for (int fastest = 5; fastest < ROW; fastest += 20) {
+        for (int i = 0; i < ROW; i++) { /* alone, each in a cell of its own, in the order of these */
+            x[3 * i] = (float)(0.3 * (i + 0.5 - 0.5 * ROW));
+            x[3 * i + 1] = 0.5F;
+            v[3 * i + 1] = i == fastest ? 2 : 1;
+        }
+        World *gpu = world_on(def, "compute");
+        WorldNumbers numbers;
+        fixture_step(gpu, 1);
+        world_save_numbers(gpu, &numbers);
+        if (fabs(numbers.stepping.max_speed - 2) > 1e-4)
+            fail_msg("particle %d has 2 m/s, the greatest is said to be %g", fastest,
+                     numbers.stepping.max_speed);
+        world_destroy(gpu);
+    }
+}
+
 static void what_it_cannot_do_is_said(void **state)
 {
     (void)state;
@@ -212,6 +267,8 @@ int main(void)
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_run_is_the_same_each_time, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
+        cmocka_unit_test_teardown(gauges_are_those_of_the_cpu, no_gl_errors),
+        cmocka_unit_test_teardown(the_fastest_is_found, no_gl_errors),
         cmocka_unit_test_teardown(what_it_cannot_do_is_said, no_gl_errors),
     };
     return cmocka_run_group_tests_name("gl.compute", tests, compare_setup, context_teardown);

@@ -122,6 +122,13 @@ static void the_nearest_handle_is_found(void **state)
         assert_true(sight_pixel(&sight, corner, ring));
         assert_int_equal(handle_under(&sight, handles, 2, ring), 1);
     }
+    Handle two[] = {handles[0], handles[0]}; /* both within reach */
+    two[1].at[0] += 0.01;
+    for (int i = 0; i < 2; i++) {
+        assert_true(sight_pixel(&sight, two[i].at, pixel) && sight_pixel(&sight, two[1 - i].at, ring));
+        assert_true(hypot(pixel[0] - ring[0], pixel[1] - ring[1]) < sight.reach);
+        assert_int_equal(handle_under(&sight, two, 2, pixel), i);
+    }
 }
 
 /* The mouse goes from what shows `from` to what shows `to`. */

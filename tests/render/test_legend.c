@@ -169,6 +169,36 @@ static void test_legend_is_drawn(void **state)
     }
 }
 
+/* A fluid's colour in the legend is that of its particles: of linear light, as a screen has it. */
+static void test_fluids_have_their_colors(void **state)
+{
+    (void)state;
+    enum { SIZE = 512 };
+    static const float color[3] = {0.2F, 0.5F, 0.05F};
+    static uint8_t rgb[3 * SIZE * SIZE];
+    Error error = {0};
+    const int em = (int)legend_text_pixels(SIZE);
+    const ParticleBuffers none = box_state(0, 0.1);
+    ViewDef def = view_def_default();
+    WorldDef world = {.fluid_count = 1};
+    int found = 0;
+    def.color_by = SCALAR_FLUID;
+    text_set(world.fluids[0].name, "fluid");
+    memcpy(world.fluids[0].color, color, sizeof color);
+    Renderer *renderer = renderer_create(&def, &world, SIZE, SIZE, &error);
+    assert_non_null(renderer);
+    renderer_draw(renderer, &none, NULL);
+    renderer_read(renderer, rgb);
+    for (int i = 0; i < SIZE * SIZE; i++) {
+        bool same = true;
+        for (int k = 0; k < 3; k++)
+            same &= fabs(255 * (1.055 * pow((double)color[k], 1 / 2.4) - 0.055) - rgb[3 * i + k]) < 2;
+        found += same;
+    }
+    assert_in_range(found, em * em / 2, em * em); /* a dot */
+    renderer_destroy(renderer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +210,7 @@ int main(void)
         cmocka_unit_test(test_camera_leaves_room_for_a_panel),
         cmocka_unit_test(test_camera_follows_late),
         cmocka_unit_test_teardown(test_legend_is_drawn, no_gl_errors),
+        cmocka_unit_test_teardown(test_fluids_have_their_colors, no_gl_errors),
     };
     return cmocka_run_group_tests(tests, context_setup, context_teardown);
 }

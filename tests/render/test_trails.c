@@ -3,6 +3,7 @@
 #include "tests/render/trails_fixture.h"
 
 #include "render/frame/overlay.h"
+#include "render/trails/trail_ring.h"
 
 typedef struct Point {
     float x, y, z, value;
@@ -502,9 +503,26 @@ static void a_refused_view_loses_no_trail(void **state)
     movers_destroy(movers);
 }
 
+/* A ring that is full loses its oldest column, and not what the present state stands in. */
+static void columns_are_in_their_order(void **state)
+{
+    (void)state;
+    TrailRing ring;
+    assert_true(trail_ring_create(&ring, 100, 1, 4));
+    for (int i = 0; i < 40; i++) { /* every other state becomes fixed */
+        trail_ring_take(&ring, 0.5 * i, SCALAR_SPEED);
+        assert_true(trail_ring_at(&ring, ring.head)->time == 0.5 * i);
+        for (uint64_t k = ring.begin; k < ring.head; k++)
+            assert_true(trail_ring_at(&ring, k)->time < trail_ring_at(&ring, k + 1)->time);
+        assert_true(i < 10 || ring.head - ring.begin >= 3);
+    }
+    trail_ring_destroy(&ring);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(columns_are_in_their_order),
         TEST(particles_are_found_in_any_order),
         TEST(points_are_no_closer_than_asked_for),
         TEST(time_may_go_back),

@@ -526,6 +526,30 @@ static void coincident_particles_part(void **state)
     world_destroy(world);
 }
 
+/* More friction than a step stands is cut: thick fluid that was stirred calms down. */
+static void thick_fluid_calms_down(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("many steps");
+    static Cloud cloud;
+    WorldDef def = cloud_def(&cloud, 0);
+    uint32_t seed = 4;
+    double speed = 0;
+    def.fluid_count = 1;
+    def.fluids[0].viscosity = 500;
+    memset(cloud.fluid, 0, sizeof cloud.fluid);
+    for (int i = 0; i < 3 * N; i++)
+        cloud.v[i] = (float)(fixture_random(&seed) - 0.5);
+    World *world = cloud_world(&def, &cloud);
+    for (int step = 0; step < 20; step++) {
+        fixture_step(world, 1);
+        speed = within(world);
+    }
+    printf("stirred and thick: %.3f m/s\n", speed);
+    assert_true(speed < 0.2);
+    world_destroy(world);
+}
+
 static void lone_particle_comes_to_rest(void **state)
 {
     (void)state;
@@ -629,6 +653,7 @@ int main(void)
         cmocka_unit_test(jet_flies),
         cmocka_unit_test(flies_freely_in_a_moving_box),
         cmocka_unit_test(coincident_particles_part),
+        cmocka_unit_test(thick_fluid_calms_down),
         cmocka_unit_test(lone_particle_comes_to_rest),
         cmocka_unit_test(full_box_holds),
         cmocka_unit_test(runs_as_many_iterations_as_asked),

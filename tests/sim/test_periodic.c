@@ -387,6 +387,33 @@ static void a_jet_goes_through_a_side(void **state)
     world_destroy(world);
 }
 
+/* What is near an emitter across a side takes its place as any other does. */
+static void nothing_comes_where_something_is(void **state)
+{
+    (void)state;
+    fixture_needs("emitters");
+    for (int n = 0; n < 8; n++) {
+        const int axis = n / 2 % 2 ? 0 : 2, out = n / 4 ? 1 : -1, near = n % 2;
+        float x[3] = {0, 0.4F, 0};
+        WorldDef def = fixture_def(1, 0.8, 1);
+        memset(def.gravity, 0, sizeof def.gravity);
+        def.periodic[axis] = true;
+        def.most = 10;
+        x[axis] = (float)(-0.48 * out + (near ? 0 : 0.2 * out));
+        def.initial = &(InitialState){.count = 1, .position = x};
+        def.fluids[0].emit_count = 1;
+        def.fluids[0].emits[0] =
+            (Emit){.centre = {0, 0.4, 0}, .direction = {0, 1, 0}, .radius = 0.04, .speed = 1};
+        def.fluids[0].emits[0].centre[axis] = 0.49 * out;
+        World *world = fixture_world(&def);
+        fixture_step(world, 1);
+        State s = fixture_read(world);
+        assert_int_equal(s.count, near ? 1 : 2);
+        fixture_free(&s);
+        world_destroy(world);
+    }
+}
+
 /* 1.04 m hold ten particles: 0.104 m apart, across the side as well. */
 static void the_lattice_has_no_seam(void **state)
 {
@@ -508,6 +535,7 @@ int main(void)
         cmocka_unit_test(a_hand_moves_it_and_does_not_turn_it),
         cmocka_unit_test(a_saved_state_goes_on_to_the_bit),
         cmocka_unit_test(a_jet_goes_through_a_side),
+        cmocka_unit_test(nothing_comes_where_something_is),
         cmocka_unit_test(the_lattice_has_no_seam),
         cmocka_unit_test(vortices_hold_each_other),
         cmocka_unit_test(what_cannot_be_is_refused),

@@ -182,12 +182,30 @@ static void parting_takes_twice_the_tension(void **state)
     assert_true(cohesion_kernel(0.01, 0.21) < 0);
 }
 
+/* The colour field rises from 0 to 1 over a surface: its kernel, whose slope -c (h^2 - r^2)^2 x is, sums up
+ * to 1. */
+static void the_colour_field_is_one_inside(void **state)
+{
+    (void)state;
+    for (int dimensions = 2; dimensions <= 3; dimensions++) {
+        const double h = 0.21, step = h / 40;
+        const int deep = dimensions == 3 ? 40 : 0;
+        double sum = 0;
+        for (int i = -40; i <= 40; i++)
+            for (int j = -40; j <= 40; j++)
+                for (int k = -deep; k <= deep; k++)
+                    sum += pow(fmax(h * h - (i * i + j * j + k * k) * step * step, 0), 3) / 6;
+        assert_true(fabs(colour_scale(dimensions, h) * sum * pow(step, dimensions) - 1) < 1e-3);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(models_equal_brute_force),
         cmocka_unit_test(cohesion_makes_round),
         cmocka_unit_test(parting_takes_twice_the_tension),
+        cmocka_unit_test(the_colour_field_is_one_inside),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

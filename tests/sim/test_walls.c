@@ -252,6 +252,26 @@ static void what_is_in_a_corner_comes_out(void **state)
     leave_corners(2, 3, 6, 10, 600);
 }
 
+/* What is past a wall is put on it and loses what leads further out; what leads back in stays. */
+static void the_last_guard_stops_what_goes_out(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("the same for all backends");
+    Walls walls;
+    walls_place(&walls, 3, (double[]){1, 2, 1.5}, (bool[]){false, false, false}, 0.1);
+    for (int n = 0; n < 12; n++) {
+        const int axis = n % 3, out = n / 3 % 2 ? 1 : -1;
+        const float wall = (float)out * walls.half_size[axis] + (axis == 1 ? walls.half_size[1] : 0);
+        float x[3] = {0.1F, 1.2F, 0.3F}, v[3] = {4, 5, 6}, is[3] = {4, 5, 6};
+        x[axis] = wall + 0.01F * (float)out;
+        v[axis] = (float)(n < 6 ? out : -out);
+        is[axis] = n < 6 ? 0 : v[axis];
+        assert_true(walls_guard(&walls, x, v) && x[axis] == wall);
+        assert_true(v[0] == is[0] && v[1] == is[1] && v[2] == is[2]);
+        assert_false(walls_guard(&walls, x, v));
+    }
+}
+
 /* Fluid thrown into a corner at twenty times what a fall would give stays inside, and finite. */
 static void nothing_leaves(void **state)
 {
@@ -298,9 +318,13 @@ static void a_drop_slides_down_freely(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(full_box_has_rest_density),     cmocka_unit_test(full_box_stays),
-        cmocka_unit_test(walls_push_by_their_energy),    cmocka_unit_test(walls_hold_what_their_lattice_does),
-        cmocka_unit_test(what_is_in_a_corner_comes_out), cmocka_unit_test(nothing_leaves),
+        cmocka_unit_test(full_box_has_rest_density),
+        cmocka_unit_test(full_box_stays),
+        cmocka_unit_test(walls_push_by_their_energy),
+        cmocka_unit_test(walls_hold_what_their_lattice_does),
+        cmocka_unit_test(what_is_in_a_corner_comes_out),
+        cmocka_unit_test(nothing_leaves),
+        cmocka_unit_test(the_last_guard_stops_what_goes_out),
         cmocka_unit_test(a_drop_slides_down_freely),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
