@@ -1,4 +1,5 @@
 """What the tests of the command line share: the program, a small scene, a folder of its own for each test."""
+import atexit
 import os
 import resource
 import shutil
@@ -78,6 +79,8 @@ def without_text(png):
 
 
 class CommandTest(unittest.TestCase):
+    made = {}  # what `once` keeps, until the end of all tests: by scenes and arguments, its path
+
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix='slosh-test-')
         self.addCleanup(shutil.rmtree, self.folder)
@@ -108,6 +111,19 @@ class CommandTest(unittest.TestCase):
                 break
         self.assertNotIn('GL error', done.stderr)
         return done.returncode, done.stderr
+
+    def once(self, name, *arguments):
+        """The program writes the file `name`, for the first test with those arguments and scenes; others get a copy of it."""
+        key = name, arguments, *(self.read(scene) for scene in sorted(os.listdir(self.folder)) if scene.endswith('.yaml'))
+        if key in self.made:
+            shutil.copyfile(self.made[key], self.path(name))
+            return
+        code, said = self.slosh(*arguments)
+        self.assertEqual(code, 0, said)
+        if not self.made:
+            self.made[None] = tempfile.mkdtemp(prefix='slosh-test-')
+            atexit.register(shutil.rmtree, self.made[None])
+        self.made[key] = shutil.copyfile(self.path(name), os.path.join(self.made[None], str(len(self.made))))
 
     def start(self, *arguments):
         """Starts the program in a process group of its own, as a terminal does."""
