@@ -134,6 +134,30 @@ class CommandTest(unittest.TestCase):
         self.addCleanup(process.kill)
         return process
 
+    def has(self, name, size=1):
+        """Whether a file is there, with so many bytes: for `wait_for` and `stopped`."""
+        return lambda: os.path.exists(self.path(name)) and os.path.getsize(self.path(name)) >= size
+
+    def has_lines(self, name, count):
+        return lambda: os.path.exists(self.path(name)) and self.read(name).count(b'\n') >= count
+
+    def stopped(self, number, reached, *arguments):
+        """The exit code of the program that gets the signal when that is reached; where it came to its end before, it begins
+        again, with the same files."""
+        before = {name: self.read(name) for name in self.entries()}
+        for _ in range(20):
+            process = self.start(*arguments)
+            while process.poll() is None and not reached():
+                time.sleep(0.002)
+            process.send_signal(number)
+            if process.wait() != 0:
+                return process.wait()
+            for name in self.entries():
+                os.remove(self.path(name))
+            for name, content in before.items():
+                self.write(name, content)
+        return self.fail('the program came to its end each time before it was stopped')
+
     def wait_for(self, condition, process):
         """Until it holds, which it must before the program ends."""
         end = time.monotonic() + 60

@@ -216,7 +216,22 @@ class Ply(ExportTest):
         self.assertEqual(self.entries(), ['a.h5part', 'a.vtp'])
 
 
-class Whole(ExportTest):
+class SeriesTest(ExportTest):
+    def write_on(self, every, size=1):
+        """A run that writes on and on, with that many bytes in its file."""
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', every, '--quiet')
+        self.wait_for(lambda: os.path.exists(self.path('a.h5part')) and os.path.getsize(self.path('a.h5part')) >= size, process)
+        return process
+
+    def begin(self, count=1):
+        """An export that has so many files."""
+        process = self.start('export', 'a.h5part', '-o', 'b.pvd', '--quiet')
+        self.wait_for(lambda: any(len(os.listdir(self.path(name))) >= count for name in self.entries()
+                                  if re.fullmatch(rf'b\.{process.pid}\.tmp', name)), process)
+        return process
+
+
+class Whole(SeriesTest):
     def test_series(self):
         self.make()
         said = self.export('b.pvd', '--json', 'b.json')
@@ -243,12 +258,6 @@ class Whole(ExportTest):
         with h5py.File(self.path('a.h5part'), 'r') as file:
             self.export('a.ply')
             numpy.testing.assert_array_equal(read_ply(self.read('a.ply'))['x'], file['Step#7']['x'])
-
-    def write_on(self, every, size=1):
-        """A run that writes on and on, with that many bytes in its file."""
-        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', every, '--quiet')
-        self.wait_for(lambda: os.path.exists(self.path('a.h5part')) and os.path.getsize(self.path('a.h5part')) >= size, process)
-        return process
 
     def test_a_run_that_was_killed(self):
         """Other moments: tests/long/test_kills.py."""
@@ -538,15 +547,8 @@ class TinyDisk(TinyDiskTest, ExportTest):
             self.assertEqual(left, ['a.h5part'])
 
 
-class Signals(ExportTest):
+class Signals(SeriesTest):
     STEPS = 3000
-
-    def begin(self, count=1):
-        """An export that has so many files."""
-        process = self.start('export', 'a.h5part', '-o', 'b.pvd', '--quiet')
-        self.wait_for(lambda: any(len(os.listdir(self.path(name))) >= count for name in self.entries()
-                                  if re.fullmatch(rf'b\.{process.pid}\.tmp', name)), process)
-        return process
 
     def setUp(self):
         super().setUp()
