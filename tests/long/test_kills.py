@@ -73,6 +73,18 @@ class Probes(test_probes.ProbesTest):
         self.assertGreater(kills, 5)
 
 
+class Run(test_export.SeriesTest):
+    def test_its_file_has_whole_steps(self):
+        moments = Moments(0.05)
+        for _ in range(5):
+            process = self.write_on('0.004', 200000)
+            moments.wait()
+            process.kill()
+            process.wait()
+            self.assertGreater(len(whole_steps(self.path('a.h5part'))), 0)
+            self.assertEqual(self.entries(), ['a.h5part'])
+
+
 class Export(test_export.SeriesTest):
     def test_what_a_killed_run_left(self):
         moments = Moments(0.3)
