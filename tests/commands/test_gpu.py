@@ -5,7 +5,7 @@ import resource
 import shutil
 
 import command
-from command import SCENE, CommandTest, obey_interrupts
+from command import CommandTest, obey_interrupts
 
 SHADERS = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..', 'shaders')
 ON = ['--backend', 'compute', '--set', 'solver.reproducible=true']
