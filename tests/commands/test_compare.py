@@ -32,9 +32,8 @@ class CompareTest(CommandTest):
     def assert_panel(self, whole, panel, *arguments, time='0.1'):
         """The panel of a picture is what render alone draws at its size, below the title."""
         x, y, width, height = panel['place']
-        code, said = self.slosh('render', 'scene.yaml', '-o', 'one.png', '--time', time, '--size', f'{width}x{height}',
-                                '--quiet', *arguments)
-        self.assertEqual(code, 0, said)
+        self.once('one.png', 'render', 'scene.yaml', '-o', 'one.png', '--time', time, '--size', f'{width}x{height}', '--quiet',
+                  *arguments)
         part, one = whole[y:y + height, x:x + width], self.picture('one.png')
         numpy.testing.assert_array_equal(part[TITLE:], one[TITLE:])
         self.assertTrue((part[:TITLE] != one[:TITLE]).any(), 'there is a title')
@@ -128,10 +127,10 @@ class Views(CompareTest):
         self.assertEqual([p['place'] for p in result['panels']],
                          [[0, 0, 249, 400], [252, 0, 249, 199], [252, 201, 249, 199]])
         for panel, view in zip(result['panels'], views, strict=True):
-            sets = [word for key, value in view.items() for word in ('--set', f'view.{key}={value}')]
+            sets = [word for key, value in view.items() if key != 'kind' for word in ('--set', f'view.{key}={value}')]
             x, y, width, height = panel['place']
-            self.assertEqual(self.slosh('render', 'scene.yaml', '-o', 'one.png', '--time', '0.1', '--size', f'{width}x{height}',
-                                        '--quiet', *sets)[0], 0)
+            self.once('one.png', 'render', 'scene.yaml', '-o', 'one.png', '--time', '0.1', '--size', f'{width}x{height}', '--quiet',
+                      '--view', view.get('kind', 'spheres'), *sets)
             numpy.testing.assert_array_equal(whole[y:y + height, x:x + width], self.picture('one.png'))
 
     def test_settings_beside_one_another_and_their_views_below(self):

@@ -530,6 +530,7 @@ class FullDisk(ExportTest):
         self.stretch(200)
         self.export('whole.pvd', '--quiet')
         self.assertLess(max(os.path.getsize(self.path(f'whole/{name}')) for name in os.listdir(self.path('whole'))), 9000)
+        self.assertGreater(os.path.getsize(self.path('whole.pvd')), 9000)
         shutil.rmtree(self.path('whole'))
         os.remove(self.path('whole.pvd'))
         self.full('b.pvd', 9000)
