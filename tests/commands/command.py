@@ -1,4 +1,5 @@
 """What the tests of the command line share: the program, a small scene, a folder of its own for each test."""
+import atexit
 import os
 import resource
 import shutil
@@ -78,6 +79,8 @@ def without_text(png):
 
 
 class CommandTest(unittest.TestCase):
+    made = {}  # what `once` keeps, until the end of all tests: by scenes and arguments, its path
+
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix='slosh-test-')
         self.addCleanup(shutil.rmtree, self.folder)
@@ -109,6 +112,19 @@ class CommandTest(unittest.TestCase):
         self.assertNotIn('GL error', done.stderr)
         return done.returncode, done.stderr
 
+    def once(self, name, *arguments):
+        """The program writes the file `name`, for the first test with those arguments and scenes; others get a copy of it."""
+        key = name, arguments, *(self.read(scene) for scene in sorted(os.listdir(self.folder)) if scene.endswith('.yaml'))
+        if key in self.made:
+            shutil.copyfile(self.made[key], self.path(name))
+            return
+        code, said = self.slosh(*arguments)
+        self.assertEqual(code, 0, said)
+        if not self.made:
+            self.made[None] = tempfile.mkdtemp(prefix='slosh-test-')
+            atexit.register(shutil.rmtree, self.made[None])
+        self.made[key] = shutil.copyfile(self.path(name), os.path.join(self.made[None], str(len(self.made))))
+
     def start(self, *arguments):
         """Starts the program in a process group of its own, as a terminal does."""
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder, stderr=subprocess.PIPE, text=True,
@@ -117,6 +133,30 @@ class CommandTest(unittest.TestCase):
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
         return process
+
+    def has(self, name, size=1):
+        """Whether a file is there, with so many bytes: for `wait_for` and `stopped`."""
+        return lambda: os.path.exists(self.path(name)) and os.path.getsize(self.path(name)) >= size
+
+    def has_lines(self, name, count):
+        return lambda: os.path.exists(self.path(name)) and self.read(name).count(b'\n') >= count
+
+    def stopped(self, number, reached, *arguments):
+        """The exit code of the program that gets the signal when that is reached; where it came to its end before, it begins
+        again, with the same files."""
+        before = {name: self.read(name) for name in self.entries()}
+        for _ in range(20):
+            process = self.start(*arguments)
+            while process.poll() is None and not reached():
+                time.sleep(0.002)
+            process.send_signal(number)
+            if process.wait() != 0:
+                return process.wait()
+            for name in self.entries():
+                os.remove(self.path(name))
+            for name, content in before.items():
+                self.write(name, content)
+        return self.fail('the program came to its end each time before it was stopped')
 
     def wait_for(self, condition, process):
         """Until it holds, which it must before the program ends."""

@@ -1,8 +1,8 @@
-"""Bad scenes and settings: exit code 2, a message with the place, no file."""
+"""Bad scenes and settings: exit code 2, a message with the place, no file. Each kind by `run`, some by every command; all that
+the loader refuses, with its words: tests/scene."""
 import os
 import random
 import re
-import time
 
 import command
 from command import SCENE, CommandTest
@@ -18,19 +18,16 @@ class BadInput(CommandTest):
         before = self.entries()
         for name, *output in commands or COMMANDS:
             with self.subTest(command=name, output=output):
-                began = time.monotonic()
                 code, said = self.slosh(name, scene, *output, *more)
                 self.assertEqual(code, 2, said)
                 self.assertTrue(said.startswith(place), f'{said!r} does not begin with {place!r}')
                 self.assertRegex(said, words)
-                self.assertLess(time.monotonic() - began, 10)
                 self.assertEqual(self.entries(), before)
 
-    def refused_text(self, text, line, words):
+    def refused_text(self, text, line, words, commands=COMMANDS[:1]):
         """As a scene file; `line` None: a message without a line is fine."""
         self.write('bad.yaml', text)
-        place = 'bad.yaml:' if line is None else f'bad.yaml:{line}:'
-        self.refused('bad.yaml', place, words)
+        self.refused('bad.yaml', 'bad.yaml:' if line is None else f'bad.yaml:{line}:', words, commands=commands)
         if line is not None:
             code, said = self.slosh('run', 'bad.yaml', '-o', 'out.h5part')
             self.assertEqual(code, 2)
@@ -41,9 +38,9 @@ class BadInput(CommandTest):
         self.assertIn(old, SCENE)
         return SCENE.replace(old, new, 1), SCENE[:SCENE.index(old)].count('\n') + 1
 
-    def refused_change(self, old, new, words):
+    def refused_change(self, old, new, words, commands=COMMANDS[:1]):
         text, line = self.changed(old, new)
-        self.refused_text(text, line, words)
+        self.refused_text(text, line, words, commands)
 
     def test_the_scene_itself_is_good(self):
         code, said = self.slosh('run', 'scene.yaml', '-o', 'out.h5part', '--time', '0', '--quiet')
@@ -54,7 +51,7 @@ class BadInput(CommandTest):
         self.refused('bad.yaml', 'bad.yaml:2:', '.')
 
     def test_unknown_key(self):
-        self.refused_change('spacing: 0.1', 'spacng: 0.1', r"spacng.*spacing")
+        self.refused_change('spacing: 0.1', 'spacng: 0.1', r"spacng.*spacing", COMMANDS)
 
     def test_wrong_type(self):
         self.refused_change('spacing: 0.1', 'spacing: [1, 2]', 'number')
@@ -74,7 +71,7 @@ class BadInput(CommandTest):
     def test_two_billion_particles(self):
         text = SCENE.replace('spacing: 0.1', 'spacing: 0.00063')  # 0.5 m3 / (0.63 mm)^3
         self.refused_text(text, 3, 'particles')
-        self.refused('scene.yaml', '', 'particles', '--particles', '2000000000')
+        self.refused('scene.yaml', '', 'particles', '--particles', '2000000000', commands=COMMANDS[:3])
 
     def test_missing_file(self):
         self.refused('missing.yaml', 'missing.yaml', 'No such file|not found|no such')
@@ -104,24 +101,23 @@ class BadInput(CommandTest):
 
     def test_binary_noise(self):
         noise = random.Random(1)
-        for size in (10, 1000, 100000):
+        for size in (10, 100000):
             self.write('bad.yaml', bytes(noise.randrange(256) for _ in range(size)))
-            self.refused('bad.yaml', 'bad.yaml', '.', commands=COMMANDS[:2])
+            self.refused('bad.yaml', 'bad.yaml', '.', commands=COMMANDS[:1])
         self.write('bad.yaml', b'\x7fELF\0\0\0')
-        self.refused('bad.yaml', 'bad.yaml', '.')
+        self.refused('bad.yaml', 'bad.yaml', '.', commands=COMMANDS[:2])
 
     def test_megabytes_of_braces(self):
-        for size in (500_000, 3_000_000):
-            self.refused_text('{' * size, None, '.')
+        self.refused_text('{' * 3_000_000, None, '.')
 
     def test_anchors_that_refer_to_themselves(self):
         self.refused_text(SCENE + 'view: &a {camera: *a}\n', None, '.')
         self.refused_text('&a [*a, *a]\n', None, '.')
 
     def test_settings(self):
-        for setting, words in (('particles.spacing=-1', r'-1'), ('solver.method=magic', r'magic.*mueller'),
-                               ('partcles.spacing=1', r'partcles.*particles'), ('particles.spacing', r'=')):
-            self.refused('scene.yaml', '', words, '--set', setting)
+        self.refused('scene.yaml', '', r'partcles.*particles', '--set', 'partcles.spacing=1')
+        for setting, words in (('particles.spacing=-1', r'-1'), ('solver.method=magic', r'magic.*mueller'), ('particles.spacing', r'=')):
+            self.refused('scene.yaml', '', words, '--set', setting, commands=COMMANDS[:1])
         for setting, meant in (('fluids.viscosity=3', 'fluids[0].viscosity'),
                                ('fluids[1].fill.block.min=[0,0,0]', 'fluids[1].fill[0].block.min'),
                                ('motion.rock.angle=3', 'motion[0].rock.angle')):
@@ -131,7 +127,7 @@ class BadInput(CommandTest):
     def test_command_line(self):
         for arguments, words in ((['--tme', '1'], '--tme'), (['--threads'], '--threads'),
                                  (['--threads', 'many'], 'many'), (['--backend', 'abacus'], 'abacus.*cpu')):
-            self.refused('scene.yaml', '', words, *arguments)
+            self.refused('scene.yaml', '', words, *arguments, commands=[COMMANDS[0], COMMANDS[2]])
         for option, value in (('--backend', 'cuda'), ('--method', 'sph'), ('--view', 'x'), ('--threads', 'many')):
             self.refused('scene.yaml', f'{option} {value}: ', value, option, value, commands=[COMMANDS[0], COMMANDS[4]])
         for option in ('--sweep', '--set'):  # what they stand for, said by the one or the other

@@ -1,4 +1,4 @@
-"""Meshes of slosh export for Blender, Houdini and ParaView: surfaces, fluids and solids, read by a parser of its own."""
+"""Meshes of slosh export for Blender and Houdini: surfaces, fluids and solids, read by a parser of its own."""
 import json
 import os
 import re
@@ -7,7 +7,7 @@ import h5py
 import numpy
 
 import command
-from test_export import ExportTest, ParaViewTest, enclosed, in_world, read_ply, rotated
+from test_export import ExportTest, enclosed, in_world, read_ply, rotated
 
 # One of each kind around the fluid; the block turns about y, and the box of it all rocks.
 SOLIDS = '''solids=[{bowl: {centre: [0, 0.8, -0.3], radius: 0.1, thickness: 0.1}},
@@ -104,85 +104,6 @@ class Obj(ExportTest):
         numpy.testing.assert_allclose(meshes['solid2_sphere'][3][0], [1, 0, 0.2], atol=0.003)
         self.export('a.obj', '--surface', '--solids', '--json', 'a.json')
         self.assertEqual(json.loads(self.read('a.json'))['solids'], 4)
-
-
-class Solids(ParaViewTest):
-    def test_beside_particles(self):
-        """Blocks with names; those that move are where their motion has them, in either frame."""
-        self.make('--time', '0.2', '--every', '0.1', '--set', SOLIDS)
-        for frame in ('box', 'world'):
-            self.export('a.pvd', '--solids', '--frame', frame)
-            seen = self.read_with_paraview('a.pvd')
-            self.assertEqual(len(seen), 3)
-            self.assertEqual(len(os.listdir(self.path('a'))), 3 * 5)
-            with h5py.File(self.path('a.h5part'), 'r') as file:
-                for k, step in enumerate(seen):
-                    self.assert_step(step, file[f'Step#{k}'], frame)
-
-    def assert_step(self, step, group, frame):
-        time = group.attrs['TimeValue']
-        self.assertEqual((step['time'], step['blocks']), (time, ['particles', *NAMES]))
-        numpy.testing.assert_array_equal(step['parts'][0]['arrays']['id'], group['id'])
-        for part, volume in zip(step['parts'][1:], VOLUMES):
-            self.assertEqual((part['own_time'], part['vertices'], sorted(part['arrays'])), (time, 0, ['Normals', 'velocity']))
-            self.assertLess(abs(enclosed(*welded(part['points'], part['triangles'])) / volume - 1), 0.03)
-        corner, velocity, centre = block_at(time)
-        places, velocities = in_frame(group, corner, velocity, frame)
-        block, sphere = step['parts'][2], numpy.array(step['parts'][3]['points'])
-        found = numpy.unique(numpy.round(numpy.hstack([block['points'], block['arrays']['velocity']]), 4), axis=0)
-        wanted = numpy.hstack([places, velocities])
-        self.assertEqual(len(found), 8)
-        for row in wanted:
-            self.assertLess(numpy.abs(found - row).max(1).min(), 2e-4)
-        middle, _ = in_frame(group, centre[None], numpy.zeros((1, 3)), frame)
-        numpy.testing.assert_allclose(numpy.linalg.norm(sphere - middle, axis=1), 0.12, rtol=1e-5)
-
-    def test_beside_a_surface(self):
-        self.make('--time', '0', '--set', SOLIDS)
-        self.export('a.pvd', '--solids', '--surface')
-        step, = self.read_with_paraview('a.pvd')
-        self.assertEqual(step['blocks'], ['fluid', *NAMES])
-        self.assertLess(abs(enclosed(step['parts'][0]['points'], step['parts'][0]['triangles']) / 0.5 - 1), 0.004)
-        self.export('a.pvd')  # an older folder with parts is known to be ours
-        self.assert_whole_series('a', 1)
-
-    def test_fluids(self):
-        """Each closed, all of the fluid, with fields of their own; the border is where both say, and no staircase."""
-        self.make('--time', '0')
-        self.export('a.pvd', '--surface', '--fluids', '--json', 'a.json')
-        step, = self.read_with_paraview('a.pvd')
-        self.assertEqual(step['blocks'], ['water', 'oil'])
-        self.assertEqual(sorted(os.listdir(self.path('a'))), ['a-0000-fluid0.vtp', 'a-0000-fluid1.vtp'])
-        said = json.loads(self.read('a.json'))['surface']['fluids']
-        borders = []
-        for k, part in enumerate(step['parts']):
-            points = numpy.array(part['points'])
-            volume = enclosed(points, part['triangles'])
-            self.assertLess(abs(volume / 0.25 - 1), 0.01)
-            self.assertEqual(said[k]['name'], step['blocks'][k])
-            self.assertLess(abs(said[k]['volume'] / volume - 1), 1e-4)
-            self.assertEqual(set(part['arrays']['fluid']), {k})
-            self.assertLess(abs(numpy.median(part['arrays']['density']) / (1000, 900)[k] - 1), 0.1)
-            inside = (numpy.abs(points[:, 0]) < 0.1) & (points[:, 1] > 0.1) & (points[:, 1] < 0.4) & (abs(points[:, 2]) < 0.4)
-            borders.append(points[inside])
-            self.assertGreater(inside.sum(), 50)
-            self.assertLess(numpy.abs(points[inside, 0]).max(), 0.003)
-            normals = numpy.array(part['arrays']['Normals'])[inside]
-            self.assertGreater(normals[:, 0].min() if k == 0 else -normals[:, 0].max(), 0.99)
-        self.assertEqual(len(borders[0]), len(borders[1]))
-        self.export('a.obj', '--surface', '--fluids')
-        meshes = read_obj(self.read('a.obj').decode())
-        self.assertEqual(list(meshes), ['water', 'oil'])
-        for part, (points, _, triangles, _) in zip(step['parts'], meshes.values()):
-            numpy.testing.assert_array_equal(numpy.float32(points), numpy.float32(part['points']))
-            numpy.testing.assert_array_equal(triangles, part['triangles'])
-
-    def test_fluids_without_particles(self):
-        self.make('--time', '0')
-        self.empty_the_last()
-        self.assertIn('has no fluid at that level', self.export('a.pvd', '--surface', '--fluids'))
-        step, = self.read_with_paraview('a.pvd')
-        self.assertEqual([part['points'] for part in step['parts']], [[], []])
 
 
 class Bad(ExportTest):

@@ -2,9 +2,7 @@
 import csv
 import json
 import os
-import random
 import signal
-import time
 
 import h5py
 
@@ -20,7 +18,7 @@ probes:
 TIME, EVERY = '0.2', '0.004'
 
 
-class Probes(CommandTest):
+class ProbesTest(CommandTest):
     def setUp(self):
         super().setUp()
         self.write('scene.yaml', SCENE + PROBES)
@@ -33,6 +31,8 @@ class Probes(CommandTest):
     def rows(self, name):
         return list(csv.DictReader(self.read(name).decode().splitlines()))
 
+
+class Probes(ProbesTest):
     def test_a_row_a_step(self):
         self.go('--probes', 'a.csv', '--json', 'a.json')
         rows = self.rows('a.csv')
@@ -100,25 +100,17 @@ class Probes(CommandTest):
         said = self.go('--resume', '--probes', 'c.csv')
         self.assertIn('c.csv: the table ends at t = 0.036 s; rows from there to 0.1 s are missing', said)
 
-    def test_killed_at_random_moments(self):
-        began = time.monotonic()
+    def test_killed(self):
+        """Early and late; other moments: tests/long/test_kills.py."""
         self.go('--probes', 'whole.csv', name='whole.h5part')
-        seconds = time.monotonic() - began
-        seed = random.randrange(1 << 30)
-        moments, kills = random.Random(seed), 0
-        for _ in range(40):
-            if kills > 5:
-                break
-            process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME, '--every', EVERY, '--quiet',
-                                 '--resume', '--probes', 'a.csv')
-            time.sleep(0.02 + moments.random() * seconds * 0.7)
-            process.kill()
-            kills += process.wait() == -signal.SIGKILL
+        for rows in (1, 60):
+            code = self.stopped(signal.SIGKILL, self.has_lines('a.csv', rows), 'run', 'scene.yaml', '-o', 'a.h5part', '--time', TIME,
+                                '--every', EVERY, '--quiet', '--probes', 'a.csv')
+            self.assertEqual(code, -signal.SIGKILL)
             self.go('--resume', '--probes', 'a.csv')
-            self.assertEqual(self.read('whole.csv'), self.read('a.csv'), f'seed {seed}')
+            self.assertEqual(self.read('whole.csv'), self.read('a.csv'))
             os.remove(self.path('a.h5part'))
             os.remove(self.path('a.csv'))
-        self.assertGreater(kills, 5)
 
     def test_trouble_leaves_each_time_once(self):
         """Rows of a frame that the sentinel took back are not there."""

@@ -2,12 +2,11 @@
 import json
 import os
 import re
-import resource
 import signal
 import subprocess
 
 import command
-from command import SCENE, CommandTest, obey_interrupts, video_frames, whole_steps
+from command import SCENE, CommandTest, limit_files, video_frames, whole_steps
 
 COMMANDS = ['0 target 0x1.999999999999ap-4 0 0 0 0 0 1',
             '20 set gravity=[0, -3, 0]',
@@ -24,7 +23,6 @@ def recording(commands, end, scene=SCENE, program='0.1', head=()):
 
 class Replay(CommandTest):
     def version(self):
-        import subprocess
         return subprocess.run([command.PROGRAM, '--version'], capture_output=True, text=True,
                               check=True).stdout.split()[1]
 
@@ -201,11 +199,8 @@ class Replay(CommandTest):
         self.assertGreater(len(whole_steps(self.path('a.h5part'))), 0)
 
     def test_full_disk(self):
-        def limit():
-            obey_interrupts()
-            resource.setrlimit(resource.RLIMIT_FSIZE, (400000, 400000))
         self.record()
-        code, said = self.slosh('replay', 'a.rec', '-o', 'a.h5part', '--every', '0.004', '--quiet', before=limit)
+        code, said = self.slosh('replay', 'a.rec', '-o', 'a.h5part', '--every', '0.004', '--quiet', before=limit_files(400000))
         self.assertEqual(code, 1)
         self.assertIn('File too large', said)
         self.assertGreater(len(whole_steps(self.path('a.h5part'))), 2)

@@ -173,6 +173,25 @@ static void particles_that_cannot_be_are_refused(void **state)
     assert_string_equal(error.message, "--particles 1: too few to fill this scene; use more");
 }
 
+static void steps_have_bounds(void **state)
+{
+    (void)state;
+    static const char *const bad[] = {"mode=rk4",   "number=0",   "number=2.1", "max_dt=0",
+                                      "max_dt=1.1", "retries=-1", "retries=11"};
+    static const char *const good[] = {"mode=cfl", "number=0.001", "number=2",  "max_dt=1e-7",
+                                       "max_dt=1", "retries=0",    "retries=10"};
+    char set[64];
+    for (int i = 0; i < 7; i++) {
+        snprintf(set, sizeof set, "solver.step.%s", bad[i]);
+        assert_false(parse_set(LEAST, set, &scene, &error));
+        *strchr(set, '=') = 0;
+        assert_non_null(strstr(error.message, set));
+        snprintf(set, sizeof set, "solver.step.%s", good[i]);
+        if (!parse_set(LEAST, set, &scene, &error))
+            fail_msg("%s", error.message);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -184,6 +203,7 @@ int main(void)
         cmocka_unit_test(the_file_keeps_its_places),
         cmocka_unit_test(particles_choose_the_spacing_and_scale_the_step),
         cmocka_unit_test(particles_that_cannot_be_are_refused),
+        cmocka_unit_test(steps_have_bounds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
