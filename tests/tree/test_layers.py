@@ -9,7 +9,6 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIM_LIBRARY = sys.argv.pop(1)
-FILES_MAX = 40  # in a folder
 
 
 def own_folders(floor, what):
@@ -259,14 +258,6 @@ class Layers(unittest.TestCase):
                     found.append(f"{path.relative_to(ROOT)} includes {name}")
         self.assertGreater(seen, 100)
         self.assertEqual(found, [])
-
-    def test_no_drawer(self):
-        count = collections.Counter(
-            str(pathlib.PurePosixPath(name).parent)
-            for name in subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True,
-                                       text=True).stdout.split())
-        self.assertGreater(count["sim/world"], 10)
-        self.assertEqual({name: n for name, n in count.items() if n > FILES_MAX}, {})
 
     def test_sim_needs_no_window_and_no_gl(self):
         symbols = subprocess.run(["nm", "--undefined-only", "--format=just-symbols", SIM_LIBRARY], check=True,
