@@ -392,8 +392,8 @@ static bool has_begun(const Rig *rig)
     return rig->status.step > 0;
 }
 
-/* A frame that takes longer than the patience: the thread is left, and ends when the frame does. Where this thread itself
-   had no processor for as long, again. */
+/* A frame that takes longer than the patience: the thread is left, and ends when the frame does. Where this
+   thread itself had no processor for as long, again. */
 static void an_end_does_not_wait_for_ever(void **state)
 {
     (void)state;
