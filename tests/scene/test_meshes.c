@@ -126,6 +126,30 @@ static void what_is_mended_is_said_once(void **state)
     expect_note("two.obj", "two.obj: the mesh cuts itself, at ");
 }
 
+/* Each part of a file has its own corners. */
+static void parts_are_one_mesh(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    Triangles both;
+    char text[2000] = "mtllib parts.mtl\n";
+    for (int part = 0; part < 2; part++) { /* tetrahedra of 1/6 and 8/6 m3 */
+        const int size = 1 + part, from = 3 * part, first = 4 * part;
+        const size_t used = strlen(text);
+        snprintf(
+            text + used, sizeof text - used,
+            "usemtl m%d\nv %d 0 0\nv %d 0 0\nv %d %d 0\nv %d 0 %d\nf %d %d %d\nf %d %d %d\nf %d %d %d\nf %d %d %d\n",
+            part, from, from + size, from, size, from, size, first + 1, first + 3, first + 2, first + 1,
+            first + 2, first + 4, first + 1, first + 4, first + 3, first + 2, first + 3, first + 4);
+    }
+    write_text("parts.mtl", "newmtl m0\nKd 1 0 0\nnewmtl m1\nKd 0 1 0\n");
+    write_text("parts.obj", text);
+    if (!mesh_file_read(in_folder("parts.obj"), &both, &error))
+        fail_msg("%s", error.message);
+    assert_true(fabs(triangles_volume(&both) - 1.5) < 1e-6);
+    triangles_free(&both);
+}
+
 static void what_cannot_be_had_is_refused(void **state)
 {
     (void)state;
@@ -259,6 +283,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mesh_is_found_from_the_scene),
         cmocka_unit_test(what_is_mended_is_said_once),
+        cmocka_unit_test(parts_are_one_mesh),
         cmocka_unit_test(what_cannot_be_had_is_refused),
         cmocka_unit_test(what_is_too_large_is_refused_unread),
         cmocka_unit_test(counts_before_reading),

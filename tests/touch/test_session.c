@@ -21,7 +21,7 @@ enum { SCENES = sizeof scenes / sizeof *scenes, FRAMES = 10, MIB = 1 << 20 };
 static void touch(Rig *rig, FingerWay way, double x)
 {
     const SimCommand command = {.kind = SIM_TOUCH,
-                                .finger = {.way = way, .at = {x, 0.4, 0}, .radius = 0.3, .strength = 30}};
+                                .finger = {.way = way, .at = {x, 0.4, 0}, .radius = 1.0 / 3, .strength = 30}};
     assert_true(simulator_send(rig->simulator, &command) > 0);
 }
 
@@ -84,7 +84,8 @@ static void the_recording_has_it(void **state)
         assert_int_equal(saved.commands[i].kind, SIM_TOUCH);
         assert_true(saved.commands[i].finger.way == (double)(i < 4 ? FINGER_STIR : FINGER_NONE));
     }
-    assert_true(saved.commands[0].finger.at[0] == 0.05 * 2 && saved.commands[0].finger.strength == 30);
+    assert_true(saved.commands[0].finger.at[0] == 0.05 * 2 && saved.commands[0].finger.strength == 30 &&
+                saved.commands[0].finger.radius == 1.0 / 3);
     recording_destroy(&saved);
     Rig plain;
     rig_open(&plain, scenes[0].text, 64 * MIB);
