@@ -130,7 +130,8 @@ class Views(Window):
         self.keys('w', 'w')
         for width, height in (301, 203), (2, 2), (1, 1), (3, 300), (401, 300):
             self.xdo('windowsize', self.window, width, height)
-            self.drawn()
+            self.until(lambda now, size=[width, height]: now['size'] == size)  # of one pixel there is no picture
+        self.drawn()
         self.keys('F12', 'Tab', 'w', 'r')
         out = self.quit()
         self.assertEqual(out['size'], [401, 300])
