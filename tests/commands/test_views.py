@@ -128,9 +128,9 @@ class Views(Window):
     def test_sizes_and_other_scenes(self):
         self.open('still.yaml', *COARSE)
         self.keys('w', 'w')
-        for width, height in (301, 203), (2, 2), (1, 1), (3, 300), (401, 300):
+        for width, height in (301, 203), (2, 2), (1, 1), (3, 301), (401, 300):
             self.xdo('windowsize', self.window, width, height)
-            self.until(lambda now, size=[width, height]: now['size'] == size)  # of one pixel there is no picture
+            self.until(lambda now, height=height: now['size'][1] == height)  # of few pixels there is no picture to wait for
         self.drawn()
         self.keys('F12', 'Tab', 'w', 'r')
         out = self.quit()
