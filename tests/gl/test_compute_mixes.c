@@ -4,17 +4,11 @@
 /* clang-format off */
 static const ParityCase cases[] = {
     {"colour field, no slip", 2, 2.1, {1, 3}, TENSION_COLOUR_FIELD, .method = "mueller", .no_slip = true, .runs = true},
-    {"Wendland, radial, solids", 2, 3, {1, 3}, .kernel = "wendland_c2", .form = VISCOSITY_RADIAL, .solids = true},
     {"Wendland, corrected gradient", 2, 3, {1, 3}, .kernel = "wendland_c2", .delta = 0.1, .negative = true,
      .solids = true, .shifting = 0.2, .corrected = true},
     {"cubic, corrected gradient, 1 : 10", 3, 2.1, {1, 3}, .kernel = "cubic", .negative = true, .corrected = true, .light = 100},
     {"Wendland, curvature, corrected gradient, shifting, 1 : 100", 2, 3, .tension = TENSION_CURVATURE, .kernel = "wendland_c2",
      .delta = 0.1, .negative = true, .solids = true, .shifting = 0.2, .corrected = true, .light = 10},
-    {"quintic, periodic, shifting", 2, 3, {1, 3}, .kernel = "quintic", .negative = true, .sides = "xy", .shifting = 0.2},
-    {"cubic, periodic, cohesion, shifting", 3, 2.1, .tension = TENSION_COHESION,
-     .kernel = "cubic", .delta = 0.1, .artificial = 0.1, .sides = "xz", .shifting = 0.1},
-    {"Wendland, curvature, shifting", 2, 3, .tension = TENSION_CURVATURE, .kernel = "wendland_c2", .delta = 0.1,
-     .artificial = 0.1, .negative = true, .shifting = 0.2, .solids = true, .runs = true},
 };
 /* clang-format on */
 static const ParityTable table = {"wcsph", 0.0005, 200, sizeof cases / sizeof *cases, cases};
