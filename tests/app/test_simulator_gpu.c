@@ -270,7 +270,7 @@ static void break_shader(const char *name)
 {
     char command[512];
     snprintf(command, sizeof command,
-             "rm -rf shaders && cp -r " SLOSH_SOURCE_DIR "/shaders . && echo 'float x = ;' >> shaders/%s",
+             "rm -rf shaders && cp -r '" SLOSH_SOURCE_DIR "/shaders' . && echo 'float x = ;' >> shaders/%s",
              name);
     assert_int_equal(system(command), 0);
     shader_source_set_directory("shaders");
@@ -288,7 +288,8 @@ static void broken_shaders_leave_the_last_good_ones(void **state)
     simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
     assert_false(rig.status.failed);
-    assert_int_equal(system("cp " SLOSH_SOURCE_DIR "/shaders/sim/compute/kick.comp shaders/sim/compute/"), 0);
+    assert_int_equal(system("cp '" SLOSH_SOURCE_DIR "/shaders/sim/compute/kick.comp' shaders/sim/compute/"),
+                     0);
     must(simulator_reload(rig.simulator, &error));
     shader_source_set_directory(NULL);
     rig_close(&rig);
