@@ -23,7 +23,9 @@ bool device_rules_command(char command[DEVICE_COMMAND_SIZE])
     static const char again[] = "sudo udevadm trigger --subsystem-match=hidraw";
     char rule[PLACE_SIZE];
     if (place_sources())
-        snprintf(command, DEVICE_COMMAND_SIZE, "%s/tools/setup --devices", place_sources());
+        snprintf(command, DEVICE_COMMAND_SIZE,
+                 strchr(place_sources(), ' ') ? "'%s/tools/setup' --devices" : "%s/tools/setup --devices",
+                 place_sources());
     else if (!place_rule(rule))
         return false;
     else if (read_by_udev(rule))
