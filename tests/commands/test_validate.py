@@ -18,9 +18,11 @@ QUICK = ['hydrostatic', 'tilted', 'layers', 'layers_1000', 'growth', 'dam_break_
 
 
 class ValidateTest(command.CommandTest):
+    most_seconds = 250
+
     def run_it(self, *words, **how):
         return subprocess.run([command.PROGRAM, 'validate', *words], cwd=self.folder, capture_output=True,
-                              text=True, timeout=250, check=False, **how)
+                              text=True, timeout=self.most_seconds, check=False, **how)
 
     def figures(self):
         return json.loads(self.read('out.json'))['cases']
