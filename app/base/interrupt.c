@@ -56,7 +56,8 @@ void interrupt_hear_ask(void)
 
 bool interrupt_asked(void)
 {
-    const bool was = asked != 0;
+    if (!asked)
+        return false;
     asked = 0; /* two that came before a look are one */
-    return was;
+    return true;
 }

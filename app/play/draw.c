@@ -221,6 +221,8 @@ void draw_picture(Play *play)
     if (whole)
         model_take(&play->model);
     picture->dirty = picture->over = false;
+    picture->finer = picture->finer &&
+                     play->model.has_particles; /* of another scene, which has none yet: nothing to come */
     picture->begun_ms = began;
     if (play->model.has_particles && whole)
         draw_fluid(play);

@@ -1,8 +1,8 @@
 /* Periodic sides: what leaves the box there comes in on the other side, and neighbours see each other across.
 
    After: M. P. Allen, D. J. Tildesley, "Computer Simulation of Liquids", 1987, sec. 1.5.2. Positions stay in
-   [low, low + size], to the rounding of single precision; the box is at least two support radii wide along a
-   periodic axis, so that no particle sees another twice. */
+   [low, low + size], to the rounding of single precision (on cpu from the end of a step on); the box is at
+   least two support radii wide along a periodic axis, so that no particle sees another twice. */
 #ifndef SLOSH_PERIODIC_H
 #define SLOSH_PERIODIC_H
 

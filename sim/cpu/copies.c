@@ -104,6 +104,18 @@ static void copy_rows(void *state, size_t begin, size_t end)
     columns_copy(copying->rows, &cpu->now, &cpu->now, cpu->copy_of, cpu->count + begin, cpu->count + end);
 }
 
+static void shift_places(void *state, size_t begin, size_t end)
+{
+    const Cpu *cpu = state;
+    for (size_t k = begin, i = cpu->count + begin; k < end; k++, i++) {
+        float shift[3];
+        shift_of(cpu->constants, cpu->copy_side[k], shift);
+        cpu->now.x[i] += shift[0];
+        cpu->now.y[i] += shift[1];
+        cpu->now.z[i] += shift[2];
+    }
+}
+
 static void copies_of_rows(Cpu *cpu, const ColumnRows *rows)
 {
     Copying copying = {cpu, rows};
@@ -124,13 +136,7 @@ void cpu_copies_place(Cpu *cpu)
             }
     const ColumnRows rows = rows_among(cpu, "position id fluid viscosity tension kind", "");
     copies_of_rows(cpu, &rows);
-    for (size_t k = 0, i = cpu->count; k < cpu->copies; k++, i++) {
-        float shift[3];
-        shift_of(s, cpu->copy_side[k], shift);
-        cpu->now.x[i] += shift[0];
-        cpu->now.y[i] += shift[1];
-        cpu->now.z[i] += shift[2];
-    }
+    parallel_ranges(cpu->threads, cpu->copies, 4 * CPU_GRAIN, shift_places, cpu);
 }
 
 void cpu_copies_update(Cpu *cpu, const Pass *pass)

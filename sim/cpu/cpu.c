@@ -123,6 +123,15 @@ int *world_threads(const WorldDef *def)
     return &cpu_def(def)->threads;
 }
 
+/* Of so many particles that fill the box evenly: as many as its outermost cells, over all others. */
+static size_t copies_expected(const Constants *s, size_t particles)
+{
+    double cells = 1;
+    for (int k = 0; k < 3; k++)
+        cells *= s->periodic.axis[k] ? (double)s->cells.size[k] / (s->cells.size[k] - 2) : 1;
+    return s->periodic.any ? (size_t)(1.1 * (cells - 1) * (double)particles) + CPU_GRAIN : 0;
+}
+
 static void *cpu_create(const Constants *constants, const WorldDef *def, const InitialState *initial,
                         size_t capacity, Error *error)
 {
@@ -141,6 +150,7 @@ static void *cpu_create(const Constants *constants, const WorldDef *def, const I
     cpu->threads = threads > 0 ? threads : parallel_processors();
     cpu->count = cpu->owned = initial->count;
     cpu->capacity = capacity + constants->boundary.count;
+    cpu->copy_room = copies_expected(constants, cpu->capacity);
     if (!arrays_create(cpu, error)) {
         cpu_destroy(cpu);
         return NULL;
@@ -296,6 +306,7 @@ const Backend backend_cpu = {
     .destroy = cpu_destroy,
     .adapt = cpu_adapt,
     .pose = cpu_pose,
+    .enter = cpu_enter,
     .leave = cpu_leave,
     .drift = cpu_drift,
     .grid = cpu_grid,

@@ -148,8 +148,10 @@ void cpu_copies_place(Cpu *cpu);
 void cpu_copies_update(Cpu *cpu, const Pass *pass);
 void cpu_copies_pack(Cpu *cpu);
 
-/* Behind a step: puts those that went through a periodic side back into the box. Until then they stay where
-   the lists of neighbours have them. */
+/* Before a step: the first drift puts those that go through a periodic side back at once. Behind it: puts
+   those that went through a periodic side back into the box. Until then they stay where the lists of
+   neighbours have them. */
+void cpu_enter(void *state);
 void cpu_leave(void *state);
 void cpu_cells(Cpu *cpu);
 void cpu_sort(Cpu *cpu);

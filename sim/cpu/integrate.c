@@ -116,13 +116,16 @@ static void wrap_range(void *context, size_t begin, size_t end)
     }
 }
 
+void cpu_enter(void *state)
+{
+    ((Cpu *)state)->lists.ready = false; /* those of a world that was made or loaded are no step's */
+}
+
 void cpu_leave(void *state)
 {
     Cpu *cpu = state;
-    if (!cpu->constants->periodic.any)
-        return;
-    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, wrap_range, cpu);
-    cpu->lists.ready = false;
+    if (cpu->constants->periodic.any)
+        parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, wrap_range, cpu);
 }
 
 typedef struct Kick {

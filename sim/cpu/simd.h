@@ -103,13 +103,6 @@ SIMD_INLINE f8 f8_positive(f8 a)
 #endif
 }
 
-/* To the nearest whole number, of |a| < 2^22. */
-SIMD_INLINE f8 f8_round(f8 a)
-{
-    const f8 large = f8_splat(0x1.8p23F);
-    return (a + large) - large;
-}
-
 SIMD_INLINE f8 f8_gather(const float *p, const uint32_t *j)
 {
     return (f8){p[j[0]], p[j[1]], p[j[2]], p[j[3]], p[j[4]], p[j[5]], p[j[6]], p[j[7]]};

@@ -181,6 +181,7 @@ const Backend backend_ranks = {
     .destroy = ranks_destroy,
     .adapt = ranks_adapt,
     .pose = ranks_pose,
+    .enter = ranks_enter,
     .leave = ranks_leave,
     .drift = ranks_drift,
     .grid = ranks_grid,

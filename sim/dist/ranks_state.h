@@ -70,6 +70,7 @@ bool is_own(const Dist *dist, const Constants *constants, const float *x);
 
 void ranks_grid(void *state);
 void ranks_pose(void *state, const SolidPose *pose);
+void ranks_enter(void *state);
 void ranks_leave(void *state);
 void ranks_drift(void *state, const BoxStep *step);
 void ranks_run(void *state, const Pass *pass, const PassInput *input);

@@ -83,6 +83,11 @@ void ranks_drift(void *state, const BoxStep *step)
     computed(ranks, begin);
 }
 
+void ranks_enter(void *state)
+{
+    cpu_enter(((Ranks *)state)->cpu);
+}
+
 void ranks_leave(void *state)
 {
     Ranks *ranks = state;

@@ -22,7 +22,8 @@ struct Method; /* sim/world/method.h */
 enum { METHOD_CONSTANTS_SIZE = 256 };
 
 /* The grid of cells of side h: cell (i, j, k) holds floor(x / h) = first + (i, j, k), of one global lattice
-   whatever the box; one empty layer on each side saves the neighbour search its bounds. Along a periodic axis
+   whatever the box; one empty layer on each side saves the neighbour search its bounds (along a
+   periodic axis backend cpu has copies there: sim/cpu/copies.c). Along a periodic axis
    a whole number of cells, of side h at least, fills the box from its low side on. */
 typedef struct CellGrid {
     float origin[3], inverse[3]; /* floor((x - origin) * inverse); m, 1/m */
