@@ -235,7 +235,7 @@ class Library(CommandTest):
         self.check(self.path('front'))
 
     def test_by_cmake(self):
-        self.output('cmake', '-S', self.example, '-B', self.path('build'), f'-DCMAKE_PREFIX_PATH={self.prefix}')
+        self.output('cmake', '-G', 'Ninja', '-S', self.example, '-B', self.path('build'), f'-DCMAKE_PREFIX_PATH={self.prefix}')
         self.output('cmake', '--build', self.path('build'))
         self.check(self.path('build/front'))
 
