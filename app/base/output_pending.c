@@ -3,6 +3,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -10,6 +11,8 @@
 #include <unistd.h>
 
 enum { PENDING_MAX = 8 };
+
+static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER; /* the window and the solver's thread both save */
 
 /* The one state that a signal handler can reach. */
 static struct {
@@ -20,19 +23,23 @@ static struct {
 void output_pending_add(const char *temp)
 {
     int i = 0;
+    pthread_mutex_lock(&adding);
     while (i < PENDING_MAX && pending[i].used)
         i++;
-    if (i == PENDING_MAX)
-        return;
-    snprintf(pending[i].temp, sizeof pending[i].temp, "%s", temp);
-    pending[i].used = 1;
+    if (i < PENDING_MAX) {
+        snprintf(pending[i].temp, sizeof pending[i].temp, "%s", temp);
+        pending[i].used = 1;
+    }
+    pthread_mutex_unlock(&adding);
 }
 
 void output_pending_forget(const char *temp)
 {
+    pthread_mutex_lock(&adding);
     for (int i = 0; i < PENDING_MAX; i++)
         if (pending[i].used && strcmp(pending[i].temp, temp) == 0)
             pending[i].used = 0;
+    pthread_mutex_unlock(&adding);
 }
 
 /* One buffer of entries; whether there was any file to remove. */

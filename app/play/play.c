@@ -1,3 +1,4 @@
+#define _DEFAULT_SOURCE /* on_exit */
 #include "app/play/play.h"
 
 #include "app/base/exit_code.h"
@@ -11,6 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 static const float PANEL_FROM_EM =
     56; /* the panel takes less than half of a window as wide as so many letters */
@@ -180,6 +182,14 @@ static bool finish(Session *session, Error *error)
            (movie || error_set(error, "the video was not written"));
 }
 
+/* Behind all that is written, before libraries end what the solver's thread still uses. */
+static void end_at_once(int status, void *nothing)
+{
+    (void)nothing;
+    fflush(NULL);
+    _exit(status);
+}
+
 /* False: the solver is in a frame that lasts seconds; the end of the process ends it. */
 static bool close_all(Session *session)
 {
@@ -239,5 +249,7 @@ int play(const PlaySetup *setup, PlayFigures *figures)
     const bool ok = play_session(session, figures);
     if (close_all(session))
         free(session);
+    else
+        on_exit(end_at_once, NULL);
     return ok ? 0 : EXIT_FAILED;
 }
