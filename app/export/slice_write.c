@@ -1,6 +1,8 @@
-/* After: VTK file formats, "XML file formats", https://docs.vtk.org: ImageData, raw appended data with 64-bit
-   sizes. */
+/* After: VTK file formats, "XML file formats", https://docs.vtk.org: ImageData, numbers as base64 with 64-bit
+   sizes (app/export/vtp.c has why). */
 #include "app/export/slice_table.h"
+
+#include "app/export/base64.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -51,25 +53,25 @@ static bool write_head(FILE *file, const SliceTable *table)
             "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
             "format=\"ascii\">%.17g</DataArray></FieldData>\n",
             table->time);
-    fprintf(file,
-            "<Piece Extent=\"0 %d 0 %d 0 0\">\n<PointData Scalars=\"%s\">\n"
-            "<DataArray type=\"Float32\" Name=\"%s\" format=\"appended\" offset=\"0\"/>\n"
-            "<DataArray type=\"Float32\" Name=\"field\" format=\"appended\" offset=\"%zu\"/>\n",
-            samples[0] - 1, samples[1] - 1, scalar->name, scalar->name,
-            sizeof(uint64_t) + count_of(table) * sizeof(float));
-    return fprintf(file, "</PointData>\n</Piece>\n</ImageData>\n<AppendedData encoding=\"raw\">\n_") > 0;
+    return fprintf(file, "<Piece Extent=\"0 %d 0 %d 0 0\">\n<PointData Scalars=\"%s\">\n", samples[0] - 1,
+                   samples[1] - 1, scalar->name) > 0;
 }
 
-static bool write_numbers(FILE *file, const float *numbers, size_t count)
+static bool write_array(FILE *file, const char *name, const float *numbers, size_t count)
 {
     const uint64_t bytes = count * sizeof *numbers;
-    return fwrite(&bytes, sizeof bytes, 1, file) == 1 &&
-           fwrite(numbers, sizeof *numbers, count, file) == count;
+    Base64 text = {.file = file};
+    fprintf(file, "<DataArray type=\"Float32\" Name=\"%s\" format=\"binary\">\n", name);
+    base64_add(&text, &bytes, sizeof bytes);
+    base64_add(&text, numbers, bytes);
+    base64_end(&text);
+    return fputs("\n</DataArray>\n", file) >= 0 && !ferror(file);
 }
 
 bool slice_table_vti(FILE *file, const SliceTable *table)
 {
-    return write_head(file, table) && write_numbers(file, table->value, count_of(table)) &&
-           write_numbers(file, table->field, count_of(table)) &&
-           fprintf(file, "\n</AppendedData>\n</VTKFile>\n") > 0 && fflush(file) == 0;
+    return write_head(file, table) &&
+           write_array(file, scalar_list[table->wanted.scalar].name, table->value, count_of(table)) &&
+           write_array(file, "field", table->field, count_of(table)) &&
+           fputs("</PointData>\n</Piece>\n</ImageData>\n</VTKFile>\n", file) >= 0 && fflush(file) == 0;
 }

@@ -1,7 +1,9 @@
-/* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, raw appended data with 64-bit
-   sizes. */
+/* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, each array's numbers in its
+   element as base64 with a 64-bit size. Raw data behind the XML is smaller, but ParaView 5.11 cannot read it
+   with expat since its fix of CVE-2023-52425, which Debian 12 has. */
 #include "app/export/vtp.h"
 
+#include "app/export/base64.h"
 #include "sim/base/scalar.h"
 
 #include <inttypes.h>
@@ -23,7 +25,7 @@ typedef enum Section {
     SECTION_COUNT
 } Section;
 
-/* An appended block: its size in bytes as 64 bits and then its numbers. */
+/* An array: its size in bytes as 64 bits and then its numbers. */
 typedef struct Block {
     Section section;
     const char *name, *type; /* VTK's */
@@ -86,12 +88,51 @@ static void add_fields(Contents *all, const SnapshotStep *step)
     add_numbers(all, SECTION_DATA, "fluid", "Int32", 4, step->count, step->fluid);
 }
 
-/* ---- the XML ---- */
-
 static uint64_t block_bytes(const Block *block)
 {
     return (uint64_t)block->count * block->components * block->bytes;
 }
+
+/* ---- the numbers ---- */
+
+static void write_vectors(Base64 *text, const Block *block)
+{
+    float chunk[CHUNK][3];
+    for (size_t from = 0; from < block->count; from += CHUNK) {
+        const size_t size = block->count - from < CHUNK ? block->count - from : CHUNK;
+        for (size_t i = 0; i < size; i++)
+            for (int k = 0; k < 3; k++)
+                chunk[i][k] = block->vector[k][from + i];
+        base64_add(text, chunk, size * sizeof chunk[0]);
+    }
+}
+
+static void write_ramp(Base64 *text, const Block *block)
+{
+    int32_t chunk[CHUNK];
+    for (size_t from = 0; from < block->count; from += CHUNK) {
+        const size_t size = block->count - from < CHUNK ? block->count - from : CHUNK;
+        for (size_t i = 0; i < size; i++)
+            chunk[i] = (int32_t)(block->first + block->step * (from + i));
+        base64_add(text, chunk, size * sizeof chunk[0]);
+    }
+}
+
+static void write_numbers(FILE *file, const Block *block)
+{
+    const uint64_t bytes = block_bytes(block);
+    Base64 text = {.file = file};
+    base64_add(&text, &bytes, sizeof bytes);
+    if (block->count > 0 && block->numbers)
+        base64_add(&text, block->numbers, bytes);
+    else if (block->count > 0 && block->vector)
+        write_vectors(&text, block);
+    else if (block->count > 0)
+        write_ramp(&text, block);
+    base64_end(&text);
+}
+
+/* ---- the XML ---- */
 
 /* As VTK's key for it, which ParaView keeps with the array; "": none. */
 static const char *unit_of(const char *name)
@@ -108,34 +149,27 @@ static const char *unit_of(const char *name)
     return "";
 }
 
-static void print_array(FILE *file, const Block *block, uint64_t offset)
+/* The numbers come first: VTK looks for them right behind the tag. */
+static void print_array(FILE *file, const Block *block)
 {
     const char *unit = unit_of(block->name);
-    fprintf(file,
-            "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"appended\" "
-            "offset=\"%" PRIu64 "\"",
-            block->type, block->name, block->components, offset);
+    fprintf(file, "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%zu\" format=\"binary\">\n",
+            block->type, block->name, block->components);
+    write_numbers(file, block);
     if (*unit)
-        fprintf(
-            file,
-            "><InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">%s</InformationKey></DataArray>\n",
-            unit);
-    else
-        fputs("/>\n", file);
+        fprintf(file, "\n<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">%s</InformationKey>",
+                unit);
+    fputs("\n</DataArray>\n", file);
 }
 
 static void print_section(FILE *file, const Contents *all, Section section)
 {
-    uint64_t offset = 0;
-    for (size_t i = 0; i < all->count; i++) {
-        const Block *block = &all->block[i];
-        if (block->section == section)
-            print_array(file, block, offset);
-        offset += sizeof(uint64_t) + block_bytes(block);
-    }
+    for (size_t i = 0; i < all->count; i++)
+        if (all->block[i].section == section)
+            print_array(file, &all->block[i]);
 }
 
-static void print_head(FILE *file, const Contents *all)
+static void print_all(FILE *file, const Contents *all)
 {
     fprintf(file,
             "<?xml version=\"1.0\"?>\n"
@@ -158,54 +192,12 @@ static void print_head(FILE *file, const Contents *all)
     print_section(file, all, SECTION_DATA);
     fputs("</PointData>\n<CellData>\n", file);
     print_section(file, all, SECTION_CELLS);
-    fputs("</CellData>\n</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_", file);
-}
-
-/* ---- the numbers ---- */
-
-static void write_vectors(FILE *file, const Block *block)
-{
-    float chunk[CHUNK][3];
-    for (size_t from = 0; from < block->count; from += CHUNK) {
-        const size_t size = block->count - from < CHUNK ? block->count - from : CHUNK;
-        for (size_t i = 0; i < size; i++)
-            for (int k = 0; k < 3; k++)
-                chunk[i][k] = block->vector[k][from + i];
-        fwrite(chunk, sizeof chunk[0], size, file);
-    }
-}
-
-static void write_ramp(FILE *file, const Block *block)
-{
-    int32_t chunk[CHUNK];
-    for (size_t from = 0; from < block->count; from += CHUNK) {
-        const size_t size = block->count - from < CHUNK ? block->count - from : CHUNK;
-        for (size_t i = 0; i < size; i++)
-            chunk[i] = (int32_t)(block->first + block->step * (from + i));
-        fwrite(chunk, sizeof chunk[0], size, file);
-    }
-}
-
-static void write_block(FILE *file, const Block *block)
-{
-    const uint64_t bytes = block_bytes(block);
-    fwrite(&bytes, sizeof bytes, 1, file);
-    if (block->count == 0)
-        return;
-    if (block->numbers)
-        fwrite(block->numbers, block->bytes, block->count * block->components, file);
-    else if (block->vector)
-        write_vectors(file, block);
-    else
-        write_ramp(file, block);
+    fputs("</CellData>\n</Piece>\n</PolyData>\n</VTKFile>\n", file);
 }
 
 static bool write_all(FILE *file, const Contents *all)
 {
-    print_head(file, all);
-    for (size_t i = 0; i < all->count; i++)
-        write_block(file, &all->block[i]);
-    fputs("\n</AppendedData>\n</VTKFile>\n", file);
+    print_all(file, all);
     return !ferror(file);
 }
 

@@ -2,7 +2,7 @@
    pressure, fluid and id, in the numbers that SnapshotStep has, with a vertex each, without which ParaView
    draws none; a surface is points, the same fields but for the id, Normals, and triangles; a solid the same
    with the velocity alone. The time is TimeValue; trails are points with their times and a scalar, and lines
-   with the id of their particle. The numbers stand in binary behind the XML. Arrays have their units as VTK's
+   with the id of their particle. The numbers stand as base64 in the XML. Arrays have their units as VTK's
    key UNITS_LABEL. ParaView 5.11 opens all. */
 #ifndef SLOSH_VTP_H
 #define SLOSH_VTP_H

@@ -101,7 +101,7 @@ class ExportTest(CommandTest):
         self.assertEqual(files, [f'{name}/{name}-{k:04}.vtp' for k in range(count)])
         self.assertEqual(sorted(os.listdir(self.path(name))), [os.path.basename(file) for file in files])
         for file in files:
-            self.assertTrue(self.read(file).endswith(b'</AppendedData>\n</VTKFile>\n'))
+            self.assertTrue(self.read(file).endswith(b'</PolyData>\n</VTKFile>\n'))
 
 
 class Surface(ExportTest):
