@@ -368,6 +368,17 @@ static void a_hand_moves_it_and_does_not_turn_it(void **state)
     cloud_free(&c);
 }
 
+/* At the end of a step nobody stands outside a periodic side. */
+static void check_places(World *world, const WorldDef *def)
+{
+    State s = fixture_read(world);
+    for (size_t i = 0; i < s.count; i++)
+        for (size_t k = 0; k < 3; k++)
+            if (def->periodic[k])
+                assert_true(fabs((double)s.position[4 * i + k]) <= 0.5 * def->box_size[k] + 1e-6);
+    fixture_free(&s);
+}
+
 /* Also where somebody goes through a side at once: all fly along x, some mm a step. */
 static void check_saved(const char *method)
 {
@@ -384,6 +395,7 @@ static void check_saved(const char *method)
     Error error;
     for (int k = 0; k < 4; k++) {
         fixture_step(one, 2);
+        check_places(one, &c.def);
         assert_true(world_save(one, &saved, &error));
         assert_true(world_load(other, &saved, &error));
         fixture_step(one, 1);
