@@ -143,7 +143,8 @@ void cpu_copies_update(Cpu *cpu, const Pass *pass)
 {
     const ColumnRows rows = rows_among(cpu, pass->reads, pass->writes);
     ColumnRows wanted = {0};
-    for (int r = 0; r < rows.count; r++) /* those are by the grid, or of the particle itself */
+    for (int r = 0; r < rows.count;
+         r++) /* not what the grid has placed, nor what only the particle itself reads */
         if (!cpu_name_among("position id fluid remainder", rows.row[r]->name))
             wanted.row[wanted.count++] = rows.row[r];
     copies_of_rows(cpu, &wanted);

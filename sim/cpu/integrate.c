@@ -40,6 +40,7 @@ static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, Cpu
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
     const WallsFar inside = walls_far(&cpu->constants->walls, 0);
+    /* While lists are in use particles stay where the lists have them: cpu_leave wraps. */
     const bool solids = drift->step->solids, wraps = cpu->constants->periodic.any && !cpu->lists.ready;
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
@@ -118,7 +119,7 @@ static void wrap_range(void *context, size_t begin, size_t end)
 
 void cpu_enter(void *state)
 {
-    ((Cpu *)state)->lists.ready = false; /* those of a world that was made or loaded are no step's */
+    ((Cpu *)state)->lists.ready = false; /* lists that a new or loaded world has made belong to no step */
 }
 
 void cpu_leave(void *state)
