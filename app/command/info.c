@@ -14,8 +14,10 @@
 #include "sim/matter/seed.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
+#include "sim/world/step_control.h"
 #include "sim/world/world.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -157,6 +159,23 @@ static void put_metrics(Info *info)
         put_row(info, motion_name((MotionKind)m), motion_help((MotionKind)m));
 }
 
+/* The friction of the resolution, where a fluid has more of it than of its own. */
+static void print_friction(const WorldDef *def)
+{
+    const StepFriction friction = step_friction(def);
+    for (int f = 0; f < def->fluid_count; f++) {
+        const FluidDef *fluid = &def->fluids[f];
+        const double numerical = numerical_kinematic(def, friction.numerical) * fluid->density,
+                     artificial =
+                         numerical_kinematic(def, step_alpha(def, friction.alpha, f)) * fluid->density;
+        if (fmax(numerical, artificial) > fluid->viscosity)
+            printf(
+                "fluids[%d]: its viscosity is %g Pa s; it rubs as %.3g Pa s does, at this spacing, by %s\n",
+                f, fluid->viscosity, fmax(numerical, artificial + fluid->viscosity),
+                numerical > 0 ? "solver.numerical_viscosity" : "solver.artificial_viscosity");
+    }
+}
+
 static void put_scene(Info *info, const Scene *scene, const Notes *notes)
 {
     const size_t count = seed_count(&scene->world, scene->world.spacing);
@@ -171,6 +190,7 @@ static void put_scene(Info *info, const Scene *scene, const Notes *notes)
         return;
     printf("%s: %zu particle%s\n", scene->path, count, plural(count));
     preset_print(scene, stdout);
+    print_friction(&scene->world);
     scene_print(scene, stdout);
 }
 

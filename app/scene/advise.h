@@ -12,6 +12,10 @@
    runs: then lines begin with the key's path. */
 void scene_advise(const Tree *tree, const Scene *scene, Notes *notes);
 
+/* Puts a speed of sound and substeps that fit the scene in the place of defaults that do not, and says so.
+   What the scene, the command line or a preset names stays. The spacing is the final one. */
+void scene_fit_step(const Tree *tree, Scene *scene, Notes *notes);
+
 /* The same of settings without effect, since what reads them is not in use: the keys that stand in `tree`,
    with their rows' owners. These lines come first in `notes`, and last as long as the scene does. */
 void scene_advise_unused(const Tree *tree, const Scene *scene, Notes *notes);

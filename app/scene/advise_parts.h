@@ -4,6 +4,9 @@
 
 #include "app/scene/advise.h"
 
+/* That fluid may come to, by what it starts with and its fall, m/s. */
+double scene_greatest_speed(const WorldDef *def);
+
 void advise_step(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_method(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes);

@@ -146,8 +146,7 @@ void advise_borne(const Tree *tree, const Scene *scene, Notes *notes)
     }
 }
 
-/* That fluid may come to, by what it starts with and its fall, m/s. */
-static double greatest_speed(const WorldDef *def)
+double scene_greatest_speed(const WorldDef *def)
 {
     const double *a = def->gravity, g = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     const double start = greatest_start(def);
@@ -168,7 +167,7 @@ void advise_places(const Tree *tree, const Scene *scene, Notes *notes)
 {
     static const double much = 0.01; /* of the flow's speed */
     const WorldDef *def = &scene->world;
-    const double *size = def->box_size, speed = greatest_speed(def), step = step_expected(def, speed);
+    const double *size = def->box_size, speed = scene_greatest_speed(def), step = step_expected(def, speed);
     const double far = fmax(size[1], 0.5 * fmax(size[0], def->dimensions == 2 ? 0 : size[2]));
     const double bit = far - (double)nextafterf((float)far, 0);
     if (speed > 0 && bit / step > much * speed)
@@ -183,7 +182,7 @@ void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
 {
     static const double least = 1.75, good = 3; /* of c over the speed of the flow: pressed by 18 and 6 % */
     const WorldDef *def = &scene->world;
-    const double c = def->sound_speed, speed = greatest_speed(def);
+    const double c = def->sound_speed, speed = scene_greatest_speed(def);
     if (!method_find(def->method)->incompressible && c < least * speed)
         advise(
             tree, "solver.sound_speed", notes,

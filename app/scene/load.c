@@ -225,6 +225,7 @@ static bool fill_scene(Tree *tree, SceneSettings *settings, Scene *out, Notes *n
         return true;
     if (!scene_check_count(tree, out, error))
         return false;
+    scene_fit_step(tree, out, notes);
     scene_advise(tree, out, notes);
     return true;
 }

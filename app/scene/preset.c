@@ -15,15 +15,26 @@ const Key preset_keys[] = {
 };
 
 const Preset preset_list[] = {
-    /* pbf has its iterations for a whole frame. The pressure of a blow is some rho v^2, and dfsph stands 0.25
-       h / sqrt(p / rho): a Courant number above 0.2 boils in what is shaken hard. */
+    /* In the plane a square lattice of 2.1 to 2.8 spacings a support resists shear: waves are 3 to 7 % too
+       fast, and a tank that is shaken off its resonance has 55 to 80 % of its motion. At 3 it hardly does
+       (docs/validation.md). pbf has its iterations for a whole frame. The pressure of a blow is some rho v^2,
+       and dfsph stands 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in what is shaken hard. */
     {"play",
      "the defaults: fast, at large steps",
-     {{"solver.step.dt", "0.016666667", "pbf", 0},
-      {"solver.step.substeps", "1", "pbf", 0},
-      {"solver.step.max_dt", "0.016666667", "pbf", 0},
-      {"solver.step.number", "0.2", "dfsph", 0},
-      {NULL, NULL, NULL, 0}}},
+     {{"particles.support", "3", NULL, 2, NULL},
+      {"particles.support", "3.1", "dfsph", 2, NULL},
+      {"particles.support", "2.1", "wcsph", 2, NULL},
+      {"particles.support", "3", "wcsph", 2, "solver.kernel"},
+      {"solver.kernel", "quintic", "wcsph", 2, "particles.support"},
+      {"solver.viscosity_form", "radial", "wcsph", 2, NULL},
+      {"solver.delta_sph", "0.1", "wcsph", 2, NULL},
+      {"solver.artificial_viscosity", "0.02", "wcsph", 2, NULL},
+      {"solver.numerical_viscosity", "0.03", "mueller", 0, NULL},
+      {"solver.step.dt", "0.016666667", "pbf", 0, NULL},
+      {"solver.step.substeps", "1", "pbf", 0, NULL},
+      {"solver.step.max_dt", "0.016666667", "pbf", 0, NULL},
+      {"solver.step.number", "0.2", "dfsph", 0, NULL},
+      {NULL, NULL, NULL, 0, NULL}}},
     /* Wendland's C2 pairs no particles; friction in the radial form does the fluid's work at a free surface
        too; a figure is the same each time on compute too. In the plane a lattice under pressure at 3.5
        spacings hardly resists shear any more; at 2.6 that makes waves 5 % too fast, at any resolution. In
@@ -34,23 +45,23 @@ const Preset preset_list[] = {
        smoother there, for more time. */
     {"accurate",
      "wcsph as slosh validate measures it: kernel, support, diffusion, friction, step",
-     {{"solver.method", "wcsph", NULL, 0},
-      {"particles.support", "2.6", NULL, 0},
-      {"particles.support", "3.5", "wcsph", 2},
-      {"solver.kernel", "wendland_c2", "wcsph", 0},
-      {"solver.kernel", "quintic", "wcsph", PRESET_SEVERAL},
-      {"solver.delta_sph", "0.1", "wcsph", 0},
-      {"solver.artificial_viscosity", "0.02", "wcsph", 0},
-      {"solver.viscosity_form", "radial", "wcsph", 0},
-      {"solver.step.mode", "cfl", NULL, 0},
-      {"solver.step.number", "0.3", NULL, 0},
-      {"particles.support", "2.1", "dfsph", 3},
-      {"solver.step.number", "0.15", "dfsph", 0},
-      {"solver.step.mode", "fixed", "pbf", 0},
-      {"solver.step.dt", "0.016666667", "pbf", 0},
-      {"solver.step.substeps", "1", "pbf", 0},
-      {"solver.reproducible", "true", NULL, 0}}},
-    {NULL, NULL, {{NULL, NULL, NULL, 0}}},
+     {{"solver.method", "wcsph", NULL, 0, NULL},
+      {"particles.support", "2.6", NULL, 0, NULL},
+      {"particles.support", "3.5", "wcsph", 2, NULL},
+      {"solver.kernel", "wendland_c2", "wcsph", 0, NULL},
+      {"solver.kernel", "quintic", "wcsph", PRESET_SEVERAL, NULL},
+      {"solver.delta_sph", "0.1", "wcsph", 0, NULL},
+      {"solver.artificial_viscosity", "0.02", "wcsph", 0, NULL},
+      {"solver.viscosity_form", "radial", "wcsph", 0, NULL},
+      {"solver.step.mode", "cfl", NULL, 0, NULL},
+      {"solver.step.number", "0.3", NULL, 0, NULL},
+      {"particles.support", "2.1", "dfsph", 3, NULL},
+      {"solver.step.number", "0.15", "dfsph", 0, NULL},
+      {"solver.step.mode", "fixed", "pbf", 0, NULL},
+      {"solver.step.dt", "0.016666667", "pbf", 0, NULL},
+      {"solver.step.substeps", "1", "pbf", 0, NULL},
+      {"solver.reproducible", "true", NULL, 0, NULL}}},
+    {NULL, NULL, {{NULL, NULL, NULL, 0, NULL}}},
 };
 
 static const Preset *preset_find(const char *name)
@@ -82,7 +93,8 @@ bool preset_apply(const Tree *tree, Scene *scene, Error *error)
     for (int k = 0; preset && preset->settings[k].path; k++) {
         const PresetSetting *setting = &preset->settings[k];
         if (!is_meant(setting, method && method->text ? method->text : scene->world.method, tree->dimensions,
-                      fluids ? node_count(fluids) : 0))
+                      fluids ? node_count(fluids) : 0) ||
+            (setting->unless && tree_at(tree, setting->unless)))
             continue;
         if (!fill_in(tree, setting, scene, error))
             return false;
@@ -101,12 +113,21 @@ bool preset_gave(const Scene *scene, const char *path)
     return false;
 }
 
+/* Whether the row is for such scenes; one that goes with another key, where it filled in its own. */
+static bool holds(const Scene *scene, const Preset *preset, int k)
+{
+    const PresetSetting *setting = &preset->settings[k];
+    const WorldDef *def = &scene->world;
+    return is_meant(setting, def->method, def->dimensions, (size_t)def->fluid_count) &&
+           (!setting->unless || scene->preset_filled >> k & 1);
+}
+
 /* Whether a later row for the same key holds. */
-static bool is_superseded(const Preset *preset, int k, const WorldDef *def)
+static bool is_superseded(const Scene *scene, const Preset *preset, int k)
 {
     for (int later = k + 1; preset->settings[later].path; later++)
         if (strcmp(preset->settings[later].path, preset->settings[k].path) == 0 &&
-            is_meant(&preset->settings[later], def->method, def->dimensions, (size_t)def->fluid_count))
+            holds(scene, preset, later))
             return true;
     return false;
 }
@@ -118,9 +139,7 @@ void preset_print(const Scene *scene, FILE *file)
         fprintf(file, "from solver.preset %s\n", preset->name);
     for (int k = 0; preset && preset->settings[k].path; k++) {
         const PresetSetting *setting = &preset->settings[k];
-        if (is_meant(setting, scene->world.method, scene->world.dimensions,
-                     (size_t)scene->world.fluid_count) &&
-            !is_superseded(preset, k, &scene->world))
+        if (holds(scene, preset, k) && !is_superseded(scene, preset, k))
             fprintf(file, "  %s = %s%s\n", setting->path, setting->value,
                     scene->preset_filled >> k & 1 ? "" : " gives way to the scene's own");
     }

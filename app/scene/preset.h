@@ -14,6 +14,7 @@ typedef struct PresetSetting {
     const char *path, *value;
     const char *method; /* the only one that it is for; NULL: all */
     int scenes;         /* 2, 3: of such dimensions alone; PRESET_SEVERAL: of two fluids or more; 0: all */
+    const char *unless; /* a key that goes with it: a scene that names the one chooses the other; or NULL */
 } PresetSetting;
 
 typedef struct Preset {

@@ -17,6 +17,14 @@ double time_table_most(const TimeTable *table)
     return most;
 }
 
+double time_table_least(const TimeTable *table)
+{
+    double least = table->rows > 0 ? INFINITY : 0;
+    for (int k = 0; k < (int)table->rows; k++)
+        least = fmin(least, table->value[k]);
+    return least;
+}
+
 bool time_table_sound(const TimeTable *table)
 {
     const double rows = table->rows;

@@ -17,8 +17,9 @@ typedef struct TimeTable {
 /* Of a table with rows; `time` in s. */
 double time_table_at(const TimeTable *table, double time);
 
-/* The greatest value at any time; 0 without rows. */
+/* The greatest value at any time, and the least; 0 without rows. */
 double time_table_most(const TimeTable *table);
+double time_table_least(const TimeTable *table);
 
 /* Whether there are 0 to TIME_TABLE_ROWS rows, their times ascend and no value is negative, infinite or NaN.
  */

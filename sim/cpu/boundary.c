@@ -159,7 +159,7 @@ static void fill_one(const BoundaryPass *pass, const PairArgs *args, Around *aro
     if (cpu->cell[i] == s->cells.count)
         return;
     const float x[3] = {p->x[i], p->y[i], p->z[i]}, volume = 1 / s->rest_number_density;
-    const bool sticks = s->viscous && s->solids[solid].slip == SLIP_NONE;
+    const bool sticks = s->holds && s->solids[solid].slip == SLIP_NONE;
     Seen seen = {0};
     look_around(args, cpu->cell[i], around);
     for (const CellRow *row = around->rows; row < around->rows + around->count; row++) {
@@ -227,7 +227,7 @@ void cpu_boundary_restore(Cpu *cpu)
     Place place = {.cpu = cpu};
     bool any = false;
     for (int k = 0; k < s->solid_count; k++)
-        any |= place.which[k] = s->viscous && s->solids[k].slip == SLIP_NONE;
+        any |= place.which[k] = s->holds && s->solids[k].slip == SLIP_NONE;
     if (any)
         parallel_ranges(cpu->threads, s->boundary.count, 4 * CPU_GRAIN, restore_range, &place);
 }

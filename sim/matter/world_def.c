@@ -10,6 +10,11 @@ double fluid_viscosity_most(const FluidDef *fluid)
     return fluid->viscosity_table.rows > 0 ? time_table_most(&fluid->viscosity_table) : fluid->viscosity;
 }
 
+double fluid_viscosity_least(const FluidDef *fluid)
+{
+    return fluid->viscosity_table.rows > 0 ? time_table_least(&fluid->viscosity_table) : fluid->viscosity;
+}
+
 WorldDef world_def_most_viscous(const WorldDef *def)
 {
     WorldDef most = *def;

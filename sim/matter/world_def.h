@@ -147,10 +147,11 @@ typedef struct WorldDef {
     const InitialState *initial; /* NULL: the fills; read by world_create only */
 } WorldDef;
 
-/* mu at `time` (s), and the greatest at any time, Pa s. A fluid whose table is above 0 somewhere counts as
-   viscous throughout, so that the terms of a world do not change with time. */
+/* mu at `time` (s), the greatest and the least at any time, Pa s. A fluid whose table is above 0 somewhere
+   counts as viscous throughout, so that the terms of a world do not change with time. */
 double fluid_viscosity_at(const FluidDef *fluid, double time);
 double fluid_viscosity_most(const FluidDef *fluid);
+double fluid_viscosity_least(const FluidDef *fluid);
 
 /* The def with each viscosity the greatest that its table has. */
 WorldDef world_def_most_viscous(const WorldDef *def);

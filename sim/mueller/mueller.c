@@ -17,6 +17,8 @@ static const MuellerDef usual = {
 static const Key keys[] = {
     CHOICE_OF("solver.density_kernel", 0, density_kernels, offsetof(MuellerDef, density_kernel),
               "the kernel that density is summed by"),
+    NUMBER("solver.numerical_viscosity", 0, "", 0, 1, offsetof(MuellerDef, numerical_viscosity),
+           "alpha; fluid rubs as if it had alpha c h / (4 (d + 2)) m2/s at least; 0: none", .off = "0"),
     KEYS_END,
 };
 
@@ -43,9 +45,9 @@ static const ShaderTerm terms[] = {{"POLY6", sums_poly6}, {0}};
 
 static StepFriction mueller_friction(const WorldDef *def, const Lattice *lattice)
 {
-    return (StepFriction){.laminar =
-                              friction_rate(lattice, def->spacing, FRICTION_LAPLACIAN,
-                                            def->support * def->spacing, mueller_kernels(def).density)};
+    return (StepFriction){.laminar = friction_rate(lattice, def->spacing, FRICTION_LAPLACIAN,
+                                                   def->support * def->spacing, mueller_kernels(def).density),
+                          .numerical = mueller_def(def)->numerical_viscosity};
 }
 
 static float mueller_pressure(const Constants *constants, int fluid, float x)

@@ -7,6 +7,7 @@
 
 typedef struct IN_A_ROOM MuellerDef {
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel/kernel.h */
+    double numerical_viscosity;     /* alpha of the friction that fluid has at least: step_viscosity */
 } MuellerDef;
 
 extern const Method method_mueller;

@@ -26,9 +26,14 @@ bool wcsph_diffuses(const Constants *constants)
     return wcsph_constants(constants)->diffusion > 0;
 }
 
-bool wcsph_shifts(const Constants *constants)
+static bool shifts(const Constants *constants)
 {
     return wcsph_constants(constants)->shift_speed > 0;
+}
+
+bool wcsph_returns(const Constants *constants)
+{
+    return shifts(constants) || wcsph_diffuses(constants);
 }
 
 bool wcsph_curves(const Constants *constants)
@@ -43,7 +48,7 @@ bool wcsph_corrects(const Constants *constants)
 
 bool wcsph_carries(const Constants *constants)
 {
-    return wcsph_shifts(constants) && wcsph_corrects(constants);
+    return shifts(constants) && wcsph_corrects(constants);
 }
 
 bool wcsph_layers(const Constants *constants)
@@ -74,9 +79,9 @@ const ColumnDef wcsph_columns[] = {
     {"relative", "", OWN(RELATIVE), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = wcsph_diffuses},
     {"slope", "1/m", OWN(SLOPE), 3, COLUMN_FLOAT, .needed = wcsph_diffuses},
     {"kind", "", AT(kind), 1, COLUMN_FLOAT, .needed = tells_kinds},
-    {"uneven", "1/m4", OWN(UNEVEN), 3, COLUMN_FLOAT, .needed = wcsph_shifts},
-    {"full", "1/m3", OWN(FULL), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
-    {"dense", "1/m3", OWN(DENSE), 1, COLUMN_FLOAT, .needed = wcsph_shifts},
+    {"uneven", "1/m4", OWN(UNEVEN), 3, COLUMN_FLOAT, .needed = wcsph_returns},
+    {"full", "1/m3", OWN(FULL), 1, COLUMN_FLOAT, .needed = wcsph_returns},
+    {"dense", "1/m3", OWN(DENSE), 1, COLUMN_FLOAT, .needed = wcsph_returns},
     {"outward", "", OWN(OUTWARD), 3, COLUMN_FLOAT, .needed = wcsph_curves},
     {"correction", "", OWN(CORRECTION), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS, .needed = wcsph_corrects},
     {"correction_mixed", "", OWN(CORRECTION + 3), 3, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,

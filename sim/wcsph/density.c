@@ -29,7 +29,8 @@ static void state_body(const CpuRange *range)
             cpu_boundary_terms(cpu, i);
             continue;
         }
-        const float before = p->compression[i], e = before + p->own[RATE][i] * range->input->dt,
+        const float before = p->compression[i],
+                    e = wcsph_density_after(before, p->own[RATE][i] * range->input->dt),
                     pressure = wcsph_state_of(s, fluid, e);
         p->compression[i] = e;
         p->volume[i] = 1 / ((1 + e) * s->rest_number_density);

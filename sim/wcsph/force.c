@@ -89,7 +89,7 @@ static PairCost force_pair(const Constants *constants)
         cost.flops += 4 + (viscous ? (own->radial_friction > 0 ? 10 : 9) : 0) + 11 * artificial;
     }
     cost.gather += 4 * wcsph_layers(constants);
-    if (wcsph_shifts(constants))
+    if (wcsph_returns(constants))
         cost.flops += 9 + heights[own->kernel_shape];
     return cost;
 }

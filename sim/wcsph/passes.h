@@ -14,6 +14,18 @@ static inline float wcsph_state_of(const Constants *constants, int fluid, float 
            (7 + e * (21 + e * (35 + e * (35 + e * (21 + e * (7 + e))))));
 }
 
+/* e = rho / rho0 - 1 after a change by x, its rate times a time. Below half of the rest density e goes by
+   another function of the sum s of changes, 1 + e = -1 / (4 s), which joins 1 + s smoothly: what flies apart
+   never comes to a density of 0, and comes back the same way. */
+static inline float wcsph_density_after(float e, float x)
+{
+    const float before = 1 + e, sum = (e >= -0.5F ? e : -0.25F / before) + x;
+    if (sum >= -0.5F)
+        return sum;
+    return e >= -0.5F ? -0.25F / sum - 1
+                      : before / (1 - 4 * x * before) - 1; /* the same; e to the bit for x = 0 */
+}
+
 /* Operations of `shape` in sim/wcsph/pair_kernel.h, counted as sim/world/micro.h says. */
 static inline int wcsph_shape_flops(const Constants *constants)
 {

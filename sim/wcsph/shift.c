@@ -48,5 +48,5 @@ const Pass wcsph_shift = {
     .shader = "wcsph/shift",
     .reads = "position remainder velocity compression uneven full dense carried",
     .writes = "position remainder velocity compression",
-    .needed = wcsph_shifts,
+    .needed = wcsph_returns,
 };

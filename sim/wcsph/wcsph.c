@@ -19,7 +19,7 @@ static const WcsphDef usual = {
 static const Key keys[] = {
     CHOICE_OF("solver.kernel", 0, shape_kernels, AT(kernel), "its kernel"),
     NUMBER("solver.artificial_viscosity", 0, "", 0, 1, AT(artificial_viscosity),
-           "alpha, for fluids without a viscosity; 0: none", .off = "0"),
+           "alpha, of which a fluid has what its viscosity leaves of alpha c h / (4 (d + 2)) m2/s; 0: none", .off = "0"),
     CHOICE_OF("solver.viscosity_form", KEY_INDEX, viscosity_kinds, AT(viscosity_form),
            "what friction by a fluid's viscosity acts along; radial: right at free surfaces, for half the step"),
     NUMBER("solver.delta_sph", 0, "", 0, 0.5, AT(delta_sph), "diffusion of density, 0.1 as a rule; 0: none", .off = "0"),
@@ -75,7 +75,9 @@ static void kernel_set(WcsphBlock *own, const Lattice *lattice, const WorldDef *
 static void wcsph_set(Constants *constants, const WorldDef *def)
 {
     const WcsphDef *said = wcsph_def(def);
-    const float times = said->corrected_gradient ? SHIFT_RETURN_CORRECTED : SHIFT_RETURN;
+    const float times = said->shifting == 0        ? DIFFUSION_RETURN
+                        : said->corrected_gradient ? SHIFT_RETURN_CORRECTED
+                                                   : SHIFT_RETURN;
     WcsphBlock own = {.density_return = constants->sound_speed / (times * constants->support_radius)};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
     kernel_set(&own, &constants->lattice, def);
@@ -84,7 +86,7 @@ static void wcsph_set(Constants *constants, const WorldDef *def)
     own.shift_speed = (float)(said->shifting * c * reach);
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
-        const double alpha = fluid_viscosity_most(fluid) > 0 ? 0 : said->artificial_viscosity;
+        const double alpha = step_alpha(def, said->artificial_viscosity, f);
         own.wcsph_fluids[f] = (WcsphFluid){(float)(fluid->density * c * c / 7),
                                            (float)(0.5 * alpha * c * reach * fluid->density)};
         own.any_artificial |= alpha > 0;
@@ -107,6 +109,7 @@ static void continuity(const Substep *step)
     substep_run(step, &wcsph_continuity, 0.5 * step->dt);
 }
 
+/* Density comes back in the pass of the shift, which is none without a speed. */
 static void shift(const Substep *step)
 {
     if (wcsph_carries(step->constants))
@@ -141,7 +144,7 @@ static void wcsph_substep(const Substep *step)
     substep_terms(step);
     STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
-    if (wcsph_shifts(step->constants))
+    if (wcsph_returns(step->constants))
         STAGE (step->clock, STAGE_FORCE)
             shift(step);
     STAGE (step->clock, STAGE_INTEGRATE)
@@ -175,7 +178,7 @@ static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
                                    {"RADIAL", is_radial},
                                    {"ARTIFICIAL", wcsph_is_artificial},
                                    {"DIFFUSION", wcsph_diffuses},
-                                   {"SHIFTING", wcsph_shifts},
+                                   {"SHIFTING", wcsph_returns},
                                    {"CORRECTED", wcsph_corrects},
                                    {"CURVATURE", wcsph_curves},
                                    {"LAYERS", wcsph_layers},
@@ -183,7 +186,7 @@ static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
 
 /* Of vec4, see slope.comp, evenness.glsl, correction.glsl and surface.glsl. */
 static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses},
-                                       {"Unevens", 32, wcsph_shifts},
+                                       {"Unevens", 32, wcsph_returns},
                                        {"Corrections", 32, wcsph_corrects},
                                        {"Outwards", 16, wcsph_curves},
                                        {0}};

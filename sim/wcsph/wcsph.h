@@ -7,7 +7,7 @@
 
 typedef struct IN_A_ROOM WcsphDef {
     char kernel[NAME_SIZE];      /* see shape_kernels in sim/kernel/kernel.h */
-    double artificial_viscosity; /* alpha, for fluids without a viscosity */
+    double artificial_viscosity; /* alpha, for fluids that have less than it stands for: step_alpha */
     int viscosity_form;          /* a ViscosityForm of sim/matter/viscosity.h */
     double delta_sph;            /* delta of the diffusion of density; 0: none */
     double shifting;             /* chi of the shifting of particles (Backend.shift); 0: none */

@@ -1,8 +1,9 @@
-/* What of a scene does not go together under wcsph: a kernel and its support, a viscosity in place of the
-   artificial one. */
+/* What of a scene does not go together under wcsph: a kernel and its support, an artificial viscosity and a
+   greater one of the fluid. */
 #include "sim/wcsph/wcsph.h"
 #include "sim/world/step_control.h"
 
+#include <math.h>
 #include <stdio.h>
 
 /* Measured with sound at 20 m/s, alpha 0.05: docs/methods.md. */
@@ -28,40 +29,25 @@ static void advise_kernel(const MethodAdvice *advice)
             def->support, kernel->name, lattice.neighbours);
 }
 
-/* Whether the scene chose an alpha, though each of its fluids has a viscosity, which takes the place of
- * alpha. */
-static bool alpha_in_vain(const MethodAdvice *advice)
-{
-    const WorldDef *def = advice->def;
-    const WcsphDef *usual = method_wcsph.def;
-    bool in_vain = wcsph_def(def)->artificial_viscosity != usual->artificial_viscosity &&
-                   advice->chosen(advice->to, "solver.artificial_viscosity");
-    for (int f = 0; f < def->fluid_count; f++)
-        in_vain = in_vain && fluid_viscosity_most(&def->fluids[f]) > 0;
-    return in_vain;
-}
-
-/* Says where a viscosity gives less than half the friction of alpha, or alpha was chosen in vain. */
+/* Where the scene chose an alpha, and each of its fluids rubs more than that stands for. */
 static void advise_artificial(const MethodAdvice *advice)
 {
     const WorldDef *def = advice->def;
+    const WcsphDef *usual = method_wcsph.def;
     const double alpha = wcsph_def(def)->artificial_viscosity;
-    if (alpha == 0)
-        return;
-    const bool in_vain = alpha_in_vain(advice);
+    double thinnest = INFINITY, left = 0;
     for (int f = 0; f < def->fluid_count; f++) {
-        const FluidDef *fluid = &def->fluids[f];
-        const double most = fluid_viscosity_most(fluid),
-                     same = artificial_kinematic(def, alpha) * fluid->density;
-        char path[64];
-        snprintf(path, sizeof path, "fluids[%d].viscosity", f);
-        if (most > 0 && (most < 0.5 * same || in_vain))
-            method_say(
-                advice, path,
-                "%g Pa s takes the place of solver.artificial_viscosity %g, which is some %.3g Pa s at this "
-                "spacing; leave %s out, or make the latter 0",
-                most, alpha, same, in_vain ? "one of them" : "the viscosity");
+        thinnest = fmin(thinnest, def->fluids[f].density);
+        left = fmax(left, step_alpha(def, alpha, f));
     }
+    if (alpha == 0 || left > 0 || alpha == usual->artificial_viscosity ||
+        !advice->chosen(advice->to, "solver.artificial_viscosity"))
+        return;
+    method_say(
+        advice, "solver.artificial_viscosity",
+        "solver.artificial_viscosity %g adds nothing: it stands for %.3g Pa s, and each fluid has more; leave "
+        "it out, or lower fluids[0].viscosity",
+        alpha, numerical_kinematic(def, alpha) * thinnest);
 }
 
 void wcsph_advise(const MethodAdvice *advice)

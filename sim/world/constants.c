@@ -250,15 +250,17 @@ static void fluids_set(Constants *constants, const WorldDef *def)
     constants->negative_pressure = def->negative_pressure;
     constants->reproducible = def->reproducible;
     constants->viscous = constants->varies = false;
+    bool named = false;
     constants->sound_speed = (float)def->sound_speed;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
-        const bool viscous = fluid_viscosity_most(fluid) > 0;
+        const bool names = fluid_viscosity_most(fluid) > 0;
         constants->mass[f] = (float)(fluid->density / constants->lattice.number_density);
         constants->density[f] = (float)fluid->density;
         constants->stiffness[f] = (float)(c2 * fluid->density);
-        constants->viscosity[f] = (float)fluid->viscosity;
-        constants->viscous |= viscous;
+        constants->viscosity[f] = (float)step_viscosity(def, &constants->friction, f);
+        constants->viscous |= names || constants->viscosity[f] > 0;
+        named |= names;
         constants->varies |= fluid->viscosity_table.rows > 0;
     }
     constants->accelerations = def->acceleration;
@@ -267,7 +269,8 @@ static void fluids_set(Constants *constants, const WorldDef *def)
     constants->implicit.tolerance = def->viscosity_tolerance;
     constants->implicit.most = def->viscosity_iterations;
     constants->rubs = constants->viscous && !constants->implicit.on;
-    constants->no_slip = constants->viscous && def->wall_slip == SLIP_NONE;
+    constants->holds = named;
+    constants->no_slip = named && def->wall_slip == SLIP_NONE;
     constants->lid = constants->no_slip && length2(def->lid) > 0;
     for (int k = 0; k < 3; k++)
         constants->lid_velocity[k] = (float)def->lid[k];
@@ -394,7 +397,7 @@ bool constants_vary(Constants *constants, const WorldDef *def)
 {
     bool other = false;
     for (int f = 0; f < def->fluid_count; f++) {
-        const float now = (float)def->fluids[f].viscosity;
+        const float now = (float)step_viscosity(def, &constants->friction, f);
         other |= constants->viscosity[f] != now;
         constants->viscosity[f] = now;
     }

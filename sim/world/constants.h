@@ -55,8 +55,9 @@ typedef struct Constants {
     float density[FLUIDS_MAX];   /* rho0, kg/m3 */
     float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 stiffness_scale, Pa */
     float stiffness_scale;       /* relative change of density over that of n / n0, see Lattice */
-    float viscosity[FLUIDS_MAX]; /* mu, Pa s; of the step in hand where it varies */
-    bool viscous;                /* some mu is not zero, now or ever, */
+    float viscosity[FLUIDS_MAX]; /* step_viscosity, Pa s; of the step in hand where it varies */
+    bool holds;                  /* a fluid names a viscosity: what has no slip holds it */
+    bool viscous;                /* something rubs, now or ever, */
     bool rubs;                   /* and forces have its friction; else sim/viscosity has */
     bool varies;                 /* some mu is a table over time */
     bool negative_pressure;

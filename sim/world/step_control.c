@@ -52,13 +52,13 @@ StepFriction step_friction(const WorldDef *def)
 }
 
 /* A light particle between those of the most viscous fluid. */
-static double greatest_kinematic_viscosity(const WorldDef *def)
+static double greatest_kinematic_viscosity(const WorldDef *def, const StepFriction *friction)
 {
     double greatest = 0, most = 0;
     for (int f = 0; f < def->fluid_count; f++)
-        most = fmax(most, def->fluids[f].viscosity);
+        most = fmax(most, step_viscosity(def, friction, f));
     for (int f = 0; f < def->fluid_count; f++)
-        greatest = fmax(greatest, 0.5 * (def->fluids[f].viscosity + most) / def->fluids[f].density);
+        greatest = fmax(greatest, 0.5 * (step_viscosity(def, friction, f) + most) / def->fluids[f].density);
     return greatest;
 }
 
@@ -88,21 +88,39 @@ double artificial_kinematic(const WorldDef *def, double alpha)
     return 0.25 * alpha * def->sound_speed * def->support * def->spacing;
 }
 
-/* Whether artificial viscosity acts on some fluid. */
-static bool any_inviscid(const WorldDef *def)
+double numerical_kinematic(const WorldDef *def, double alpha)
 {
-    bool any = false;
+    return artificial_kinematic(def, alpha) / (def->dimensions + 2);
+}
+
+double step_viscosity(const WorldDef *def, const StepFriction *friction, int f)
+{
+    const FluidDef *fluid = &def->fluids[f];
+    return fmax(fluid->viscosity, numerical_kinematic(def, friction->numerical) * fluid->density);
+}
+
+double step_alpha(const WorldDef *def, double alpha, int f)
+{
+    const FluidDef *fluid = &def->fluids[f];
+    const double stands_for = numerical_kinematic(def, alpha) * fluid->density;
+    return stands_for > 0 ? alpha * fmax(0, 1 - fluid_viscosity_least(fluid) / stands_for) : 0;
+}
+
+/* The most artificial viscosity that some fluid has. */
+static double greatest_alpha(const WorldDef *def, double alpha)
+{
+    double greatest = 0;
     for (int f = 0; f < def->fluid_count; f++)
-        any |= fluid_viscosity_most(&def->fluids[f]) == 0;
-    return any;
+        greatest = fmax(greatest, step_alpha(def, alpha, f));
+    return greatest;
 }
 
 double step_viscous(const WorldDef *def, const StepFriction *friction)
 {
     const double laminar = def->viscosity_solver == VISCOSITY_IMPLICIT ? 0 : friction->laminar;
     const double rate =
-        fmax(laminar * greatest_kinematic_viscosity(def),
-             any_inviscid(def) ? friction->artificial * artificial_kinematic(def, friction->alpha) : 0);
+        fmax(laminar * greatest_kinematic_viscosity(def, friction),
+             friction->artificial * artificial_kinematic(def, greatest_alpha(def, friction->alpha)));
     return rate > 0 ? 2 / rate : INFINITY;
 }
 
@@ -129,15 +147,6 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
         snprintf(words, 200, "use %s", shorter);
 }
 
-static double least_viscosity(const FluidDef *fluid)
-{
-    const TimeTable *table = &fluid->viscosity_table;
-    double least = table->rows > 0 ? INFINITY : fluid->viscosity;
-    for (int row = 0; row < table->rows; row++)
-        least = fmin(least, table->value[row]);
-    return least;
-}
-
 /* The rate at which implicit friction damps what boils, 1/s: of the least viscous fluid, over the heaviest's
    density. In a column that boils it is 62 to 83 nu / h^2 (docs/failures.md). */
 static double boiling_damped(const WorldDef *def)
@@ -146,7 +155,7 @@ static double boiling_damped(const WorldDef *def)
     const double h = def->support * def->spacing;
     double least = INFINITY, heaviest = 0;
     for (int f = 0; f < def->fluid_count; f++) {
-        least = fmin(least, least_viscosity(&def->fluids[f]));
+        least = fmin(least, fluid_viscosity_least(&def->fluids[f]));
         heaviest = fmax(heaviest, def->fluids[f].density);
     }
     return def->viscosity_solver == VISCOSITY_IMPLICIT && def->fluid_count > 0

@@ -96,6 +96,16 @@ double step_sound(const WorldDef *def);
 /* The viscosity that an artificial one stands for, alpha c h / 4, m2/s. */
 double artificial_kinematic(const WorldDef *def, double alpha);
 
+/* The same as a laminar one, whose work in a shear it does: alpha c h / (4 (d + 2)), m2/s (Monaghan 2005). */
+double numerical_kinematic(const WorldDef *def, double alpha);
+
+/* What of alpha remains for fluid f: all without a viscosity, none from the viscosity on that alpha stands
+   for. */
+double step_alpha(const WorldDef *def, double alpha, int f);
+
+/* What pairs of fluid f rub by, Pa s: its viscosity now, or the method's numerical one where that is more. */
+double step_viscosity(const WorldDef *def, const StepFriction *friction, int f);
+
 /* The longest step that friction stands on the lattice at rest, s: what is longer makes differences of
    velocity grow. With the def's present viscosities; of a pair of fluids their mean counts, over the lighter
    one's density. INFINITY without friction. */

@@ -9,6 +9,7 @@
 typedef struct StepFriction {
     double laminar, artificial; /* the latter 0 where the def has none */
     double alpha;               /* of the artificial viscosity */
+    double numerical;           /* alpha of the viscosity that pairs of fluid have at least */
     DragWeight walls;           /* how walls that hold fluid weigh theirs */
 } StepFriction;
 

@@ -55,7 +55,9 @@ static void another_methods_terms_are_none(void **state)
     static Scene scene;
     SceneTerm terms[TERMS_MAX];
     parse("solver.method=mueller", &scene);
-    assert_int_equal(scene_terms(&scene, terms), 2); /* box.slip and the viscosity */
+    const int count = scene_terms(&scene, terms);
+    assert_true(has(terms, count, "solver.numerical_viscosity", "0.03")); /* by default */
+    assert_int_equal(count, 3); /* box.slip and the viscosity besides */
 }
 
 static void a_table_is_on(void **state)

@@ -706,7 +706,7 @@ static void test_terms_have_switches(void **state)
     desk = session_open(&session, "impact", 700, TALL, 13); /* long names */
     desk_click_at(desk, "Terms", 0.3F);
     desk_frames(desk, 30);
-    assert_non_null(desk_find(desk, "solver artificial viscosity 0.05: needs a new start to go, with --set "
+    assert_non_null(desk_find(desk, "solver artificial viscosity 0.02: needs a new start to go, with --set "
                                     "solver.artificial_viscosity=0"));
     assert_nothing_is_cut(desk);
     session_close(&session, desk);

@@ -86,7 +86,7 @@ static void record(uint64_t *hash)
         live_substep(&live);
     }
     live_set(&live, "gravity=[0, -3,\n 0.5]");
-    live_set(&live, "fluids[1].viscosity=0.5");
+    live_set(&live, "fluids[1].viscosity=50");
     live_set(&live, "view.range=[0, 1]");
     live_frames(&live, 10);
     live_set(&live, "solver.step.substeps=3");

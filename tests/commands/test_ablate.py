@@ -100,7 +100,7 @@ class Ablate(AblateTest):
         self.assertTrue(broken['outcome_words'])
 
     def test_a_scene_without_terms(self):
-        self.write('tank.yaml', SCENE.replace(', slip: none', '').replace('method: wcsph, delta_sph: 0.1, ', ''))
+        self.write('tank.yaml', SCENE.replace(', slip: none', '').replace('method: wcsph, delta_sph: 0.1, ', 'numerical_viscosity: 0, '))
         done = self.run_it('tank.yaml', '--time', '0.1')
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn('the scene has no term that it could do without', done.stdout)

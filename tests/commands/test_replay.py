@@ -11,7 +11,7 @@ from command import SCENE, CommandTest, limit_files, video_frames, whole_steps
 COMMANDS = ['0 target 0x1.999999999999ap-4 0 0 0 0 0 1',
             '20 set gravity=[0, -3, 0]',
             '21 carry 0.1 0 0 0 0 0.2 1',
-            '40 set fluids[1].viscosity=0.3',
+            '40 set fluids[1].viscosity=30',
             '40 target 0 0.1 0 0.1 0 0 1']
 
 

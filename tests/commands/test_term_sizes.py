@@ -15,7 +15,7 @@ def scene(more="", box="", particles="", fluid="", solver="", fluids=""):
 box: {{size: [1, 1]{box}}}
 particles: {{spacing: 0.025, support: 2.6{particles}}}
 fluids: {fluids or f"[{{fill: [{BLOCK}]{fluid}}}]"}
-solver: {{step: {{dt: 0.001, substeps: 1, retries: 0}}{solver}}}
+solver: {{step: {{dt: 0.001, substeps: 1, retries: 0}}, {"" if "delta_sph" in solver else "delta_sph: 0, "}numerical_viscosity: 0{solver}}}
 {more}
 """
 
@@ -43,7 +43,7 @@ SCENES = {
     "wcsph": scene(solver=WCSPH),
     "wcsph off": scene(solver=WCSPH + ", surface_tension: colour_field, delta_sph: 0, shifting: 0, corrected_gradient: false, viscosity_form: radial",
                        fluid=", viscosity: 0", box=", slip: none, periodic: []"),
-    "wcsph, artificial": scene(solver=", method: wcsph"),
+    "wcsph, artificial": scene(solver=", method: wcsph, artificial_viscosity: 0.05"),
     "wcsph, diffusion": scene(solver=WCSPH + ", delta_sph: 0.1"),
     "wcsph, viscous": scene(solver=WCSPH, fluid=VISCOUS),
     "wcsph, corrected": scene(solver=WCSPH + ", corrected_gradient: true"),

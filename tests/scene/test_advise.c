@@ -37,11 +37,14 @@ static const struct Case {
      "too long for solver.artificial_viscosity 1:"},
     /* sound: h / c = 10.5 ms */
     {{"solver.step={dt: 0.01, substeps: 1}"}, "too long for sound at 20 m/s"},
-    {{"solver.step={dt: 0.0055, substeps: 1}"}, "steps of 0.52 h / sound_speed heat fluid"},
+    {{"solver.step={dt: 0.0055, substeps: 1}", "solver.numerical_viscosity=0"},
+     "steps of 0.52 h / sound_speed heat fluid"},
+    {{"solver.step={dt: 0.0055, substeps: 1}"}, NULL},
     {{"solver.step={dt: 0.0052, substeps: 1}"}, NULL},
     {{"solver.step={dt: 0.0055, substeps: 1}", "fluids[0].viscosity=2"}, NULL},
     {{"solver.step={dt: 0.0055, substeps: 1}", "solver.method=wcsph"}, NULL},
-    {{"solver.step={mode: cfl, number: 0.6}"}, "use at most 0.5, or a viscosity"},
+    {{"solver.step={mode: cfl, number: 0.6}", "solver.numerical_viscosity=0"},
+     "use at most 0.5, or a viscosity"},
     /* a place of 500 m is kept to 31 um, in 1 ms; 1 % of 3.13 m/s is 0.03 */
     {{"box.size=[1000, 1, 1]", "solver.step={dt: 0.00097, substeps: 1}"},
      "500 m from the box's origin places are kept to 0.031 mm: there, what is slower than 0.031 m/s does not "
@@ -99,12 +102,12 @@ static const struct Case {
     {{"solids=[{sphere: {centre: [0, 0.8, 0], radius: 0.06}}]",
       "motion=[{shake: {axis: [1, 0, 0], amplitude: 0.1, frequency: 3}}]"},
      NULL},
-    {{"solver.method=wcsph", "fluids[0].viscosity=0.001"},
-     "0.001 Pa s takes the place of solver.artificial_viscosity 0.05, which is some 52.5 Pa s"},
+    {{"solver.method=wcsph", "fluids[0].viscosity=0.001"}, NULL}, /* 0.05 stands for 10.5 Pa s */
+    {{"solver.method=wcsph", "fluids[0].viscosity=8", "solver.artificial_viscosity=0.04"}, NULL},
     {{"solver.method=wcsph", "fluids[0].viscosity=0.001", "solver.artificial_viscosity=0"}, NULL},
     {{"solver.method=wcsph", "fluids[0].viscosity=30"}, NULL},
     {{"solver.method=wcsph", "fluids[0].viscosity=60", "solver.artificial_viscosity=0.04"},
-     "leave one of them out"},
+     "solver.artificial_viscosity 0.04 adds nothing: it stands for 8.4 Pa s, and each fluid has more"},
     {{"solver.preset=accurate", "fluids[0].viscosity=60"}, NULL}, /* its alpha was not chosen */
     {{"solver.method=wcsph", "fluids[0].viscosity=60", "solver.artificial_viscosity=0.04",
       "fluids[1]={fill: [{block: {min: [-0.5, 0.6, -0.5], max: [0.5, 1, 0.5]}}]}"},

@@ -1,4 +1,5 @@
 /* solver.preset: fills in what a scene does not name, by method and dimensions, and nothing else. */
+#include "sim/mueller/mueller.h"
 #include "sim/wcsph/wcsph.h"
 #include "tests/scene/scene_text.h"
 
@@ -71,6 +72,25 @@ static void a_method_gets_its_own_keys(void **state)
     assert_true(def->support == 2.1 && def->cfl_number == 0.15);
     assert_int_equal(world_of(ACCURATE "  method: pbf\n", NULL)->step_mode, STEP_FIXED);
     assert_float_equal(world_of(LEAST, "solver.method=dfsph")->cfl_number, 0.2, 0);
+}
+
+/* In the plane a support at which the lattice does not resist shear; friction of its resolution. */
+static void play_knows_the_method(void **state)
+{
+    (void)state;
+    const WorldDef *def = world_of(PLANE, "solver={method: mueller}");
+    assert_float_equal(def->support, 3, 0);
+    assert_float_equal(mueller_def(def)->numerical_viscosity, 0.03, 0);
+    assert_float_equal(world_of(PLANE, "solver={method: dfsph}")->support, 3.1, 0);
+    assert_float_equal(world_of(PLANE, "solver={method: pbf}")->support, 3, 0);
+    def = world_of(PLANE, "solver={method: wcsph}");
+    assert_true(def->support == 3 && wcsph_def(def)->artificial_viscosity == 0.02);
+    assert_string_equal(wcsph_def(def)->kernel, "quintic");
+    assert_float_equal(world_of(LEAST, "solver.method=wcsph")->support, 2.1, 0);
+    def = world_of(PLANE, "solver={method: wcsph, kernel: cubic}"); /* a kernel and its support go together */
+    assert_float_equal(def->support, 2.1, 0);
+    def = world_of(PLANE, "particles={spacing: 0.1, support: 2.2}");
+    assert_float_equal(def->support, 2.2, 0);
 }
 
 /* A scene that says `play`, or nothing, is what it was before there were presets. */
@@ -148,6 +168,7 @@ int main(void)
         cmocka_unit_test(it_fills_in_what_is_not_named),
         cmocka_unit_test(it_gives_way_to_scene_and_command_line),
         cmocka_unit_test(a_method_gets_its_own_keys),
+        cmocka_unit_test(play_knows_the_method),
         cmocka_unit_test(play_is_the_defaults),
         cmocka_unit_test(all_names_are_known),
         cmocka_unit_test(it_is_told_what_came_from_it),

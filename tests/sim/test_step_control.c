@@ -67,8 +67,17 @@ static void friction_of_several_fluids(void **state)
     friction.alpha = 1;
     def.sound_speed = 100; /* alpha c h / 4 = 5.25 m2/s */
     assert_true(fabs(step_viscous(&def, &friction) - 2 / (50 * 5.25)) < 1e-12);
-    def.fluids[0].viscosity_table = (TimeTable){.rows = 1, .value = {1}};
-    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 1.5)) < 1e-12);
+    def.fluids[0].viscosity_table =
+        (TimeTable){.rows = 1, .value = {2.1}}; /* alpha stands for 10.5 Pa s here */
+    assert_true(fabs(step_viscous(&def, &friction) - 2 / ((1 - 30.0 / 1050) * 50 * 5.25)) < 1e-12);
+    def.fluid_count = 1;
+    assert_true(fabs(step_viscous(&def, &friction) - 2 / (0.8 * 50 * 5.25)) < 1e-12);
+    def.fluids[0].viscosity_table.value[0] = 11;
+    assert_true(isinf(step_viscous(&def, &friction))); /* none of alpha is left */
+    def.fluid_count = 2;
+    friction.numerical = 1; /* 1.05 m2/s in both */
+    def.fluids[1].viscosity = 0;
+    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 0.5 * (10.5 + 1050) / 10)) < 1e-12);
 }
 
 static WorldInfo info_of(const World *world)
@@ -233,8 +242,9 @@ static void friction_stands_the_step_that_it_names(void **state)
     fixture_needs_cpu("the limit is the same on all backends");
     for (size_t n = 0; n < sizeof cases / sizeof *cases; n++) {
         const Stirred *s = &cases[n];
-        /* where two meet, half of a light one's neighbours are light; radial friction boils slowly at 2 */
-        const double beyond = s->two || s->form ? 3 : 1.5;
+        /* where two meet, half of a light one's neighbours are light; radial friction and walls boil slowly
+         * at 2 */
+        const double beyond = s->two || s->form || s->walls ? 3 : 1.5;
         const double calm = energy_left(s, STEP_VISCOUS_STANDS), wild = energy_left(s, beyond);
         printf("%s %s %dD %g%s%s%s: %.3g at %g, %.3g at %g of the longest step\n", s->method, s->kernel,
                s->dimensions, s->support, s->form ? " radial" : "", s->two ? " two" : "",

@@ -60,7 +60,7 @@ static WorldDef two_fluids(const char *kernel, double oil)
 typedef struct Reference {
     double x[COUNT][3], v[COUNT][3], rate[COUNT], density[COUNT], scale[COUNT], slope[COUNT][3];
     double diffused[COUNT]; /* density that diffusion goes by */
-    double h, n0, gradient, radial;
+    double h, n0, gradient, radial, density_scale;
     const Kernel *kernel;
 } Reference;
 
@@ -246,6 +246,28 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
     }
 }
 
+/* Density comes back to the sum of W, the more the fuller the space around. */
+static void reference_return(const WorldDef *def, const Cloud *cloud, Reference *r)
+{
+    const double times = 400; /* DIFFUSION_RETURN */
+    for (int i = 0; i < COUNT; i++) {
+        const double rho0 = def->fluids[cloud->fluid[i]].density;
+        double sum = r->kernel->value(0, r->h), full = 0;
+        for (int walls = 0; walls < 27; walls++)
+            for (int j = 0; j < COUNT && near_walls(def, r, walls, i); j++) {
+                double x[3], v[3];
+                const double f = image_of(def, r, walls, i, j, x, v), d2 = dot(x, x);
+                if (d2 >= r->h * r->h || (walls == 0 && i == j))
+                    continue;
+                sum += r->kernel->value(sqrt(d2), r->h);
+                full += (walls ? f : -r->gradient * r->kernel->derivative(sqrt(d2), r->h) / sqrt(d2)) * d2;
+            }
+        const double share = fmin(fmax((full / (3 * r->n0) - 0.8) / 0.15, 0), 1);
+        r->density[i] += dt * def->sound_speed / (times * r->h) * share *
+                         (rho0 * sum * r->density_scale / r->n0 - r->density[i]);
+    }
+}
+
 static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *r)
 {
     Lattice lattice;
@@ -255,6 +277,7 @@ static void reference_begin(const WorldDef *def, const Cloud *cloud, Reference *
     r->n0 = lattice.number_density;
     r->gradient = lattice.gradient_scale;
     r->radial = lattice.radial_scale;
+    r->density_scale = lattice.density_scale;
     for (int i = 0; i < COUNT; i++) {
         r->density[i] = r->diffused[i] = cloud->density[i];
         for (int k = 0; k < 3; k++) {
@@ -303,6 +326,7 @@ static void step_equals_brute_force(const char *kernel, ViscosityForm form, doub
                          r.scale[i]);
         }
     double change = 0;
+    reference_return(&def, &cloud, &r);
     reference_drift(&r);
     reference_rate(&def, &cloud, &r);
     for (int i = 0; i < COUNT; i++) {
@@ -539,7 +563,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0x0f79dbe8921b73e4ULL)
+    if (hash[0] != 0x579eff94dd079590ULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 

@@ -22,7 +22,6 @@ static WorldDef tank_def(const Tank *tank)
     def.sound_speed = 31.3; /* ten times sqrt(g H) */
     def.dt = 0.3 * def.support * def.spacing / def.sound_speed;
     wcsph_def(&def)->artificial_viscosity = 0.02;
-    wcsph_def(&def)->delta_sph = 0.1;
     def.reproducible = false;
     return def;
 }

@@ -39,7 +39,7 @@ void main()
     uint number = boundary_state[i].y;
     int k = int(rest[number].w);
     float p = 0.0, volume = 1.0 / rest_number_density;
-#ifdef VISCOUS
+#ifdef HOLDS
     bool sticks = solids[k].sticks != 0 && weight > 0.0;
 #else
     bool sticks = false;

@@ -115,7 +115,7 @@ void main()
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
     float rate = -gradient_scale * (sum + image_sum) / rest_number_density;
-    float e = velocity[i].w + rate * dt;
+    float e = density_after(velocity[i].w, rate * dt);
     State state = state_of(e, own_fluid);
     own[OWN_rate + i] = rate;
     velocity[i].w = e;

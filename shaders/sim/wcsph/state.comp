@@ -19,7 +19,7 @@ void main()
     uint i = invocation();
     if (i >= particle_count())
         return;
-    float before = velocity[i].w, e = before + own[OWN_rate + i] * dt;
+    float before = velocity[i].w, e = density_after(before, own[OWN_rate + i] * dt);
     State state = state_of(e, name[i].y);
     velocity[i].w = e;
     position[i].w = state.volume;

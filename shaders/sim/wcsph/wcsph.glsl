@@ -26,6 +26,15 @@ float contrast(float mine, float theirs)
 #define BOTH_PRESS(own, other, w) ((own) + (other))
 #endif
 
+// e = rho / rho0 - 1 after a change by x: wcsph_density_after of sim/wcsph/passes.h.
+float density_after(float e, float x)
+{
+    float before = 1.0 + e, sum = (e >= -0.5 ? e : -0.25 / before) + x;
+    if (sum >= -0.5)
+        return sum;
+    return e >= -0.5 ? -0.25 / sum - 1.0 : before / (1.0 - 4.0 * x * before) - 1.0;
+}
+
 struct State {
     float volume;
     vec2 pressure; // p, p V^2

@@ -24,7 +24,7 @@
 BLOCK_STRUCT(WcsphFluid)
 {
     float tait;                 /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
-    float artificial_viscosity; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with viscosity */
+    float artificial_viscosity; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid that has as much itself */
 }
 BLOCK_END(WcsphFluid);
 
@@ -34,7 +34,7 @@ UNIFORM_BLOCK(WcsphBlock, METHOD_BLOCK)
     float diffusion;        /* 2 delta c (h / 2), m2/s; 0: none */
     float radial_friction;  /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
     float shift_speed;      /* chi c h / 2, m2/s; 0: none: Lind 2012 */
-    float density_return;   /* of shifting, 1/s */
+    float density_return;   /* of shifting and diffusion, 1/s */
     int kernel_shape;       /* a ShapeKernel of sim/kernel/kernel.h */
     int corrected_gradient; /* sim/wcsph/corrected.c */
     int any_artificial;     /* some fluid has an artificial viscosity */

@@ -39,7 +39,7 @@ void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
         {has_meshes(s), "MESHES"},
         {s->reproducible, "REPRODUCIBLE"},
         {s->fluid_count == 1, "ONE_FLUID"},
-        {s->viscous, "VISCOUS"},
+        {s->holds, "HOLDS"},
         {s->rubs, "RUBS"},
         {s->negative_pressure, "NEGATIVE_PRESSURE"},
         {s->method->carries_density, "CARRIES_DENSITY"},

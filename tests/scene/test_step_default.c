@@ -1,0 +1,94 @@
+/* What a scene does not name of sound and step fits its size; what it names stays. */
+#include "tests/scene/scene_text.h"
+
+#include "sim/world/step_control.h"
+
+#include <math.h>
+
+static Scene scene;
+static Notes notes;
+
+/* A dam of that height, 20 spacings high; further keys of the solver. */
+static const WorldDef *dam(double height, const char *solver)
+{
+    char text[512];
+    SceneSettings settings = {.count = 0};
+    Error error;
+    snprintf(text, sizeof text,
+             "box: {size: [%g, %g]}\nparticles: {spacing: %g}\n"
+             "fluids: [{fill: [{block: {min: [%g, 0], max: [0, %g]}}]}]\nsolver: {%s}\n",
+             2 * height, 2 * height, height / 20, -height, height, solver);
+    if (!scene_parse("scene.yaml", text, strlen(text), &settings, &scene, &notes, &error))
+        fail_msg("%s", error.message);
+    return &scene.world;
+}
+
+static bool told(const char *line)
+{
+    for (int i = 0; i < notes.count; i++)
+        if (strstr(notes.line[i], line))
+            return true;
+    return false;
+}
+
+/* Over what sound takes to cross h. */
+static double share(const WorldDef *def)
+{
+    return def->dt / def->substeps / (def->support * def->spacing / def->sound_speed);
+}
+
+static void a_scene_of_a_hand_has_the_usual_ones(void **state)
+{
+    (void)state;
+    const WorldDef *def = dam(0.6, "");
+    assert_true(def->sound_speed == 20 && def->dt == 0.01 && def->substeps == 10);
+    assert_int_equal(notes.count, 0);
+}
+
+static void any_size_has_sound_and_steps_of_its_own(void **state)
+{
+    (void)state;
+    static const double heights[] = {1e-3, 0.057, 3, 100};
+    static const char *const methods[] = {"method: mueller", "method: wcsph"};
+    for (int k = 0; k < 8; k++) {
+        const double height = heights[k / 2], speed = sqrt(2 * 9.81 * height);
+        const WorldDef *def = dam(height, methods[k % 2]);
+        assert_true(def->sound_speed >= 7 * speed && def->sound_speed < 7.8 * speed); /* two digits */
+        assert_true(share(def) <= STEP_SOUND_CALM);
+        assert_true(def->substeps == 10 || share(def) > 0.95 * STEP_SOUND_CALM);
+        assert_true(told("scene.yaml: solver.sound_speed: ") &&
+                    (def->substeps == 10 || told("which sound stands here")));
+    }
+}
+
+static void what_is_named_stays(void **state)
+{
+    (void)state;
+    const WorldDef *def = dam(0.057, "sound_speed: 20, step: {substeps: 10}");
+    assert_true(def->sound_speed == 20 && def->substeps == 10);
+    assert_true(told("too long for sound"));
+    assert_int_equal(dam(0.057, "sound_speed: 20, step: {dt: 0.01}")->substeps, 10);
+    def = dam(0.057, "sound_speed: 20");
+    assert_true(def->sound_speed == 20 && def->substeps == 47);
+}
+
+static void friction_and_speed_bind_too(void **state)
+{
+    (void)state;
+    const WorldDef *def = dam(0.6, "method: dfsph");
+    assert_int_equal(def->substeps, 10);
+    assert_true(dam(0.01, "method: dfsph")->substeps > 10);
+    assert_true(told("which speed stands here") || told("which pressure stands here"));
+    assert_int_equal(dam(0.01, "method: pbf")->substeps, 1); /* any step holds */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_scene_of_a_hand_has_the_usual_ones),
+        cmocka_unit_test(any_size_has_sound_and_steps_of_its_own),
+        cmocka_unit_test(what_is_named_stays),
+        cmocka_unit_test(friction_and_speed_bind_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

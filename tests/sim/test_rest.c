@@ -1,0 +1,170 @@
+/* What comes to rest rests: friction of the resolution where a fluid names less; density that comes back to
+   that of the particles' places; none below 0. */
+#include "sim/mueller/mueller.h"
+#include "sim/wcsph/passes.h"
+#include "sim/wcsph/wcsph.h"
+#include "sim/world/step_control.h"
+#include "tests/sim/fixture.h"
+
+/* A dam of 13 x 15 particles in the plane. */
+static WorldDef dam(const char *method, double alpha)
+{
+    WorldDef def = fixture_def(1, 1, 0.04);
+    def.dimensions = 2;
+    def.spacing = 0.04;
+    def.support = 3;
+    snprintf(def.method, sizeof def.method, "%s", method);
+    mueller_def(&def)->numerical_viscosity = alpha;
+    def.dt = 0.001;
+    def.substeps = 1;
+    fixture_block(&def, 0, -0.5, 0, 0, 0, 0.6, 0);
+    return def;
+}
+
+static uint64_t hash_after(const WorldDef *def, int steps)
+{
+    World *world = fixture_world(def);
+    fixture_step(world, steps);
+    const uint64_t hash = world_hash(world);
+    world_destroy(world);
+    return hash;
+}
+
+static double rms_speed(World *world)
+{
+    WorldSums sums;
+    world_sums(world, &sums);
+    return sqrt(2 * sums.kinetic_energy / sums.mass);
+}
+
+/* alpha is a least viscosity: no more, and no less. */
+static void a_fluid_that_names_less_has_that_of_alpha(void **state)
+{
+    (void)state;
+    WorldDef def = dam("mueller", 0.03), own = dam("mueller", 0);
+    def.reproducible = own.reproducible = true;
+    const double least = 0.03 * def.sound_speed * def.support * def.spacing / 16 * def.fluids[0].density;
+    own.fluids[0].viscosity = least;
+    const uint64_t expected = hash_after(&own, 60);
+    assert_true(hash_after(&def, 60) == expected);
+    def.fluids[0].viscosity = 0.001;
+    assert_true(hash_after(&def, 60) == expected);
+    def.fluids[0].viscosity = own.fluids[0].viscosity = 2 * least;
+    assert_true(hash_after(&def, 60) == hash_after(&own, 60));
+    def.fluids[0].viscosity = 0;
+    mueller_def(&def)->numerical_viscosity = 0;
+    assert_true(hash_after(&def, 60) != expected);
+}
+
+/* Walls hold by the viscosity that a fluid names: without one, they let it glide. */
+static void walls_hold_no_fluid_that_names_none(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("fragment has no walls without slip");
+    WorldDef free = dam("mueller", 0.03), held = free;
+    held.wall_slip = SLIP_NONE;
+    assert_true(hash_after(&free, 20) == hash_after(&held, 20));
+    free.fluids[0].viscosity = held.fluids[0].viscosity = 0.001;
+    assert_true(hash_after(&free, 20) != hash_after(&held, 20));
+}
+
+static void a_fall_comes_to_rest(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("some thousand steps");
+    for (int calm = 0; calm < 2; calm++) {
+        const WorldDef def = dam("mueller", calm ? 0.03 : 0);
+        World *world = fixture_world(&def);
+        fixture_step(world, 10000);
+        printf("mueller, alpha %g, after 10 s: %.4f m/s (rms)\n", mueller_def(&def)->numerical_viscosity,
+               rms_speed(world));
+        assert_true(calm ? rms_speed(world) < 0.06 : rms_speed(world) > 0.5);
+        world_destroy(world);
+    }
+}
+
+/* Water's viscosity leaves wcsph nearly all of its artificial one; what that stands for leaves nothing. */
+static void artificial_viscosity_fills_up(void **state)
+{
+    (void)state;
+    WorldDef def = dam("wcsph", 0);
+    const double stands_for = numerical_kinematic(&def, 0.05) * def.fluids[0].density;
+    assert_float_equal(step_alpha(&def, 0.05, 0), 0.05, 1e-12);
+    def.fluids[0].viscosity = 0.001;
+    assert_true(step_alpha(&def, 0.05, 0) > 0.0499 && step_alpha(&def, 0.05, 0) < 0.05);
+    def.fluids[0].viscosity = 0.5 * stands_for;
+    assert_float_equal(step_alpha(&def, 0.05, 0), 0.025, 1e-12);
+    def.fluids[0].viscosity = 1.01 * stands_for;
+    assert_float_equal(step_alpha(&def, 0.05, 0), 0, 0);
+}
+
+/* A full box whose particles carry 1 % more than their places say: mean density, over rho0, after so many
+ * seconds. */
+static double density_left(double delta, double seconds)
+{
+    enum { SIDE = 12, COUNT = SIDE * SIDE };
+    static float x[3 * COUNT], density[COUNT];
+    WorldDef def = dam("wcsph", 0);
+    def.box_size[0] = def.box_size[1] = SIDE * def.spacing;
+    def.fluids[0].fill_count = 0;
+    memset(def.gravity, 0, sizeof def.gravity);
+    snprintf(wcsph_def(&def)->kernel, sizeof wcsph_def(&def)->kernel, "quintic");
+    wcsph_def(&def)->delta_sph = delta;
+    for (int i = 0; i < COUNT; i++) {
+        x[3 * i] = (float)((i % SIDE + 0.5 - SIDE / 2) * def.spacing);
+        x[3 * i + 1] = (float)((i / SIDE + 0.5) * def.spacing);
+        density[i] = 1010;
+    }
+    def.initial = &(InitialState){.count = COUNT, .position = x, .density = density};
+    World *world = fixture_world(&def);
+    fixture_step(world, (int)(seconds / def.dt));
+    State s = fixture_read(world);
+    double sum = 0;
+    for (size_t i = 0; i < s.count; i++)
+        sum += (double)s.density[i] / 1000 / COUNT;
+    fixture_free(&s);
+    world_destroy(world);
+    return sum;
+}
+
+static void density_comes_back_to_the_places(void **state)
+{
+    (void)state;
+    fixture_needs("wcsph");
+    /* 400 h / c = 2.4 s: 1 % is 0.43 % then */
+    const double after = density_left(0.1, 2.05) - 1, without = density_left(0, 0.2) - 1;
+    printf("carried too much: %.4f with diffusion, %.4f without\n", after, without);
+    assert_float_equal(after, 0.01 * exp(-2.05 * 20 / (400 * 0.12)), 2e-4);
+    assert_float_equal(without, 0.01, 2e-5);
+}
+
+static void density_stays_above_zero_and_comes_back(void **state)
+{
+    (void)state;
+    static const float starts[] = {0.02F, 0, -0.1F, -0.5F, -0.51F, -0.8F, -0.999F};
+    for (size_t k = 0; k < sizeof starts / sizeof *starts; k++) {
+        assert_true(wcsph_density_after(starts[k], 0) == starts[k]); /* what is loaded is what was saved */
+        float e = starts[k];
+        for (int i = 0; i < 400; i++) {
+            const float before = e;
+            e = wcsph_density_after(e, -0.01F);
+            assert_true(e > -1 && e < before);
+        }
+        for (int i = 0; i < 400; i++)
+            e = wcsph_density_after(e, 0.01F);
+        assert_float_equal(e, starts[k], 0.02 * (1 + (double)starts[k]));
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_fluid_that_names_less_has_that_of_alpha),
+        cmocka_unit_test(walls_hold_no_fluid_that_names_none),
+        cmocka_unit_test(a_fall_comes_to_rest),
+        cmocka_unit_test(artificial_viscosity_fills_up),
+        cmocka_unit_test(density_comes_back_to_the_places),
+        cmocka_unit_test(density_stays_above_zero_and_comes_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
