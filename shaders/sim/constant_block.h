@@ -1,5 +1,6 @@
-/* What is constant while a world lives; sim/gl/compute/blocks.c fills it. The backend fragment writes the
-   same names before its shaders: sim/gl/fragment/constants.c. */
+/* What is constant while a world lives; sim/gl/compute/blocks.c fills it. Number densities, volumes, masses
+   and forces are in the units of sim/world/constants.h, but for the volumes that views see. The backend
+   fragment writes the same names before its shaders: sim/gl/fragment/constants.c. */
 #ifndef SLOSH_CONSTANT_BLOCK_H
 #define SLOSH_CONSTANT_BLOCK_H
 
@@ -8,7 +9,7 @@
 
 BLOCK_STRUCT(Fluid)
 {
-    float mass;      /* of a particle, kg */
+    float mass;      /* of a particle, kg/m3 */
     float density;   /* at rest, kg/m3 */
     float stiffness; /* Pa */
     float viscosity; /* Pa s */
@@ -19,12 +20,15 @@ UNIFORM_BLOCK(ConstantBlock, CONSTANT_BLOCK)
 {
     float support;             /* h, m */
     float inverse_support;     /* 1/m */
-    float rest_number_density; /* n0, 1/m3 */
+    float rest_number_density; /* n0 */
     float spacing;             /* m */
     float kernel_scale;        /* of the sum of the kernel's shape */
     float pressure_scale;      /* of its gradient's */
     float viscosity_scale;     /* of its Laplacian's */
     float stiffness_scale;     /* relative change of density over that of n / n0 */
+    float inverse_unit;        /* 1 / u, 1/m */
+    float unit_volume;         /* U, m3 */
+    float inverse_unit_volume; /* 1 / U */
     ivec3 first_cell;          /* of the grid, in cells from the box's centre */
     int particle_total;
     ivec3 grid_size; /* cells along each axis */

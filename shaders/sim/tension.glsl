@@ -4,25 +4,26 @@ uint tension_fluid;
 vec4 tension_sum = vec4(0); // what its neighbours add
 
 #ifdef COHESION
-// -g V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 and 2 with volumes for masses.
+// -g V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 and 2 with volumes for masses; r and h in units of u.
 void tension_add(vec3 d, float r2, float volume)
 {
-    float h = support, least = 1e-6 * h;
+    float least = 1e-6 * support;
     if (r2 < least * least)
         return;
-    float r = sqrt(r2), both = (h - r) * r, cube = both * both * both;
+    float h = inverse_unit * support, r = inverse_unit * sqrt(r2), both = (h - r) * r, cube = both * both * both;
     tension_sum.xyz -= volume * (r + r > h ? cube : cube + cube - h * h * h * h * h * h / 64.0) / r * d;
 }
 
 vec3 tension_of_sum(float volume, float tension) { return tension * volume * tension_sum.xyz; }
 #else
 // -sigma (Laplacian of c) n / |n| a unit volume, n = grad c, where |n| > 0.3 / h: Müller 2003, eq. 15 to 19.
-// tension_sum: n, Laplacian.
+// tension_sum: n, Laplacian; squares of lengths in units of u^2.
 void tension_add(vec3 d, float r2, float volume)
 {
-    float h2 = support * support, dims = dimensions == 2 ? 2.0 : 3.0, weighed = volume * (h2 - r2);
-    tension_sum.xyz -= weighed * (h2 - r2) * d;
-    tension_sum.w -= weighed * (dims * h2 - (dims + 4.0) * r2);
+    float inverse2 = inverse_unit * inverse_unit, h2 = inverse2 * (support * support), s2 = inverse2 * r2;
+    float dims = dimensions == 2 ? 2.0 : 3.0, weighed = volume * (h2 - s2);
+    tension_sum.xyz -= weighed * (h2 - s2) * d;
+    tension_sum.w -= weighed * (dims * h2 - (dims + 4.0) * s2);
 }
 
 vec3 tension_of_sum(float volume, float tension)

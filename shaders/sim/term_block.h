@@ -7,7 +7,7 @@
 
 BLOCK_STRUCT(FluidTerms)
 {
-    float tension; /* N/m; of curvature N m */
+    float tension; /* Constants.tension */
     float wet;     /* wetting_curvature of sim/matter/tension.h, 1/m */
 }
 BLOCK_END(FluidTerms);
@@ -16,7 +16,7 @@ UNIFORM_BLOCK(TermBlock, TERM_BLOCK)
 {
     float colour_scale;    /* of the colour field */
     float drag_range;      /* m */
-    float friction_scale;  /* R F over f(r / h) of sim/viscosity, 1/m7 */
+    float friction_scale;  /* R F over f(r / h) of sim/viscosity, 1/m4 */
     float curvature_least; /* curvature_weight of sim/matter/tension.h: no surface; a surface */
     float curvature_whole;
     float curvature_full; /* these four: its CurvatureScale */

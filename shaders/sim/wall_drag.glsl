@@ -23,7 +23,7 @@ float drag_of_faces(vec3 distances, int count)
     return sum;
 }
 
-// Faces less edges plus corners, 1/m5; all, or those that the wall at the top is one of.
+// Faces less edges plus corners, 1/m2; all, or those that the wall at the top is one of.
 float wall_drag_sum(vec3 x, bool lid_only)
 {
     bool lid[6];

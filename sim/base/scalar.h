@@ -17,8 +17,8 @@
    holds names and units to the rows of columns. X(ENUM, name, unit) */
 #define OWN_SCALAR_LIST(X)                                                                                   \
     X(RATE, "rate", "1/s")                                                                                   \
-    X(KEPT_TERM, "kept_term", "J m3")                                                                        \
-    X(TERM, "term", "J m3")                                                                                  \
+    X(KEPT_TERM, "kept_term", "Pa")                                                                          \
+    X(TERM, "term", "Pa")                                                                                    \
     X(BEFORE, "before", "")                                                                                  \
     X(FRICTION_BEFORE_X, "friction_before_x", "m/s2")                                                        \
     X(FRICTION_BEFORE_Y, "friction_before_y", "m/s2")                                                        \

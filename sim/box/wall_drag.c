@@ -20,6 +20,7 @@ typedef struct Behind {
     int faces; /* their normals are the first axes */
     double spacing, h;
     const Lattice *lattice;
+    double unit_volume;
     DragWeight weight;
 } Behind;
 
@@ -65,12 +66,12 @@ static float *table_create(const Behind *b, int nodes, double step)
     for (int i = 0; table && i < count[0]; i++)
         for (int j = 0; j < count[1]; j++)
             for (int k = 0; k < count[2]; k++)
-                *out++ = (float)sum_behind(b, (double[3]){i * step, j * step, k * step});
+                *out++ = (float)(b->unit_volume * sum_behind(b, (double[3]){i * step, j * step, k * step}));
     return table;
 }
 
 bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
-                      double support_radius, const Lattice *lattice, DragWeight weight)
+                      double support_radius, const Lattice *lattice, double unit_volume, DragWeight weight)
 {
     /* Nodes a spacing, even so that the layers of the lattice are nodes. */
     static const int nodes_per_spacing[3] = {64, 16, 8};
@@ -82,7 +83,7 @@ bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[
     const double range = support_radius - 0.5 * spacing;
     drag->range = (float)range;
     for (int t = 0; t < 3 && t < drag->dimensions; t++) {
-        const Behind behind = {t + 1, spacing, support_radius, lattice, weight};
+        const Behind behind = {t + 1, spacing, support_radius, lattice, unit_volume, weight};
         const double step = spacing / nodes_per_spacing[t];
         drag->nodes[t] = (int)ceil(range / step) + 2;
         drag->inverse_step[t] = (float)(1 / step);

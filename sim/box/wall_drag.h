@@ -7,7 +7,8 @@
 
      force_i = -mu_i V_i V0 D v_i,   D = sum w(r) (1 + u / max(d, spacing / 2)),   V0 = 1 / n0
 
-   over the wall particles, where w is what the method's viscosity weighs pairs with. D is tabulated over the
+   over the wall particles, where w is what the method's viscosity weighs pairs with. D times a volume, of the
+   caller's choice, so that it fits in a float whatever the spacing, is tabulated over the
    distances, as the density is in sim/box/wall.h: faces - edges + corners. A wall particle behind several
    faces has the greatest of their factors; so edges and corners are tabulated with the least.
 
@@ -42,10 +43,10 @@ double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, dou
 
 /* False when memory is short. */
 bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
-                      double support_radius, const Lattice *lattice, DragWeight weight);
+                      double support_radius, const Lattice *lattice, double unit_volume, DragWeight weight);
 void wall_drag_destroy(WallDrag *drag);
 
-/* D at x (box's frame, m, inside the box), 1/m5. */
+/* D unit_volume at x (box's frame, m, inside the box), 1/m2. */
 float wall_drag_at(const WallDrag *drag, const float x[3]);
 
 /* The part of D that the wall at the top has of it: where it moves with the velocity V, and the mirrored

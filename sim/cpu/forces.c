@@ -54,12 +54,13 @@ void cpu_felt_merge(Cpu *cpu, const CpuFelt *felt)
 static void sum_up(Cpu *cpu, Push out[FELT_MOST])
 {
     const int width = cpu->constants->solid_count + 1;
+    const double unit = cpu->constants->unit_volume; /* forces are over U */
     if (cpu->sum_all)
         cpu->sum_all(cpu->felt->of[0].number, width * PUSH_NUMBERS);
     for (int whom = 0; whom < width; whom++)
         for (int k = 0; k < 3; k++) {
-            out[whom].force[k] = exact_value(&cpu->felt->of[whom].number[k]);
-            out[whom].torque[k] = exact_value(&cpu->felt->of[whom].number[3 + k]);
+            out[whom].force[k] = unit * exact_value(&cpu->felt->of[whom].number[k]);
+            out[whom].torque[k] = unit * exact_value(&cpu->felt->of[whom].number[3 + k]);
         }
 }
 

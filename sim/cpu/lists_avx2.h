@@ -77,7 +77,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
         const f8 dx = at.x - f8_load(x + k), dy = at.y - f8_load(y + k), dz = at.z - f8_load(z + k);
         f8 r2 = dx * dx + dy * dy + dz * dz;
         if (count - k < LANES)
-            r2 = f8_select(lane_index < i8_splat(count - k), r2, f8_splat(PAST));
+            r2 = f8_select(lane_index < i8_splat(count - k), r2, f8_splat(INFINITY));
         const Kept seen = kept((r2 < h2) & (i8_load(j + k) != self));
         keep(to, i8_load(j + k), seen);
         to += seen.count;

@@ -26,16 +26,16 @@ typedef struct PairArgs {
     const float (*place)[4];               /* of each {x, y, z, p V^2}, and behind the last {PAST, ...} */
     const float (*motion)[4];              /* {vx, vy, vz, V}, and behind the last 0 */
     NeighbourLists *lists;
-    const float *volume;            /* m3: set before forces */
-    const float *pressure_term;     /* p V^2, J m3: set before forces */
+    const float *volume;            /* over Constants.unit_volume: set before forces */
+    const float *pressure_term;     /* p V^2, Pa: set before forces */
     const float *viscosity;         /* Pa s, of each particle; NULL with one fluid */
     const float *kind;              /* the fluid of each as a number; NULL where none asks */
-    const float *tension;           /* sigma of each, N/m (cohesion: scaled); NULL: none; with `kind` */
+    const float *tension;           /* Constants.tension of each; NULL: none; with `kind` */
     const ApparentGravity *gravity; /* of passes that have it */
-    float *fx, *fy, *fz;            /* out of forces, N; `fx` also of rates */
-    float *number_density;          /* out of densities, 1/m3: in the place of `volume` */
-    float *own[COLUMNS_OWN];        /* of the method */
-    float *const *term;             /* of what methods share */
+    float *fx, *fy, *fz;            /* out of forces, N/m3; `fx` also of rates */
+    float *number_density;   /* out of densities, times Constants.unit_volume: in the place of `volume` */
+    float *own[COLUMNS_OWN]; /* of the method */
+    float *const *term;      /* of what methods share */
 } PairArgs;
 
 #endif

@@ -1,7 +1,8 @@
 /* The pair sums of surface tension, within each fluid; added to the forces that stand there. */
 #include "sim/cpu/pair_loop.h"
 
-/* -(g_i + g_j) / 2 V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 with volumes for masses. */
+/* -(g_i + g_j) / 2 V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 with volumes for masses; r and h in units of
+   Constants.unit. */
 SIMD_INLINE f8 cohesion(f8 r, f8 h, f8 repulsion)
 {
     const f8 both = (h - r) * r, cube = both * both * both;
@@ -11,9 +12,9 @@ SIMD_INLINE f8 cohesion(f8 r, f8 h, f8 repulsion)
 static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
-    const float h = s->support_radius, least = 1e-6f * h;
-    const f8 wide = f8_splat(h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
-    const f8 repulsion = f8_splat(h * h * h * h * h * h / 64);
+    const float h = s->support_radius, least = 1e-6f * h, inverse_u = (float)(1 / s->unit), w = inverse_u * h;
+    const f8 wide = f8_splat(w), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
+    const f8 repulsion = f8_splat(w * w * w * w * w * w / 64), inverse = f8_splat(inverse_u);
 
     GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
@@ -25,7 +26,7 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
             const i8 same = (d.r2 < h2) & (d.r2 >= least2) & (f8_gather(args->kind, j) == fi);
             if (!i8_bits(same))
                 continue;
-            const f8 r = f8_sqrt(f8_select(same, d.r2, h2));
+            const f8 r = inverse * f8_sqrt(f8_select(same, d.r2, h2));
             const f8 pull = f8_masked(same, (ti + f8_gather(args->tension, j)) * motion(args, j).w *
                                                 cohesion(r, wide, repulsion) / r);
             fx -= pull * d.x;
@@ -40,12 +41,14 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
 }
 
 /* -sigma (Laplacian of c) n / |n| an unit volume, n = grad c, where |n| > 0.3 / h: Müller 2003, eq. 15 to 19,
-   c the fluid's own colour. */
+   c the fluid's own colour; squares of lengths in units of that of Constants.unit. */
 static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
-    const float h = s->support_radius, dims = (float)s->dimensions;
-    const f8 h2 = f8_splat(h * h), inner = f8_splat(dims * h * h), outer = f8_splat(dims + 4);
+    const float h = s->support_radius, dims = (float)s->dimensions,
+                inverse_u2 = (float)(1 / (s->unit * s->unit)), wide2 = inverse_u2 * (h * h);
+    const f8 h2 = f8_splat(wide2), inner = f8_splat(dims * wide2), inverse2 = f8_splat(inverse_u2),
+             outer = f8_splat(dims + 4);
     const f8 colour = f8_splat(s->colour);
 
     GROUPS (i, begin, end) {
@@ -55,13 +58,13 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
         f8 nx = f8_splat(0), ny = nx, nz = nx, bend = nx;
         NEIGHBOURS (near, j) {
             const Separation d = separation(args, at, j);
-            const f8 t = h2 - d.r2;
-            const i8 same = (d.r2 < h2) & (f8_gather(args->kind, j) == fi);
+            const f8 r2 = inverse2 * d.r2, t = h2 - r2;
+            const i8 same = (r2 < h2) & (f8_gather(args->kind, j) == fi);
             const f8 volume = f8_masked(same, motion(args, j).w * t);
             nx -= volume * t * d.x;
             ny -= volume * t * d.y;
             nz -= volume * t * d.z;
-            bend -= volume * (inner - outer * d.r2);
+            bend -= volume * (inner - outer * r2);
         }
         const f8 volume = f8_load(args->volume + i);
         nx *= colour, ny *= colour, nz *= colour;

@@ -32,7 +32,7 @@ typedef struct SolidPair {
     float d[3], r; /* x_i - x_b, m, and its length: in (0, h) */
 } SolidPair;
 
-/* What b pushes i with, N. */
+/* What b pushes i with, N over Constants.unit_volume. */
 typedef void (*SolidForce)(const SolidPair *pair, float force[3]);
 
 typedef struct CpuPass {
@@ -53,11 +53,12 @@ static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
 /* sim/cpu/forces.c: adds what solids feel of a pass over dt (s). */
 void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt);
 
-/* F = -W'(r) / r of a kernel, 1/m5, times `scale`: of pairs that are few. */
+/* F U = -W'(r) / r of a kernel, 1/m2, times `scale`: of pairs that are few. */
 static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, double scale)
 {
+    const Constants *s = pair->cpu->constants;
     const double r = (double)pair->r;
-    return (float)(-scale * kernel->derivative(r, (double)pair->cpu->constants->support_radius) / r);
+    return (float)(-scale * s->unit_volume * kernel->derivative(r, (double)s->support_radius) / r);
 }
 
 /* The sum of both viscosities of a pair, Pa s, where forces have friction. */

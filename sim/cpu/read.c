@@ -47,7 +47,7 @@ static void add_particle(const Cpu *cpu, const PairArgs *args, size_t i, WorldSu
 {
     const CpuParticles *p = &cpu->now;
     const double x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-    sums_add(sums, cpu->constants->mass[p->fluid[i]], x, v);
+    sums_add(sums, constants_mass(cpu->constants, p->fluid[i]), x, v);
     sums->neighbours_mean += neighbours_of(cpu, args, i);
 }
 

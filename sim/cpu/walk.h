@@ -77,7 +77,7 @@ SIMD_INLINE Separation separation(const PairArgs *args, Place at, const uint32_t
     return apart(at, f8_load4(args->place, j));
 }
 
-/* v_j, m/s, and V_j, m3. */
+/* v_j, m/s, and V_j. */
 SIMD_INLINE f8x4 motion(const PairArgs *args, const uint32_t *j)
 {
     return f8_load4(args->motion, j);

@@ -26,7 +26,7 @@ static const float REACH = 1.1F;
 
 static void dfsph_set(Constants *constants, const WorldDef *def)
 {
-    const IncompressibleFactors factors = incompressible_factors(def, &constants->lattice);
+    const IncompressibleFactors factors = incompressible_factors(def, constants);
     const DfsphDef *said = dfsph_def(def);
     const DfsphConstants own = {
         .sums = {.gradient = factors.gradient,

@@ -19,16 +19,16 @@
 
 /* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
 enum {
-    KEPT,         /* k that the last step's divergence left, J m3: where the next begins */
-    FACTOR,       /* 1 / D, kg m8; 0 where a particle sees none */
-    SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
-    INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
+    KEPT,         /* k that the last step's divergence left, Pa: where the next begins */
+    FACTOR,       /* 1 / D, kg/m; 0 where a particle sees none */
+    SQUARES,      /* sum F^2 r^2 / m_j, m/kg */
+    INVERSE_MASS, /* m3/kg; 0 of the particles of solids */
     RESIDUAL,     /* n / n0 - 1 that the step would end with */
     MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
-    CHANGE,       /* of k in the iteration before, J m3 */
+    CHANGE,       /* of k in the iteration before, Pa */
     OTHER,        /* accelerations but those of the solver at work, m/s2: 3 */
-    SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m4: 3 */
-    SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over them, 1/(m3 s) */
+    SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m: 3 */
+    SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over them, 1/s */
     BASE, /* velocities in the middle of the next step by all but the solver at work, m/s: 3 */
 };
 

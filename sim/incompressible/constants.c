@@ -29,18 +29,19 @@ static const double RELAXATION = 1.8;
 /* Of D on the lattice: D is no less, or particles next to few others or on a wall would be thrown. */
 static const double LEAST = 0.1;
 
-IncompressibleFactors incompressible_factors(const WorldDef *def, const Lattice *lattice)
+IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants)
 {
+    const Lattice *lattice = &constants->lattice;
     const Kernel *kernel = &shape_kernels[INCOMPRESSIBLE_KERNEL];
     const double h = def->support * def->spacing, r = 0.5 * h;
-    const double slope = -kernel->derivative(r, h) / r / shape_half();
-    const double n0 = lattice->number_density, scale = lattice->density_scale;
+    const double unit = constants->unit_volume, slope = -unit * kernel->derivative(r, h) / r / shape_half();
+    const double n0 = unit * lattice->number_density, scale = lattice->density_scale;
     const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
     return (IncompressibleFactors){
         .gradient = (float)(slope * scale),
         .friction_gradient = (float)(slope * lattice->gradient_scale),
         .relaxation = (float)(RELAXATION / jacobi.greatest),
         .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
-        .least_squares = (float)(LEAST * scale * scale * jacobi.squares),
+        .least_squares = (float)(LEAST * scale * scale * unit * unit * jacobi.squares),
     };
 }

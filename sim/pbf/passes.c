@@ -73,7 +73,8 @@ static void fill(Cpu *cpu, size_t i)
 static void begin_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
-    const float warm = 1 - fminf(FORGOTTEN, FORGOTTEN_RATE * range->input->dt);
+    const float times = pbf_constants(range->cpu->constants)->settle_rate * range->input->dt,
+                warm = 1 - fminf(FORGOTTEN, FORGOTTEN_RATE * times);
     for (size_t i = range->begin; i < range->end; i++) {
         fill(range->cpu, i);
         p->own[TERM][i] *= of_fluid(range->cpu, i) ? warm : 0;
@@ -299,7 +300,7 @@ static void density_body(const CpuRange *range)
 {
     const Cpu *cpu = range->cpu;
     float *before = cpu->now.own[BEFORE];
-    const float later = 1 - PBF_SHARE(range->input->dt);
+    const float later = 1 - PBF_SHARE(pbf_constants(cpu->constants)->settle_rate * range->input->dt);
     cpu_pairs(range, &pbf_sums);
     for (size_t i = range->begin; i < range->end; i++) {
         if (before[i] == 0 && range->input->dt > 0)
@@ -439,16 +440,16 @@ static bool many_viscous(const Constants *constants)
 #define OWN(k) .at = COLUMN_OWN(k)
 
 const ColumnDef pbf_columns[] = {
-    {"term", "J m3", OWN(TERM), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
+    {"term", "Pa", OWN(TERM), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
     {"before", "", OWN(BEFORE), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
-    {"factor", "kg m8", OWN(FACTOR), 1, COLUMN_FLOAT},
-    {"squares", "1/(kg m8)", OWN(SQUARES), 1, COLUMN_FLOAT},
-    {"inverse_mass", "1/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
+    {"factor", "kg/m", OWN(FACTOR), 1, COLUMN_FLOAT},
+    {"squares", "m/kg", OWN(SQUARES), 1, COLUMN_FLOAT},
+    {"inverse_mass", "m3/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
     {"compressed", "", OWN(COMPRESSED), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
     {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
-    {"change", "J m3", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
-    {"applied", "J m3", OWN(APPLIED), 1, COLUMN_FLOAT},
+    {"change", "Pa", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
+    {"applied", "Pa", OWN(APPLIED), 1, COLUMN_FLOAT},
     {"way", "", OWN(WAY), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"moved", "m", OWN(MOVED), 3, COLUMN_FLOAT, .flags = COLUMN_SORTED},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,

@@ -16,16 +16,16 @@
 
 /* Where its columns stand among a particle's own. */
 enum {
-    TERM,         /* k / dt^2, J m3: what is left of it is where the next step begins */
+    TERM,         /* k / dt^2, Pa: what is left of it is where the next step begins */
     BEFORE,       /* n / n0 when the step begins; 0: not known yet */
-    FACTOR,       /* 1 / D, kg m8 */
-    SQUARES,      /* sum F^2 r^2 / m_j, 1 / (kg m8) */
-    INVERSE_MASS, /* 1/kg; 0 of the particles of solids */
+    FACTOR,       /* 1 / D, kg/m */
+    SQUARES,      /* sum F^2 r^2 / m_j, m/kg */
+    INVERSE_MASS, /* m3/kg; 0 of the particles of solids */
     COMPRESSED,   /* n / n0 - 1 */
     RESIDUAL,     /* what of that the step is to take away */
     MISS,         /* the same: of what k holds, on either side; else what is above 0 */
-    CHANGE,       /* of TERM in the iteration before, J m3 */
-    APPLIED,      /* what of TERM the places have followed, J m3 */
+    CHANGE,       /* of TERM in the iteration before, Pa */
+    APPLIED,      /* what of TERM the places have followed, Pa */
     WAY,          /* length of the way since the lists were made, in spacings */
     MOVED,        /* the way since the step's free flight, m: 3 */
 };

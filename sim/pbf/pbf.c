@@ -6,6 +6,7 @@
 #include "sim/pbf/passes.h"
 #include "sim/world/iterate.h"
 
+#include <math.h>
 #include <string.h>
 
 static const PbfDef usual = {.tolerance = 0.01, .iterations = 50};
@@ -18,16 +19,30 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
+/* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 0.1 m.
+   What surface tension pulls with across a spacing counts where it is more than gravity. Without either it
+   goes with the time of sound across one. */
+static double settle_rate(const WorldDef *def)
+{
+    static const double FALLS = 60 * 60 * 0.1 / 9.81, SOUNDS = 60 * 0.1 / 20;
+    const double *g = def->gravity, s = def->spacing;
+    double pull = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    for (int f = 0; f < def->fluid_count; f++)
+        pull = fmax(pull, def->fluids[f].surface_tension / (def->fluids[f].density * s * s));
+    return pull > 0 ? sqrt(FALLS * pull / s) : SOUNDS * def->sound_speed / s;
+}
+
 static void pbf_set(Constants *constants, const WorldDef *def)
 {
-    const IncompressibleFactors factors = incompressible_factors(def, &constants->lattice);
+    const IncompressibleFactors factors = incompressible_factors(def, constants);
     const PbfConstants own = {
         .sums = {.gradient = factors.gradient,
                  .friction_gradient = factors.friction_gradient,
                  .relaxation = factors.relaxation,
                  .least_squares = factors.least_squares,
                  .pressure_of_term = factors.pressure_of_term,
-                 .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction))},
+                 .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction)),
+                 .settle_rate = (float)settle_rate(def)},
         .most = pbf_def(def)->iterations,
         .tolerance = pbf_def(def)->tolerance,
     };
@@ -84,7 +99,7 @@ static int iterate(const Substep *step, double tolerance, Excess *left)
 static void hold_density(const Substep *step)
 {
     const double tolerance = pbf_solver(step->constants)->tolerance,
-                 share = (double)PBF_SHARE((float)step->dt);
+                 share = (double)PBF_SHARE(pbf_constants(step->constants)->settle_rate * (float)step->dt);
     StepSolve *solve = &step->solves[0];
     Excess left = {0};
     begin(step);

@@ -59,13 +59,15 @@ static StepFriction wcsph_friction(const WorldDef *def, const Lattice *lattice)
 }
 
 /* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
-static void kernel_set(WcsphBlock *own, const Lattice *lattice, const WorldDef *def)
+static void kernel_set(WcsphBlock *own, const Constants *constants, const WorldDef *def)
 {
     static const double f_half[] = {[KERNEL_CUBIC] = 3,
                                     [KERNEL_WENDLAND_C2] = 2.5,
                                     [KERNEL_QUINTIC] = (1.5 * 1.5 * 1.5 * 1.5 - 6 * 0.0625) / 0.5};
     const Kernel *kernel = wcsph_kernels_of(def).density;
-    const double h = def->support * def->spacing, r = 0.5 * h, scale = lattice->gradient_scale;
+    const Lattice *lattice = &constants->lattice;
+    const double h = def->support * def->spacing, r = 0.5 * h,
+                 scale = lattice->gradient_scale * constants->unit_volume;
     own->kernel_shape = (int)(kernel - shape_kernels);
     if (wcsph_def(def)->viscosity_form == VISCOSITY_RADIAL)
         own->radial_friction = (float)lattice->radial_scale;
@@ -80,7 +82,7 @@ static void wcsph_set(Constants *constants, const WorldDef *def)
                                                    : SHIFT_RETURN;
     WcsphBlock own = {.density_return = constants->sound_speed / (times * constants->support_radius)};
     const double reach = 0.5 * def->support * def->spacing, c = def->sound_speed;
-    kernel_set(&own, &constants->lattice, def);
+    kernel_set(&own, constants, def);
     own.diffusion = (float)(2 * said->delta_sph * c * reach);
     own.corrected_gradient = said->corrected_gradient;
     own.shift_speed = (float)(said->shifting * c * reach);

@@ -25,9 +25,9 @@ typedef struct ParticleColumns {
     uint8_t *fluid;       /* index into WorldDef.fluids */
     float *compression;   /* rho / rho0 - 1, of a method whose particles carry their density: rho itself, in
                              single precision, would lose what a slow flow adds in a step */
-    float *volume;        /* 1 / n, m3 */
+    float *volume;        /* 1 / n, over Constants.unit_volume */
     float *pressure;      /* Pa */
-    float *pressure_term; /* p V^2, J m3 */
+    float *pressure_term; /* p V^2, Pa */
     float *ax, *ay, *az;  /* m/s2; forces until their pass ends, N */
     float *viscosity;     /* of the particle's fluid, Pa s */
     float *tension;       /* the same, N/m; of cohesion scaled */

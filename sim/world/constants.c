@@ -186,8 +186,10 @@ static bool def_check(const WorldDef *def, Error *error)
     for (int k = 0; k < def->dimensions; k++)
         if (!positive(def->box_size[k]))
             return error_set(error, "the box has no size; give three positive lengths in metres");
-    if (!positive(def->spacing) || !(def->support >= 1.5 && def->support <= 4))
-        return error_set(error, "spacing must be positive and support between 1.5 and 4 spacings");
+    if (!(def->spacing >= 1e-7 && def->spacing <= 1e4)) /* where all sums keep to the range of floats */
+        return error_set(error, "spacing must be 1e-7 to 1e4 m, not %g m", def->spacing);
+    if (!(def->support >= 1.5 && def->support <= 4))
+        return error_set(error, "support must be 1.5 to 4 spacings");
     if (!positive(def->dt) || def->substeps < 1 || !positive(def->sound_speed))
         return error_set(error, "dt and sound_speed must be positive, substeps at least 1");
     if (def->wall_slip != SLIP_FREE && def->wall_slip != SLIP_NONE)
@@ -255,7 +257,8 @@ static void fluids_set(Constants *constants, const WorldDef *def)
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
         const bool names = fluid_viscosity_most(fluid) > 0;
-        constants->mass[f] = (float)(fluid->density / constants->lattice.number_density);
+        constants->mass[f] =
+            (float)(fluid->density / (constants->lattice.number_density * constants->unit_volume));
         constants->density[f] = (float)fluid->density;
         constants->stiffness[f] = (float)(c2 * fluid->density);
         constants->viscosity[f] = (float)step_viscosity(def, &constants->friction, f);
@@ -294,17 +297,18 @@ static const Kernel *friction_kernel(const WorldDef *def)
     return &shape_kernels[KERNEL_WENDLAND_C2];
 }
 
-static void implicit_set(ImplicitViscosity *implicit, const WorldDef *def, Lattice *lattice)
+static void implicit_set(Constants *constants, const WorldDef *def, Lattice *lattice)
 {
     /* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it */
     static const double half[SHAPE_KERNELS] = {
         [KERNEL_CUBIC] = 3, [KERNEL_WENDLAND_C2] = 2.5, [KERNEL_QUINTIC] = (5.0625 - 6 * 0.0625) / 0.5};
     const double h = def->support * def->spacing, r = 0.5 * h;
     const Kernel *kernel = friction_kernel(def);
+    ImplicitViscosity *implicit = &constants->implicit;
     lattice_calibrate(def->dimensions, def->spacing, h, kernel, kernel, lattice);
     implicit->kernel = (ShapeKernel)(kernel - shape_kernels);
     implicit->scale = (float)(-kernel->derivative(r, h) / r / half[implicit->kernel] *
-                              lattice->gradient_scale * lattice->radial_scale);
+                              lattice->gradient_scale * lattice->radial_scale * constants->unit_volume);
 }
 
 /* The tables of what the walls do, as far as the def needs them and they are not there. */
@@ -316,10 +320,10 @@ static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
     const bool implicit = def->viscosity_solver == VISCOSITY_IMPLICIT;
     Lattice lattice = constants->lattice;
     if (implicit)
-        implicit_set(&constants->implicit, def, &lattice);
+        implicit_set(constants, def, &lattice);
     if (!needed || constants->drag.table[0] ||
         wall_drag_create(&constants->drag, def->box_size, def->periodic, def->spacing,
-                         def->support * def->spacing, &lattice,
+                         def->support * def->spacing, &lattice, constants->unit_volume,
                          implicit ? DRAG_RADIAL : constants->friction.walls))
         return true;
     return error_set(error, "no memory for the friction of the walls");
@@ -328,11 +332,13 @@ static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
 static void tension_set(Constants *constants, const WorldDef *def)
 {
     const double h = def->support * def->spacing;
-    double scale =
-        def->tension_model == TENSION_COHESION ? cohesion_scale(def->dimensions, def->spacing, h) : 1;
+    const double u = constants->unit, volume = constants->unit_volume;
+    double scale = 1;
+    if (def->tension_model == TENSION_COHESION) /* of its kernel in u^6, times x / u */
+        scale = cohesion_scale(def->dimensions, def->spacing, h) * volume * pow(u, 5);
     if (def->tension_model == TENSION_CURVATURE) {
         constants->curvature = curvature_calibrate(def->dimensions, def->spacing, h);
-        scale = pow(def->spacing, def->dimensions - 1) / constants->curvature.layers;
+        scale = pow(def->spacing, def->dimensions - 1) / constants->curvature.layers / volume;
     }
     bool any = false;
     for (int f = 0; f < def->fluid_count; f++) {
@@ -340,7 +346,7 @@ static void tension_set(Constants *constants, const WorldDef *def)
         constants->tension[f] = (float)(scale * def->fluids[f].surface_tension);
         any |= def->fluids[f].surface_tension > 0;
     }
-    constants->colour = (float)colour_scale(def->dimensions, h);
+    constants->colour = (float)(colour_scale(def->dimensions, h) * volume * pow(u, 4));
     constants->tension_model = any ? (TensionModel)def->tension_model : TENSION_NONE;
 }
 
@@ -363,12 +369,16 @@ bool constants_create(Constants *constants, const WorldDef *def, Error *error)
     constants->friction = step_friction(def);
     constants->method = method;
     constants->support_radius = (float)h;
+    constants->unit = ldexp(1, ilogb(def->spacing));
+    constants->unit_volume = pow(constants->unit, def->dimensions);
     constants->spacing = (float)def->spacing;
-    constants->rest_number_density = (float)constants->lattice.number_density;
-    constants->kernel_scale = (float)(kernel->value(0, h) * constants->lattice.density_scale);
-    constants->pressure_scale = (float)(-kernel_spiky_derivative(0, h) * constants->lattice.gradient_scale);
-    constants->viscosity_scale =
-        (float)(kernel_viscosity_laplacian(0, h) * constants->lattice.laplacian_scale);
+    constants->rest_number_density = (float)(constants->lattice.number_density * constants->unit_volume);
+    constants->kernel_scale =
+        (float)(kernel->value(0, h) * constants->lattice.density_scale * constants->unit_volume);
+    constants->pressure_scale =
+        (float)(-kernel_spiky_derivative(0, h) * constants->lattice.gradient_scale * constants->unit_volume);
+    constants->viscosity_scale = (float)(kernel_viscosity_laplacian(0, h) *
+                                         constants->lattice.laplacian_scale * constants->unit_volume);
     tension_set(constants, def);
     fluids_set(constants, def);
     own_set(constants, def);

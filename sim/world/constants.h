@@ -37,21 +37,26 @@ typedef struct ImplicitViscosity {
     bool named;         /* the def says so, */
     bool on;            /* and some fluid is viscous */
     ShapeKernel kernel; /* the method's where pair loops have it (sim/cpu/pair_shape.h) */
-    float scale;      /* R F over f(r / h): a pair's force is V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij */
+    float scale;      /* R F U over f(r / h), where a pair's force is V_i V_j (mu_i + mu_j) R F (v_ji . x_ij)
+                         x_ij, 1/m4 */
     double tolerance; /* of the mean */
     int most;         /* iterations */
 } ImplicitViscosity;
 
 typedef struct Constants {
     const struct Method *method;
+    /* u, m, the power of two at or next below the spacing, and U = u^dimensions. All that grows with the
+       volume of fluid is in units of U, or powers of the spacing leave the range of floats: number densities
+       and kernels (times U), volumes, masses and forces (over U). What leaves the solver is in SI units. */
+    double unit, unit_volume;
     float support_radius;      /* h, m */
-    float rest_number_density; /* n0, 1/m3 */
-    float kernel_scale;        /* its value at r = 0, calibrated, 1/m3 */
-    float pressure_scale;      /* -dW_spiky/dr = pressure_scale * (1 - r/h)^2, 1/m4, calibrated */
-    float viscosity_scale;     /* Laplacian = viscosity_scale * (1 - r/h), 1/m5, calibrated */
+    float rest_number_density; /* n0 U */
+    float kernel_scale;        /* its value at r = 0 times U, calibrated */
+    float pressure_scale;      /* -dW_spiky/dr U = pressure_scale * (1 - r/h)^2, 1/m, calibrated */
+    float viscosity_scale;     /* Laplacian U = viscosity_scale * (1 - r/h), 1/m2, calibrated */
     float spacing;             /* m */
     int fluid_count;
-    float mass[FLUIDS_MAX];      /* of a particle: rho0 / n0, kg */
+    float mass[FLUIDS_MAX];      /* of a particle over U: rho0 / (n0 U), kg/m3 */
     float density[FLUIDS_MAX];   /* rho0, kg/m3 */
     float stiffness[FLUIDS_MAX]; /* p = stiffness * (n / n0 - 1): c^2 rho0 stiffness_scale, Pa */
     float stiffness_scale;       /* relative change of density over that of n / n0, see Lattice */
@@ -64,10 +69,11 @@ typedef struct Constants {
     bool reproducible;
     float sound_speed;          /* m/s */
     TensionModel tension_model; /* none where no fluid has a tension */
-    float tension[FLUIDS_MAX];  /* sigma, N/m; of cohesion times its scale, of curvature N m */
+    float tension[FLUIDS_MAX];  /* sigma, N/m; of cohesion times its scale for pairs in units of u, N/m3; of
+                                   curvature N m over U */
     CurvatureScale curvature;   /* of the model of that name */
     float wet[FLUIDS_MAX];      /* wetting_curvature, 1/m */
-    float colour;               /* colour_scale */
+    float colour;               /* colour_scale for sums in units of u, 1/m2 */
     CellGrid cells;
     Periodic periodic;
     int first_row, last_row; /* of the nine rows of cells that hold neighbours: 0 to 9, in 2D 3 to 6 */
@@ -100,5 +106,11 @@ bool constants_change(Constants *constants, const WorldDef *def, Error *error);
 bool constants_vary(Constants *constants, const WorldDef *def);
 
 void constants_destroy(Constants *constants);
+
+/* Of a particle, kg. */
+static inline double constants_mass(const Constants *constants, int fluid)
+{
+    return (double)constants->mass[fluid] * constants->unit_volume;
+}
 
 #endif

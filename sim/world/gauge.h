@@ -14,7 +14,7 @@
 static inline void gauge_add(WorldGauge *gauge, const Constants *constants, const double gravity[3],
                              int fluid, double compression, const float x[3], const float v[3])
 {
-    const double m = (double)constants->mass[fluid], c = (double)constants->sound_speed;
+    const double m = constants_mass(constants, fluid), c = (double)constants->sound_speed;
     const double pressed = compression > 0 ? compression : 0;
     double speed2 = 0, height = 0;
     for (int k = 0; k < 3; k++) {
@@ -34,7 +34,7 @@ static inline void gauge_add(WorldGauge *gauge, const Constants *constants, cons
 static inline void energy_add(EnergySums *sums, const Constants *constants, int fluid, double compression,
                               const float x[3], const float v[3])
 {
-    const double m = (double)constants->mass[fluid], c = (double)constants->sound_speed;
+    const double m = constants_mass(constants, fluid), c = (double)constants->sound_speed;
     double speed2 = 0;
     for (int k = 0; k < 3; k++) {
         speed2 += (double)v[k] * (double)v[k];
@@ -49,7 +49,7 @@ static inline void energy_add(EnergySums *sums, const Constants *constants, int 
 static inline void energy_add_turning(EnergySums *sums, const Constants *constants, int fluid,
                                       const float at[3], const float velocity[3])
 {
-    const double m = (double)constants->mass[fluid];
+    const double m = constants_mass(constants, fluid);
     double x[3], v[3];
     for (int k = 0; k < 3; k++) {
         x[k] = (double)at[k];

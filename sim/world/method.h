@@ -91,7 +91,7 @@ typedef struct Method {
     float (*pressure)(const struct Constants *constants, int fluid, float x);
     double (*energy)(double x);
     const char *energy_shader; /* shaders/sim/ENERGY_SHADER.glsl: the same for GPUs; NULL: none */
-    /* The saved column of its multipliers, and pressure over it, 1/m6. NULL: it has none. */
+    /* The saved column of its multipliers, and pressure over it. NULL: it has none. */
     const ColumnDef *multiplier;
     double (*pressure_of_multiplier)(const struct Constants *constants);
     /* Fills Constants.of_method, behind all others; again when what is live has changed. NULL: it has none.

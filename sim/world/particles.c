@@ -77,7 +77,8 @@ void particles_read(const ParticleColumns *p, const Constants *constants, const 
         const size_t i = at ? at[k] : k;
         if (out->position) {
             float *x = out->position + 4 * k;
-            x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i], x[3] = p->volume[i];
+            x[0] = p->x[i], x[1] = p->y[i], x[2] = p->z[i],
+            x[3] = p->volume[i] * (float)constants->unit_volume;
         }
         if (out->velocity) {
             float *v = out->velocity + 4 * k;
@@ -106,7 +107,7 @@ void particles_sums(const ParticleColumns *p, const Constants *constants, size_t
     *sums = (WorldSums){0};
     for (size_t i = 0; i < count; i++) {
         const double x[3] = {p->x[i], p->y[i], p->z[i]}, v[3] = {p->vx[i], p->vy[i], p->vz[i]};
-        sums_add(sums, constants->mass[p->fluid[i]], x, v);
+        sums_add(sums, constants_mass(constants, p->fluid[i]), x, v);
     }
     for (int k = 0; k < 3 && count > 0; k++)
         sums->centre[k] /= sums->mass;

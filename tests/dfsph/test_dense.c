@@ -159,7 +159,7 @@ static void assemble(System *s, const World *world, const Cloud *cloud, double x
     s->count = cloud->count;
     for (int i = 0; i < s->count; i++) {
         s->n[i] = sums.scale * sums.kernel->value(0, sums.h);
-        s->inverse_mass[i] = 1 / (double)c->mass[cloud->fluid[i]];
+        s->inverse_mass[i] = 1 / constants_mass(c, cloud->fluid[i]);
         for (int j = 0; j < s->count; j++)
             meet(s, &sums, x, i, j);
         for (size_t b = 0; b < cpu->count; b++)
@@ -278,14 +278,15 @@ static void step_of(const World *world, const Cloud *cloud, Step *out)
             out->x[i][k] = (double)cloud->x[3 * i + k] + 0.5 * dt * v;
             out->falls[i][k] = v + dt * world->def.gravity[k];
         }
+    const double unit2 = pow(world->constants.unit_volume, 2);
     for (size_t i = 0; i < cpu->count; i++) {
         const double v[3] = {(double)now->vx[i], (double)now->vy[i], (double)now->vz[i]};
         const ParticleId id = now->id[i];
         if (now->fluid[i] >= FLUIDS_MAX)
             continue;
         memcpy(out->flown[id], v, sizeof v);
-        out->moved[id] = (double)now->pressure_term[i];
-        out->pressed[id] = (double)now->own[KEPT][i];
+        out->moved[id] = unit2 * (double)now->pressure_term[i];
+        out->pressed[id] = unit2 * (double)now->own[KEPT][i];
     }
 }
 

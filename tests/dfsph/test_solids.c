@@ -47,7 +47,7 @@ static double lift(const World *world)
                 sum += 2 * (double)cpu->now.own[KEPT][i] * s->lattice.density_scale *
                        kernel->derivative(r, h) * d[1] / r;
         }
-    return sum;
+    return pow(s->unit_volume, 2) * sum;
 }
 
 typedef struct Rest {

@@ -60,11 +60,12 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
                    : 0.5 * mu * s->lattice.laplacian_scale * kernel_viscosity_laplacian(r, h));
     if (fi != fj || !s->tension_model || s->tension_model == TENSION_CURVATURE) /* the latter is of no pair */
         return sum;
-    const double t = h * h - r * r, dims = s->dimensions;
+    const double t = h * h - r * r, dims = s->dimensions, unit = s->unit;
     return sum + (double)s->tension[fi] * vi * vj *
                      (s->tension_model == TENSION_COHESION
-                          ? fabs(cohesion_kernel(r, h))
-                          : (double)s->colour * t * fabs(dims * h * h - (dims + 4) * r * r));
+                          ? fabs(cohesion_kernel(r, h)) / (s->unit_volume * pow(unit, 5))
+                          : (double)s->colour / (s->unit_volume * pow(unit, 4)) * t *
+                                fabs(dims * h * h - (dims + 4) * r * r));
 }
 
 /* The sum of these and of its weight over its mass, m/s2. */
@@ -82,7 +83,7 @@ static inline double scale_of(const Constants *s, const State *state, size_t i)
         if (j != i && r2 < (double)(s->support_radius * s->support_radius))
             sum += pair_terms(s, state, i, j, sqrt(r2));
     }
-    return sum / (double)s->mass[state->fluid[i]] + 9.81;
+    return sum / constants_mass(s, (int)state->fluid[i]) + 9.81;
 }
 
 static inline void require(const char *what, const Worst *worst, double most)

@@ -30,6 +30,7 @@
     BLOCK("sim/constant_block.h", ConstantBlock, CONSTANT(support), CONSTANT(inverse_support),               \
           CONSTANT(rest_number_density), CONSTANT(spacing), CONSTANT(kernel_scale),                          \
           CONSTANT(pressure_scale), CONSTANT(viscosity_scale), CONSTANT(stiffness_scale),                    \
+          CONSTANT(inverse_unit), CONSTANT(unit_volume), CONSTANT(inverse_unit_volume),                      \
           CONSTANT(first_cell), CONSTANT(particle_total), CONSTANT(grid_size), CONSTANT(cell_total),         \
           CONSTANT(first_row), CONSTANT(last_row), CONSTANT(first_single_row), CONSTANT(last_single_row),    \
           CONSTANT(half_size), CONSTANT(wall_lift), CONSTANT(dimensions), CONSTANT(fluids[0].mass),          \
@@ -51,7 +52,7 @@
         BLOCK("sim/dfsph/dfsph_block.h", DfsphBlock, DFSPH(gradient), DFSPH(friction_gradient),              \
               DFSPH(relaxation), DFSPH(pressure_of_term), DFSPH(least_squares)),                             \
         BLOCK("sim/pbf/pbf_block.h", PbfBlock, PBF(gradient), PBF(friction_gradient), PBF(relaxation),       \
-              PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt)),                                   \
+              PBF(least_squares), PBF(pressure_of_term), PBF(viscous_dt), PBF(settle_rate)),                 \
         BLOCK("sim/watch_block.h", WatchBlock, WATCH(greatest_speed2), WATCH(greatest_acceleration2),        \
               WATCH(greatest_density_ratio), WATCH(guarded), WATCH(went_too_far)),                           \
         BLOCK("sim/solid_steps_block.h", SolidStepsBlock, STEPS(solid_total), STEPS(boundary_total),         \

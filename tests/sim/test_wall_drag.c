@@ -70,7 +70,7 @@ static double drag_brute(const Constants *s, DragWeight weight, int faces, const
         if (r2 < h * h && factor > 0)
             sum += factor * wall_drag_weight(&s->lattice, weight, sqrt(r2), normal, h);
     }
-    return sum;
+    return s->unit_volume * sum;
 }
 
 /* In front of faces, edges and corners, low and high ones: what the particle's own lattice gives within 0.2 %

@@ -13,7 +13,7 @@ shared float greatest[64];
 #ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
-float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }
+float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * inverse_unit_volume * rest_number_density) - 1.0); }
 #endif
 
 void main()

@@ -32,7 +32,7 @@ void main()
 #if defined NO_SLIP && defined RUBS
         // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.
         uint fluid = name[i].y;
-        float scale = fluids[fluid].viscosity / fluids[fluid].mass * position[i].w / rest_number_density;
+        float scale = fluids[fluid].viscosity / fluids[fluid].mass * (position[i].w * inverse_unit_volume) / rest_number_density;
         float k = scale * wall_drag_at(position[i].xyz);
 #ifdef LID
         a += scale * wall_drag_sum(position[i].xyz, true) * lid_velocity;
@@ -53,7 +53,7 @@ void main()
         float speed2 = dot(v, v);
         if (is_nan(speed2) || speed2 > fastest * fastest)
             went_too_far = 1u;
-        found = floatBitsToUint(abs(vec3(speed2, dot(a, a), 1.0 / (position[i].w * rest_number_density))));
+        found = floatBitsToUint(abs(vec3(speed2, dot(a, a), 1.0 / (position[i].w * inverse_unit_volume * rest_number_density))));
     }
 #ifdef FELT
     felt_add(0u, pushed, turned);

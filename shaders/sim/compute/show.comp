@@ -10,7 +10,7 @@ layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCA
 #ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }
 #else
-float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * rest_number_density) - 1.0); }
+float compression_of(uint i) { return stiffness_scale * (1.0 / (position[i].w * inverse_unit_volume * rest_number_density) - 1.0); }
 #endif
 
 float value_of(uint i)

@@ -24,11 +24,11 @@
 
 UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
 {
-    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m5 */
+    float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m2 */
     float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
     float relaxation;        /* of Jacobi */
-    float pressure_of_term;  /* p over k, 1/m6 */
-    float least_squares;     /* D times m is no less, 1/m8 */
+    float pressure_of_term;  /* p over k */
+    float least_squares;     /* D times m is no less, 1/m2 */
 }
 BLOCK_END(DfsphBlock);
 

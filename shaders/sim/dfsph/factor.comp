@@ -23,7 +23,7 @@ void main()
     float d = max(dot(whole, whole) / mass + squares, least_squares / mass);
     scratch[SCRATCH_factor + i] = d > 0.0 ? min(1.0, rest_number_density / n) / d : 0.0;
     float volume = 1.0 / n;
-    position[i].w = volume;
+    position[i].w = unit_volume * volume;
     velocity[i].w = volume;
     pressure[i] = vec2(pressure_of_term * own[OWN_kept_term + i], 0.0);
     near[i] = vec4(x, 0.0);

@@ -42,7 +42,7 @@ void main()
     p = max(p, 0.0);
 #endif
     float volume = 1.0 / n;
-    position[i].w = volume;
+    position[i].w = unit_volume * volume;
     velocity[i].w = volume;
     pressure[i] = vec2(p, p / (n * n));
     near[i] = vec4(x, p / (n * n));

@@ -13,7 +13,7 @@ void main()
     if (i >= particle_count())
         return;
     vec3 x = position[i].xyz;
-    float k = own[OWN_term + i] * (1.0 - min(FORGOTTEN, FORGOTTEN_RATE * dt));
+    float k = own[OWN_term + i] * (1.0 - min(FORGOTTEN, FORGOTTEN_RATE * (settle_rate * dt)));
     own[OWN_term + i] = k;
     for (uint a = 0u; a < 3u; a++)
         own[a * OWN_STRIDE + OWN_moved + i] = 0.0;

@@ -30,7 +30,7 @@ void main()
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights, ratio = n / rest_number_density;
     if (own[OWN_before + i] == 0.0 && dt > 0.0)
         own[OWN_before + i] = ratio;
-    float residual = ratio - 1.0 - (1.0 - PBF_SHARE(dt)) * found(own[OWN_before + i] - 1.0);
+    float residual = ratio - 1.0 - (1.0 - PBF_SHARE(settle_rate * dt)) * found(own[OWN_before + i] - 1.0);
     float factor = 1.0 / (dot(whole, whole) / mass + squares + least_squares / mass);
     float k = own[OWN_term + i], change = next_term(k, residual, factor, scratch[SCRATCH_change + i]) - k;
     scratch[SCRATCH_compressed + i] = ratio - 1.0;
@@ -38,7 +38,7 @@ void main()
     scratch[SCRATCH_change + i] = change;
     near[i] = vec4(x, dt * dt * change);
     float volume = 1.0 / n;
-    position[i].w = volume;
+    position[i].w = unit_volume * volume;
     velocity[i].w = volume;
     vec3 moved = vec3(own[OWN_moved + i], own[OWN_STRIDE + OWN_moved + i], own[2u * OWN_STRIDE + OWN_moved + i]);
     motion[i] = vec4(velocity[i].xyz + moved / dt, 1.0 / n);

@@ -15,7 +15,7 @@ void main()
         return;
     walk_pairs(i, position[i].xyz);
     float volume = 1.0 / (kernel_scale * heights);
-    position[i].w = volume;
+    position[i].w = unit_volume * volume;
     velocity[i].w = volume;
     pressure[i] = vec2(pressure_of_term * own[OWN_term + i], 0.0);
 }

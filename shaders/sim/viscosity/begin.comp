@@ -36,7 +36,7 @@ void rub(float c, vec3 d, vec3 v)
 
 void meet(uint j, vec3 d, float volume)
 {
-    rub(weight(d, fluids[FLUID_OF(j)].viscosity, volume), d, velocity[j].xyz + change_before(j));
+    rub(weight(d, fluids[FLUID_OF(j)].viscosity, inverse_unit_volume * volume), d, velocity[j].xyz + change_before(j));
 }
 
 #ifdef SOLIDS
@@ -101,7 +101,7 @@ void main()
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec4 place = position[i];
+    vec4 place = vec4(position[i].xyz, inverse_unit_volume * position[i].w);
     Fluid fluid = fluids[FLUID_OF(i)];
     own_viscosity = fluid.viscosity;
     vec3 v = velocity[i].xyz, change = change_before(i);

@@ -10,7 +10,7 @@ vec3 own, sum = vec3(0);
 void meet(uint j, vec3 d, float volume)
 {
     vec4 other = trial[j];
-    sum += weight(d, other.w, volume) * dot(own - other.xyz, d) * d;
+    sum += weight(d, other.w, inverse_unit_volume * volume) * dot(own - other.xyz, d) * d;
 }
 
 // Boundary particles, whose change is 0, are in the blocks `held`.
@@ -47,7 +47,7 @@ void main()
     uint i = invocation();
     if (i >= particle_count())
         return;
-    vec4 place = position[i], own_trial = trial[i];
+    vec4 place = vec4(position[i].xyz, inverse_unit_volume * position[i].w), own_trial = trial[i];
     own = own_trial.xyz;
     own_viscosity = own_trial.w;
     ivec3 at = cell_of(place.xyz);

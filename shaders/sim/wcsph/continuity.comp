@@ -119,6 +119,6 @@ void main()
     State state = state_of(e, own_fluid);
     own[OWN_rate + i] = rate;
     velocity[i].w = e;
-    position[i].w = state.volume;
+    position[i].w = unit_volume * state.volume;
     pressure[i] = state.pressure;
 }

@@ -59,7 +59,7 @@ void main()
     ivec3 at = cell_of(x);
     WALK_NEIGHBOURS(i, x, at, meet, meet_boundary, 0)
     walk_images(x, at);
-    float scale = gradient_scale * position[i].w;
+    float scale = gradient_scale * (position[i].w * inverse_unit_volume);
     vec3 m = scale * diagonal, o = scale * mixed; // o: xy yz zx
     if (dimensions == 2)
         m.z = 0.5 * (m.x + m.y);

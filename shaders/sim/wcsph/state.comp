@@ -22,7 +22,7 @@ void main()
     float before = velocity[i].w, e = density_after(before, own[OWN_rate + i] * dt);
     State state = state_of(e, name[i].y);
     velocity[i].w = e;
-    position[i].w = state.volume;
+    position[i].w = unit_volume * state.volume;
     pressure[i] = state.pressure;
     near[i] = vec4(position[i].xyz, state.pressure.y);
 #ifdef DIFFUSION

@@ -30,7 +30,7 @@ BLOCK_END(WcsphFluid);
 
 UNIFORM_BLOCK(WcsphBlock, METHOD_BLOCK)
 {
-    float gradient_scale;   /* -W'(r) / r over f(r / h), calibrated, 1/m5; f by kernel */
+    float gradient_scale;   /* -W'(r) / r over f(r / h), calibrated, 1/m2; f by kernel */
     float diffusion;        /* 2 delta c (h / 2), m2/s; 0: none */
     float radial_friction;  /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
     float shift_speed;      /* chi c h / 2, m2/s; 0: none: Lind 2012 */

@@ -57,6 +57,9 @@ void compute_constants(Compute *compute)
                        .pressure_scale = s->pressure_scale,
                        .viscosity_scale = s->viscosity_scale,
                        .stiffness_scale = s->stiffness_scale,
+                       .inverse_unit = (float)(1 / s->unit),
+                       .unit_volume = (float)s->unit_volume,
+                       .inverse_unit_volume = (float)(1 / s->unit_volume),
                        .wall_lift =
                            wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale,
                        .particle_total = (int)compute->count,

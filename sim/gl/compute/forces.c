@@ -104,12 +104,14 @@ void compute_felt_back(Compute *c)
     felt->seconds = felt->seconds_marked;
 }
 
-static Push push_of(const float force[3], const float torque[3])
+/* Forces are over the unit of volume. */
+static Push push_of(const Compute *c, const float force[3], const float torque[3])
 {
+    const double unit = c->constants->unit_volume;
     Push push;
     for (int k = 0; k < 3; k++) {
-        push.force[k] = (double)force[k];
-        push.torque[k] = (double)torque[k];
+        push.force[k] = unit * (double)force[k];
+        push.torque[k] = unit * (double)torque[k];
     }
     return push;
 }
@@ -119,7 +121,7 @@ static void add_up(const Compute *c, const FeltPart *part, Forces *to)
 {
     const size_t groups = group_parts(c), of_group = 1 + (size_t)c->constants->solid_count;
     for (size_t k = 0; k < parts(c); k++, part++) {
-        const Push push = push_of(part->force, part->torque), about = push_of(part->force, part->about);
+        const Push push = push_of(c, part->force, part->torque), about = push_of(c, part->force, part->about);
         const size_t which = k < groups ? k % of_group : 1 + (size_t)c->constants->boundary.solid[k - groups];
         push_add(which > 0 ? &to->solid[which - 1] : &to->box, 1, &push);
         if (k >= groups)

@@ -39,11 +39,12 @@ bool compute_gauged(void *state, WorldGauge *gauge)
     const GaugePart *part = mailbox_look(&c->gauge);
     if (!part)
         return false;
+    const double unit = c->constants->unit_volume; /* masses are over it */
     for (int group = 0; group < COMPUTE_GAUGE_GROUPS; group++, part++) {
         gauge->density_error_mean += (double)part->density_error;
-        gauge->kinetic_energy += (double)part->kinetic_energy;
-        gauge->potential_energy += (double)part->potential_energy;
-        gauge->compression_energy += (double)part->compression_energy;
+        gauge->kinetic_energy += unit * (double)part->kinetic_energy;
+        gauge->potential_energy += unit * (double)part->potential_energy;
+        gauge->compression_energy += unit * (double)part->compression_energy;
         gauge->density_error_max = fmax(gauge->density_error_max, (double)part->greatest_compression);
     }
     gauge->density_error_mean /= c->gauged > 0 ? (double)c->gauged : 1;

@@ -100,6 +100,8 @@ static void download(const Compute *c, const ParticleColumns *to, uint32_t *entr
         glGetNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
         packing_unpack(&packing, b, c->constants->method, entries, c->count, to);
     }
+    for (size_t i = 0; to->volume && i < c->count; i++) /* m3, for the views */
+        to->volume[i] /= (float)c->constants->unit_volume;
     compute_own_download(c, to);
 }
 

@@ -62,6 +62,7 @@ static void put_kernel(Text *to, const Constants *s)
     put_float(to, "pressure_scale", s->pressure_scale);
     put_float(to, "viscosity_scale", s->viscosity_scale);
     put_float(to, "stiffness_scale", s->stiffness_scale);
+    put_float(to, "unit_volume", (float)s->unit_volume);
 }
 
 void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])

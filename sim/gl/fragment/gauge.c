@@ -54,10 +54,11 @@ bool fragment_gauged(void *state, WorldGauge *gauge)
     const float *found = mailbox_look(&f->gauge);
     if (!found)
         return false;
+    const double unit = f->constants->unit_volume; /* masses are over it */
     gauge->density_error_mean = (double)found[0] / (f->count > 0 ? (double)f->count : 1);
-    gauge->kinetic_energy = (double)found[1];
-    gauge->potential_energy = (double)found[2];
-    gauge->compression_energy = (double)found[3];
+    gauge->kinetic_energy = unit * (double)found[1];
+    gauge->potential_energy = unit * (double)found[2];
+    gauge->compression_energy = unit * (double)found[3];
     gauge->density_error_max = (double)found[4];
     return true;
 }
