@@ -17,8 +17,8 @@ const ProbeFieldRow probe_fields[] = {
         {.name = NULL}};
 
 /* What each kind names. */
-#define PLACE_OF(S, HELP)    VEC3(S ".at", R | I, "m", -1000, 1000, PROBE(at), HELP),
-#define SIDE(S, NAME, HELP)  VEC3(S "." #NAME, R | I, "m", -1000, 1000, PROBE(NAME), HELP),
+#define PLACE_OF(S, HELP)    VEC3(S ".at", R | I, "m", -1e6, 1e6, PROBE(at), HELP),
+#define SIDE(S, NAME, HELP)  VEC3(S "." #NAME, R | I, "m", -1e6, 1e6, PROBE(NAME), HELP),
 #define COUNT(S, MOST, HELP) INTEGER(S ".count", I, 2, MOST, PROBE(count), HELP),
 #define FIELDS_POINT(S)      PLACE_OF(S, "the place, on a wall or in the fluid")
 #define FIELDS_HEIGHT(S)     PLACE_OF(S, "the foot: the height counts from here straight up, along the box's y")

@@ -8,8 +8,8 @@
 static bool check(const double size[3], const WorldDef *def, Error *error)
 {
     for (int k = 0; k < def->dimensions; k++) {
-        if (!isfinite(size[k]) || size[k] < BOX_LEAST * def->spacing || size[k] > 1000)
-            return error_set(error, "a side of the box must be %d spacings, %.3g m, to 1000 m, not %g m",
+        if (!isfinite(size[k]) || size[k] < BOX_LEAST * def->spacing || size[k] > 1e6)
+            return error_set(error, "a side of the box must be %d spacings, %.3g m, to 1e6 m, not %g m",
                              BOX_LEAST, BOX_LEAST * def->spacing, size[k]);
         if (def->periodic[k] && size[k] != def->box_size[k])
             return error_set(error, "the box has periodic sides along %c, and keeps its size there",

@@ -10,7 +10,7 @@
  */
 #define AXIS(M) VEC3(M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
 #define AMPLITUDE(M)                                                                                         \
-    NUMBER(M ".amplitude", R, "m", 0, 100, MOTION(amplitude), "greatest distance from the start"),
+    NUMBER(M ".amplitude", R, "m", 0, 1e6, MOTION(amplitude), "greatest distance from the start"),
 #define ANGLE(M, MOST) NUMBER(M ".angle", R, "degrees", -(MOST), MOST, MOTION(angle_deg), "greatest angle"),
 #define FREQUENCY(M)                                                                                         \
     NUMBER(M ".frequency", R, "Hz", 0, 1000, MOTION(frequency), "how often to and fro in a second"),

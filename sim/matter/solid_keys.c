@@ -7,24 +7,24 @@
 #define SOLID(field) offsetof(SolidDef, field)
 
 /* What each kind of solid names. */
-#define CENTRE(S, HELP)    VEC3(S ".centre", R, "m", -1000, 1000, SOLID(centre), HELP),
+#define CENTRE(S, HELP)    VEC3(S ".centre", R, "m", -1e6, 1e6, SOLID(centre), HELP),
 #define DIRECTION(S, HELP) VEC3(S ".axis", 0, "", -1000, 1000, SOLID(axis), HELP),
-#define RADIUS(S, HELP)    NUMBER(S ".radius", R | O, "m", 0, 1000, SOLID(radius), HELP),
+#define RADIUS(S, HELP)    NUMBER(S ".radius", R | O, "m", 0, 1e6, SOLID(radius), HELP),
 
 #define FIELDS_SPHERE(S) CENTRE(S, "its centre") RADIUS(S, "its radius")
 #define FIELDS_BOX(S)                                                                                        \
     CENTRE(S, "its centre")                                                                                  \
-    VEC3(S ".size", R, "m", 0, 1000, SOLID(size), "lengths of its edges"),                                   \
+    VEC3(S ".size", R, "m", 0, 1e6, SOLID(size), "lengths of its edges"),                                    \
         DIRECTION(S, "what it is turned about; in two dimensions [0, 0, 1]")                                 \
             NUMBER(S ".angle", 0, "degrees", -360, 360, SOLID(angle_deg), "how far it is turned"),
 #define FIELDS_CYLINDER(S)                                                                                   \
     CENTRE(S, "its centre")                                                                                  \
     RADIUS(S, "its radius")                                                                                  \
-    NUMBER(S ".height", R | O, "m", 0, 1000, SOLID(height), "its length"), DIRECTION(S, "its direction")
+    NUMBER(S ".height", R | O, "m", 0, 1e6, SOLID(height), "its length"), DIRECTION(S, "its direction")
 #define FIELDS_BOWL(S)                                                                                       \
     CENTRE(S, "of its sphere, in the middle of its opening")                                                 \
     RADIUS(S, "inside")                                                                                      \
-    NUMBER(S ".thickness", 0, "m", 0, 1000, SOLID(thickness), "of its wall; 0: the support radius"),         \
+    NUMBER(S ".thickness", 0, "m", 0, 1e6, SOLID(thickness), "of its wall; 0: the support radius"),          \
         DIRECTION(S, "where it opens to")
 #define FIELDS_MESH(S)                                                                                       \
     TEXT(S ".file", R, MESH_NAME_SIZE, SOLID(mesh.file), NULL,                                               \
@@ -57,7 +57,7 @@ const Key solid_keys[] = {
     NUMBER("solids[].density", 0, "kg/m3", 0, 1e6, SOLID(density),
            "more than 0: fluid and gravity move the solid; 0: it stands, or has a motion"),
     MAPPING("solids[].hinge", "what such a solid turns about, and does not leave; fixed to the box"),
-    VEC3("solids[].hinge.at", 0, "m", -1000, 1000, SOLID(hinge_at), "a point of the axis"),
+    VEC3("solids[].hinge.at", 0, "m", -1e6, 1e6, SOLID(hinge_at), "a point of the axis"),
     VEC3("solids[].hinge.axis", 0, "", -1000, 1000, SOLID(hinge_axis), "its direction; in two dimensions [0, 0, 1]"),
     LIST("solids[].motion", 0, 0, MOTIONS_MAX, SOLID(motions), SOLID(motion_count), Motion, NULL,
          "how it moves in the box; all together, turns about its centre"),

@@ -15,7 +15,7 @@ static const char *const step_modes[] = {[STEP_FIXED] = "fixed", [STEP_CFL] = "c
 /* clang-format off */
 const Key box_keys[] = {
     MAPPING("box", "the box that holds the fluid; its origin is the centre of its floor, y is up"),
-    VEC3("box.size", R, "m", 0.001, 1000, AT(box_size), "inner width (x), height (y), depth (z); [width, height] makes a scene of two dimensions, whose vectors may have two numbers"),
+    VEC3("box.size", R, "m", 1e-6, 1e6, AT(box_size), "inner width (x), height (y), depth (z); [width, height] makes a scene of two dimensions, whose vectors may have two numbers"),
     CHOICE_OF("box.slip", KEY_INDEX, slip_names, AT(wall_slip),
            "how fluid passes the walls; none: they hold fluid that has a viscosity (no friction by solver.artificial_viscosity)", .off = "free"),
     AXES("box.periodic", AT(periodic), "axes along which fluid that leaves the box comes in on the other side: [x], [x, y] and so on; not on backend fragment, and such a box does not turn"),
@@ -23,7 +23,7 @@ const Key box_keys[] = {
     VEC3("gravity", L, "m/s2", -1000, 1000, AT(gravity), "in the world's frame"),
 
     MAPPING("particles", "the resolution"),
-    NUMBER("particles.spacing", R, "m", 1e-6, 100, AT(spacing), "distance of neighbours at rest"),
+    NUMBER("particles.spacing", R, "m", 1e-7, 1e4, AT(spacing), "distance of neighbours at rest"),
     NUMBER("particles.support", 0, "spacings", 1.5, 4, AT(support), "support radius h: how far a particle sees"),
 
     NUMBER("particles.jitter", 0, "spacings", 0, 0.5, AT(jitter), "how far fills are off their lattice along each axis at most, the same way in each run"),
@@ -48,11 +48,11 @@ const Key step_keys[] = {
     MAPPING("solver.step", "the time step"),
     CHOICE_OF("solver.step.mode", KEY_INDEX, step_modes, AT(step_mode),
            "fixed: a frame simulates dt, in substeps; cfl: a frame is one step, as long as speeds and forces allow"),
-    NUMBER("solver.step.dt", L, "s", 1e-7, 1, AT(dt), "simulated time of a frame", .owner = &fixed),
+    NUMBER("solver.step.dt", L, "s", 1e-9, 100, AT(dt), "simulated time of a frame", .owner = &fixed),
     INTEGER("solver.step.substeps", L, 1, 10000, AT(substeps), "steps in a frame", .owner = &fixed),
     NUMBER("solver.step.number", L, "", 0.001, 2, AT(cfl_number),
            "Courant factor: the step is this fraction of the smallest of these limits: h / (c + v), sqrt(h / a), and twice the longest step that friction stands (never more than 0.7 of that step); slosh info says the default of a method", .owner = &cfl),
-    NUMBER("solver.step.max_dt", L, "s", 1e-7, 1, AT(max_dt), "greatest step", .owner = &cfl),
+    NUMBER("solver.step.max_dt", L, "s", 1e-9, 100, AT(max_dt), "greatest step", .owner = &cfl),
     INTEGER("solver.step.retries", 0, 0, 10, AT(retries),
             "after trouble go back and halve the step, up to so many times; 0: stop at once"),
     KEYS_END,

@@ -257,9 +257,9 @@ static void numbers_must_be_finite_and_in_range(void **state)
                    "scene.yaml:7:14: gravity must be a finite number, not -.inf");
     assert_refused(LEAST "gravity: [0, 1e999, 0]\n",
                    "scene.yaml:7:14: gravity must be a finite number, not 1e999");
-    assert_set_refused("particles.spacing=-0.1", "particles.spacing must be 1e-06 to 100 m, not -0.1");
+    assert_set_refused("particles.spacing=-0.1", "particles.spacing must be 1e-07 to 10000 m, not -0.1");
     assert_set_refused("particles.spacing=NaN", "particles.spacing must be a finite number");
-    assert_set_refused("box.size=[1, -1, 1]", "box.size must be 0.001 to 1000 m, not -1");
+    assert_set_refused("box.size=[1, -1, 1]", "box.size must be 1e-06 to 1e+06 m, not -1");
 }
 
 static void what_is_missing_is_named(void **state)
@@ -315,7 +315,7 @@ static void tables_must_make_sense(void **state)
         {"[[1]]", "17: fluids[0].viscosity must be a number or rows [seconds, number]"},
         {"[[0, 1], [x, 1]]", "26: fluids[0].viscosity must be a number or rows [seconds, number]"},
         {"[[0, 1], [2, y]]", "29: fluids[0].viscosity must be a number or rows [seconds, number]"},
-        {"[[0, 1], [2, -1]]", "29: fluids[0].viscosity must be 0 to 1e+06 Pa s, not -1"},
+        {"[[0, 1], [2, -1]]", "29: fluids[0].viscosity must be 0 to 1e+09 Pa s, not -1"},
         {"[[0, 1], [2, .nan]]", "29: fluids[0].viscosity must be a finite number, not .nan"},
         {"[[-1, 1]]", "18: fluids[0].viscosity: times must be 0 to 1e+06 s, not -1"},
         {"[[.nan, 1]]", "18: fluids[0].viscosity: times must be 0 to 1e+06 s, not .nan"},

@@ -176,10 +176,10 @@ static void particles_that_cannot_be_are_refused(void **state)
 static void steps_have_bounds(void **state)
 {
     (void)state;
-    static const char *const bad[] = {"mode=rk4",   "number=0",   "number=2.1", "max_dt=0",
-                                      "max_dt=1.1", "retries=-1", "retries=11"};
-    static const char *const good[] = {"mode=cfl", "number=0.001", "number=2",  "max_dt=1e-7",
-                                       "max_dt=1", "retries=0",    "retries=10"};
+    static const char *const bad[] = {"mode=rk4",     "number=0",   "number=2.1", "max_dt=0",
+                                      "max_dt=100.1", "retries=-1", "retries=11"};
+    static const char *const good[] = {"mode=cfl",   "number=0.001", "number=2",  "max_dt=1e-9",
+                                       "max_dt=100", "retries=0",    "retries=10"};
     char set[64];
     for (int i = 0; i < 7; i++) {
         snprintf(set, sizeof set, "solver.step.%s", bad[i]);
