@@ -204,7 +204,8 @@ static double yield_of(const BodyWorld *world, const BodyStates *states, const C
     return yield;
 }
 
-/* Both on hinges whose axes the contact can't turn them about: nothing yields. */
+/* Of what the body would yield if it were free: both are on hinges whose axes the contact can't turn them
+   about, and nothing yields. */
 static const double STIFF = 1e-12;
 
 static void push_apart(const BodyWorld *world, Contact *c, BodyStates *states)
@@ -212,7 +213,7 @@ static void push_apart(const BodyWorld *world, Contact *c, BodyStates *states)
     const double yield = yield_of(world, states, c, c->n), before = c->push;
     double v[3], blow[3];
     approach(world, states, c, v);
-    if (yield < STIFF)
+    if (yield * world->bodies[c->body].mass.mass < STIFF)
         return;
     c->push = fmax(before + (c->wanted - dot(v, c->n)) / yield, 0);
     for (int k = 0; k < 3; k++)
@@ -231,7 +232,7 @@ static void rub(const BodyWorld *world, Contact *c, BodyStates *states)
     for (int k = 0; k < 3 && speed > 0; k++)
         t[k] /= speed;
     const double yield = speed > 0 ? yield_of(world, states, c, t) : 0;
-    if (yield < STIFF)
+    if (yield * world->bodies[c->body].mass.mass < STIFF)
         return;
     for (int k = 0; k < 3; k++)
         all[k] = c->rub[k] - speed / yield * t[k];

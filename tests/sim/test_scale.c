@@ -32,7 +32,7 @@ typedef struct Case {
     const char *name, *method;
     int tension;      /* a TensionModel */
     double viscosity; /* in units of the scale */
-    bool implicit, no_slip, two, solid, moves, periodic, emits, floats, cfl, negative, hydrostatic;
+    bool implicit, no_slip, two, solid, moves, periodic, emits, floats, lies, cfl, negative, hydrostatic;
     const char *kernel; /* wcsph, and mueller's of density */
     double delta, shifting;
     bool radial, corrected;
@@ -59,6 +59,7 @@ static const Case cases[] = {
     {"no slip, pulls", "wcsph", .viscosity = 1, .no_slip = true, .negative = true},
     {"implicit, solid", "wcsph", .viscosity = 200, .implicit = true, .solid = true},
     {"floats", "wcsph", .floats = true},
+    {"lies on the floor", "wcsph", .floats = true, .lies = true},
     {"plain", "dfsph", .cfl = false},
     {"no slip, two", "dfsph", .viscosity = 1, .no_slip = true, .two = true},
     {"cohesion, solid", "dfsph", .tension = TENSION_COHESION, .viscosity = 1, .solid = true},
@@ -90,11 +91,14 @@ static void solids_of(const Case *c, const Units *u, WorldDef *def)
 {
     if (!c->solid && !c->floats)
         return;
-    def->solids[def->solid_count++] = (SolidDef){.kind = SOLID_SPHERE,
-                                                 .centre = {0.3 * u->length, 2.6 * u->length, 0},
-                                                 .radius = 1.9 * u->length,
-                                                 .slip = c->viscosity > 0 ? SLIP_NONE : SLIP_FREE,
-                                                 .density = c->floats ? 500 : 0};
+    def->solids[def->solid_count++] =
+        (SolidDef){.kind = SOLID_SPHERE,
+                   .centre = {0.3 * u->length, (c->lies ? 1.91 : 2.6) * u->length, 0},
+                   .radius = 1.9 * u->length,
+                   .slip = c->viscosity > 0 ? SLIP_NONE : SLIP_FREE,
+                   .density = c->lies     ? 3000
+                              : c->floats ? 500
+                                          : 0};
 }
 
 static void motions_of(const Case *c, const Units *u, WorldDef *def)
