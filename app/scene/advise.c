@@ -36,8 +36,10 @@ enum { NEED_SIZE = 128 };
 /* A method without sound reads no speed of it; those that do, where the scene's is such a one. */
 static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZE])
 {
+    const Method *own = method_find(scene->world.method);
     int used = 0;
-    if (strcmp(path, "solver.sound_speed") != 0 || !method_find(scene->world.method)->incompressible)
+    if (strcmp(path, "solver.sound_speed") != 0 || !own->incompressible ||
+        (own->asks_sound && own->asks_sound(&scene->world)))
         return false;
     for (const Method *const *method = method_list(); *method && used < NEED_SIZE; method++)
         if (!(*method)->incompressible)

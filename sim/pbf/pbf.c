@@ -19,17 +19,29 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-/* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 0.1 m.
-   What surface tension pulls with across a spacing counts where it is more than gravity. Without either it is
-   a frame's, the longest step that there may be. */
-static double settle_rate(const WorldDef *def)
+/* What pulls the fluid, m/s2: gravity, or surface tension across a spacing where that is more. */
+static double pull_of(const WorldDef *def)
 {
-    static const double FALLS = 60 * 60 * 0.1 / 9.81;
     const double *g = def->gravity, s = def->spacing;
     double pull = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     for (int f = 0; f < def->fluid_count; f++)
         pull = fmax(pull, def->fluids[f].surface_tension / (def->fluids[f].density * s * s));
-    return pull > 0 ? sqrt(FALLS * pull / s) : 1 / (def->step_mode == STEP_FIXED ? def->dt : def->max_dt);
+    return pull;
+}
+
+/* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 0.1 m.
+   Where nothing pulls it goes with the time that sound, which has no other part in this method, takes to
+   cross one: 1/60 s for 20 m/s. */
+static double settle_rate(const WorldDef *def)
+{
+    static const double FALLS = 60 * 60 * 0.1 / 9.81, SOUNDS = 60 * 0.1 / 20;
+    const double pull = pull_of(def), s = def->spacing;
+    return pull > 0 ? sqrt(FALLS * pull / s) : SOUNDS * def->sound_speed / s;
+}
+
+static bool asks_sound(const WorldDef *def)
+{
+    return !(pull_of(def) > 0);
 }
 
 static void pbf_set(Constants *constants, const WorldDef *def)
@@ -162,6 +174,7 @@ const Method method_pbf = {
     .def = &usual,
     .def_size = sizeof usual,
     .incompressible = true,
+    .asks_sound = asks_sound,
     .solvers = {{"places", "solver.compression", "solver.corrections"}},
     .leaps = true,
     .kernels = incompressible_kernels,

@@ -78,6 +78,8 @@ typedef struct Method {
     bool curvature;       /* it has surface tension by curvature */
     bool keeps_images;    /* no place changes while the lists of a grid are walked: so images have lists */
     bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
+    bool (*asks_sound)(
+        const WorldDef *def); /* whether such a one reads its speed all the same; NULL: never */
     MethodSolver
         solvers[SOLVES_OF_METHOD]; /* what is left of the first one's residual is the error of density */
     bool leaps; /* its particles may move further than h in a step: no trouble, and walls fold what crosses
