@@ -2,7 +2,7 @@
 #include "sim/constants.glsl"
 #include "sim/gauge.glsl"
 #include "shaders/sim/gauge_part.h"
-layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
 layout(std430, binding = PARTS_BUFFER) writeonly buffer Parts { GaugePart part[]; };

@@ -15,7 +15,7 @@
 #ifdef NAMED
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #endif
-layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { vec4 acceleration[]; };
 shared uvec3 greatest[64];

@@ -4,7 +4,7 @@
 #define OWN_ACCESS readonly
 #define BOUNDARY_TIMES 2.0 // they push with the particle's own k, too: sim/dfsph/passes.h
 #include "shaders/sim/dfsph/dfsph_block.h"
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume, m3
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k
 layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; }; // w: volume
 layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };                 // x y z, k

@@ -3,7 +3,7 @@
 #include "sim/images.glsl"
 #define LISTS_FIRST
 #include "sim/walk.glsl"
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; }; // p, p V^2
 // For the forces, which read of another both or the first alone: x y z, p V^2; velocity and volume.

@@ -3,7 +3,7 @@
 #define LISTS_LATER
 #define MOMENTUM PBF_MOMENTUM
 #include "shaders/sim/pbf/pbf_block.h"
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };       // w: volume
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };       // w: volume, m3
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };     // w: volume
 layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };           // w: what k grows by, times dt^2
 layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[]; };   // velocities at the step's end, volume

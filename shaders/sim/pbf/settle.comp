@@ -2,7 +2,7 @@
 #define LISTS_FIRST
 #define OWN_ACCESS readonly
 #include "shaders/sim/pbf/pbf_block.h"
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume, m3
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k
 layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; }; // w: volume
 #include "sim/incompressible/sums.glsl"

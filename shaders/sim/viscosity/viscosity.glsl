@@ -13,7 +13,7 @@
 #endif
 #include "sim/constants.glsl"
 #include "sim/shapes.glsl"
-layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3
 #include "sim/walk.glsl"
 #include "sim/scratch.glsl"
 

@@ -10,7 +10,7 @@
 #include "sim/solids.glsl"
 layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: which solid
 #endif
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone

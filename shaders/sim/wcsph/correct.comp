@@ -6,7 +6,7 @@
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"
 #include "common/nan.glsl"
-layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = CORRECTIONS_BUFFER) writeonly buffer Corrections { vec4 correction[]; };
 
 vec3 diagonal = vec3(0), mixed = vec3(0), image_diagonal, image_mixed;

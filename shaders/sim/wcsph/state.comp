@@ -4,7 +4,7 @@
 #include "sim/constants.glsl"
 #include "sim/own.glsl"
 #include "sim/wcsph/wcsph.glsl"
-layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume
+layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };     // p, p V^2
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };              // w: rho / rho0 - 1
