@@ -29,12 +29,12 @@ static double pull_of(const WorldDef *def)
     return pull;
 }
 
-/* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 0.1 m.
+/* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 5 cm.
    Where nothing pulls it goes with the time that sound, which has no other part in this method, takes to
    cross one: 1/60 s for 20 m/s. */
 static double settle_rate(const WorldDef *def)
 {
-    static const double FALLS = 60 * 60 * 0.1 / 9.81, SOUNDS = 60 * 0.1 / 20;
+    static const double FALLS = 60 * 60 * 0.05 / 9.81, SOUNDS = 60 * 0.1 / 20;
     const double pull = pull_of(def), s = def->spacing;
     return pull > 0 ? sqrt(FALLS * pull / s) : SOUNDS * def->sound_speed / s;
 }
