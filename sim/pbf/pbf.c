@@ -31,7 +31,7 @@ static double pull_of(const WorldDef *def)
 
 /* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 5 cm.
    Where nothing pulls it goes with the time that sound, which has no other part in this method, takes to
-   cross one: 1/60 s for 20 m/s. */
+   cross one, 1/60 s for 10 cm and 20 m/s. */
 static double settle_rate(const WorldDef *def)
 {
     static const double FALLS = 60 * 60 * 0.05 / 9.81, SOUNDS = 60 * 0.1 / 20;
