@@ -9,9 +9,10 @@ ivec3 cell_of(vec3 x)
 #endif
 }
 
-int cell_number(ivec3 at) { return (at.z * grid_size.y + at.y) * grid_size.x + at.x; }
+// Its place: sim/world/cell_fold.h.
+int cell_place(ivec3 at) { return ((cell_fold.x * at.y + cell_fold.y * at.z) & cell_fold.z) + at.x; }
 
-// A row's first cell and the one behind it. With periodic sides a row is a single cell, and what stands there sees a
+// The places of a row's first cell and the one behind it. With periodic sides a row is a single cell, and what stands there sees a
 // particle at x as if it were at x + row_shift.
 #ifdef PERIODIC
 #define FIRST_ROW first_single_row
@@ -30,13 +31,13 @@ ivec2 row_cells(ivec3 at, int row)
 {
     ivec3 cell = at + row_offset(row), cells = grid_size - 2;
     ivec3 inside = cell + cells * (ivec3(lessThan(cell, ivec3(1))) - ivec3(greaterThan(cell, cells)));
-    int number = cell_number(ivec3(mix(vec3(cell), vec3(inside), periodic)));
+    int place = cell_place(ivec3(mix(vec3(cell), vec3(inside), periodic)));
 #ifdef BEHIND_DRIFT
     // Another row has all that stands in this one: cell_row_again of sim/world/cell_rows.c.
     if (any(bvec3(mix(vec3(0), vec3(notEqual(cell, inside)) * vec3(equal(cells, ivec3(2))), periodic))))
-        return ivec2(number);
+        return ivec2(place);
 #endif
-    return ivec2(number, number + 1);
+    return ivec2(place, place + 1);
 }
 
 #ifndef BEHIND_DRIFT
@@ -55,7 +56,7 @@ vec3 row_seen(vec3 x, ivec3 at, int row) { return x; }
 
 ivec2 row_cells(ivec3 at, int row)
 {
-    int middle = cell_number(at + ivec3(0, row % 3 - 1, row / 3 - 1));
+    int middle = cell_place(at + ivec3(0, row % 3 - 1, row / 3 - 1));
     return ivec2(middle - 1, middle + 2);
 }
 

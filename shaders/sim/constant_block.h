@@ -45,6 +45,7 @@ UNIFORM_BLOCK(ConstantBlock, CONSTANT_BLOCK)
     vec3 cell_inverse; /* 1/m */
     vec3 box_low;      /* where a box with periodic sides begins, m */
     vec3 box_whole;    /* how large it is, m */
+    ivec3 cell_fold;   /* y, z, mask: sim/world/cell_fold.h */
 }
 BLOCK_END(ConstantBlock);
 

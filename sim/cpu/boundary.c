@@ -144,7 +144,7 @@ static void look_around(const PairArgs *args, uint32_t cell, Around *around)
     if (around->count > 0 && around->cell == cell)
         return;
     around->cell = cell;
-    around->count = cell_rows(args->constants, args->cell_start, cell, around->rows);
+    around->count = cell_rows(args->constants, args->fold, args->cell_start, cell, around->rows);
 }
 
 /* Adami, Hu, Adams, "A generalized wall boundary condition for smoothed particle hydrodynamics", 2012, eq. 27

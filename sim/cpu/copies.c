@@ -1,30 +1,45 @@
 /* What stands across a periodic side. The grid's outermost cells lie outside of the box: along a periodic
-   axis each shows a cell of the other side, and its particles stand there once more, a size of the box
-   further. Lists of neighbours have these copies, so that pair sums know nothing of sides. */
+   axis each shows a cell of the other side, whose particles stand there once more, a size of the box further.
+   Lists of neighbours have these copies, so that pair sums know nothing of sides. */
 #include "sim/cpu/pass.h"
 
 #include <string.h>
 
-/* The cell that an outermost cell shows, with the copies' shift in sizes of the box; false: it shows none. */
-static bool shown_cell(const Constants *s, int at[3], int sides[3])
+/* Where the copies of those in one cell of the box stand: across one periodic side, or more in a corner. */
+typedef struct Shown {
+    int count;
+    uint32_t place[7]; /* of the outermost cells' fold */
+    int sides[7][3];   /* across which: the copies' shift in sizes of the box */
+} Shown;
+
+/* The cell across the sides of those axes whose bits are set in `axes`; false: one of them is not next to it.
+ */
+static bool cross(const Constants *s, int axes, int at[3], int sides[3])
 {
-    bool shows = false;
     for (int k = 0; k < 3; k++) {
         const int last = s->cells.size[k] - 1;
         sides[k] = 0;
-        if (!s->periodic.axis[k] || (at[k] > 0 && at[k] < last))
+        if (!(axes >> k & 1))
             continue;
-        sides[k] = at[k] == 0 ? -1 : 1;
-        at[k] = at[k] == 0 ? last - 1 : 1;
-        shows = true;
+        if (!s->periodic.axis[k] || (at[k] > 1 && at[k] < last - 1))
+            return false;
+        sides[k] = at[k] == 1 ? 1 : -1;
+        at[k] = at[k] == 1 ? last : 0;
     }
-    return shows;
+    return true;
 }
 
-static size_t cell_index(const Constants *s, const int at[3])
+static void shown(const Cpu *cpu, uint32_t cell, Shown *out)
 {
-    const int *size = s->cells.size;
-    return ((size_t)at[2] * (size_t)size[1] + (size_t)at[1]) * (size_t)size[0] + (size_t)at[0];
+    const int *size = cpu->constants->cells.size;
+    const uint32_t width = (uint32_t)size[0], height = (uint32_t)size[1];
+    out->count = 0;
+    for (int axes = 1; axes < 8 && cell < cpu->constants->cells.count; axes++) {
+        int at[3] = {(int)(cell % width), (int)(cell / width % height), (int)(cell / width / height)};
+        if (cross(cpu->constants, axes, at, out->sides[out->count]))
+            out->place[out->count++] =
+                cell_fold_at(&cpu->fold, (uint32_t)at[0], (uint32_t)at[1], (uint32_t)at[2]);
+    }
 }
 
 static uint8_t side_code(const int sides[3])
@@ -38,25 +53,25 @@ static void shift_of(const Constants *s, uint8_t code, float shift[3])
         shift[k] = (float)(code % 3 - 1) * (s->periodic.axis[k] ? s->periodic.size[k] : 0);
 }
 
-/* Behind the counts of cells: where the copies of each cell begin; how many there are. */
+/* Behind the cells of particles, before their sort: where the copies of each place begin, one entry further
+   on until they are placed; how many there are. */
 static size_t count_copies(Cpu *cpu)
 {
-    const Constants *s = cpu->constants;
-    const int *size = s->cells.size;
-    uint32_t count = 0;
-    size_t cell = 0;
-    for (int z = 0; z < size[2]; z++)
-        for (int y = 0; y < size[1]; y++)
-            for (int x = 0; x < size[0]; x++, cell++) {
-                int at[3] = {x, y, z}, sides[3];
-                cpu->copy_start[cell] = count;
-                if (!shown_cell(s, at, sides))
-                    continue;
-                const size_t from = cell_index(s, at);
-                count += cpu->cell_start[from + 1] - cpu->cell_start[from];
-            }
-    cpu->copy_start[cell] = count;
-    return count;
+    const size_t places = cpu->fold.count;
+    const uint32_t *cell = cpu->spare_cell;
+    uint32_t *start = cpu->copy_start;
+    Shown across;
+    memset(start, 0, (places + 2) * sizeof *start);
+    for (size_t i = 0, stop; i < cpu->count; i = stop) {
+        for (stop = i + 1; stop < cpu->count && cell[stop] == cell[i];)
+            stop++;
+        shown(cpu, cell[i], &across);
+        for (int k = 0; k < across.count; k++)
+            start[across.place[k] + 2] += (uint32_t)(stop - i);
+    }
+    for (size_t place = 1; place <= places; place++)
+        start[place + 1] += start[place];
+    return start[places + 1];
 }
 
 bool cpu_copies_fit(Cpu *cpu)
@@ -67,18 +82,24 @@ bool cpu_copies_fit(Cpu *cpu)
 
 void cpu_copies_drop(Cpu *cpu)
 {
-    memset(cpu->copy_start, 0, (cpu->constants->cells.count + 1) * sizeof *cpu->copy_start);
+    memset(cpu->copy_start, 0, (cpu->fold.count + 2) * sizeof *cpu->copy_start);
     cpu->copies = 0;
     cpu->watch.memory = true;
 }
 
-static void place_cell(Cpu *cpu, size_t cell, int at[3], const int sides[3])
+/* In the order of the particles of which they are. */
+static void place_copies(Cpu *cpu)
 {
-    const size_t from = cpu->cell_start[cell_index(cpu->constants, at)];
-    const uint8_t code = side_code(sides);
-    for (uint32_t k = cpu->copy_start[cell]; k < cpu->copy_start[cell + 1]; k++) {
-        cpu->copy_of[cpu->count + k] = (uint32_t)(from + k - cpu->copy_start[cell]);
-        cpu->copy_side[k] = code;
+    Shown across;
+    uint32_t last = UINT32_MAX;
+    for (size_t i = 0; i < cpu->count; i++) {
+        if (cpu->cell[i] != last)
+            shown(cpu, last = cpu->cell[i], &across);
+        for (int k = 0; k < across.count; k++) {
+            const uint32_t copy = cpu->copy_start[across.place[k] + 1]++;
+            cpu->copy_of[cpu->count + copy] = (uint32_t)i;
+            cpu->copy_side[copy] = side_code(across.sides[k]);
+        }
     }
 }
 
@@ -124,16 +145,7 @@ static void copies_of_rows(Cpu *cpu, const ColumnRows *rows)
 
 void cpu_copies_place(Cpu *cpu)
 {
-    const Constants *s = cpu->constants;
-    const int *size = s->cells.size;
-    size_t cell = 0;
-    for (int z = 0; z < size[2]; z++)
-        for (int y = 0; y < size[1]; y++)
-            for (int x = 0; x < size[0]; x++, cell++) {
-                int at[3] = {x, y, z}, sides[3];
-                if (cpu->copy_start[cell + 1] > cpu->copy_start[cell] && shown_cell(s, at, sides))
-                    place_cell(cpu, cell, at, sides);
-            }
+    place_copies(cpu);
     const ColumnRows rows = rows_among(cpu, "position id fluid viscosity tension kind", "");
     copies_of_rows(cpu, &rows);
     parallel_ranges(cpu->threads, cpu->copies, 4 * CPU_GRAIN, shift_places, cpu);

@@ -84,6 +84,7 @@ static bool arrays_create(Cpu *cpu, Error *error)
     const Constants *s = cpu->constants;
     uint32_t **const integers[] = {&cpu->cell, &cpu->spare_cell, &cpu->rank, &cpu->order};
     bool ok = columns_fit(cpu);
+    cpu->fold = cell_fold(s, cpu->capacity);
     for (size_t k = 0; k < sizeof integers / sizeof *integers; k++)
         ok &= (*integers[k] = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
     ok &= (cpu->partial = array(cpu, cpu->capacity / CPU_GRAIN + 1, sizeof *cpu->partial)) != NULL;
@@ -93,7 +94,7 @@ static bool arrays_create(Cpu *cpu, Error *error)
     if (s->periodic.any) {
         ok &= (cpu->copy_of = array(cpu, read, sizeof *cpu->copy_of)) != NULL;
         ok &= (cpu->copy_side = array(cpu, cpu->copy_room, sizeof *cpu->copy_side)) != NULL;
-        ok &= (cpu->copy_start = array(cpu, s->cells.count + 1, sizeof *cpu->copy_start)) != NULL;
+        ok &= (cpu->copy_start = array(cpu, cpu->fold.count + 2, sizeof *cpu->copy_start)) != NULL;
     }
     ok &= neighbour_lists_create(&cpu->lists, cpu->capacity, neighbours_expected(s));
     if (s->boundary.count > 0 || cpu->foreign) {
@@ -107,10 +108,10 @@ static bool arrays_create(Cpu *cpu, Error *error)
         ok &= (cpu->ghost = array(cpu, cpu->capacity, sizeof *cpu->ghost)) != NULL;
         ok &= (cpu->fluid_at = array(cpu, cpu->capacity, sizeof(uint32_t))) != NULL;
     }
-    ok &= (cpu->cell_start = array(cpu, s->cells.count + 2, sizeof(uint32_t))) != NULL;
+    ok &= (cpu->cell_start = array(cpu, cpu->fold.count + 2, sizeof(uint32_t))) != NULL;
     return ok || error_set(error,
                            "no memory for %zu particles and %zu cells; use a larger spacing or a smaller box",
-                           cpu->capacity - s->boundary.count, s->cells.count);
+                           cpu->capacity - s->boundary.count, cpu->fold.count);
 }
 
 static CpuDef *cpu_def(const WorldDef *def)
@@ -227,6 +228,7 @@ PairArgs cpu_pair_args(Cpu *cpu)
         .constants = cpu->constants,
         .count = cpu->count,
         .none = (uint32_t)(cpu->count + cpu->copies),
+        .fold = &cpu->fold,
         .cell_start = cpu->cell_start,
         .copy_start = cpu->copy_start,
         .cell = cpu->cell,

@@ -7,6 +7,7 @@
 #include "sim/cpu/pair_set.h"
 #include "sim/matter/forces.h"
 #include "sim/world/backend.h"
+#include "sim/world/cell_fold.h"
 #include "sim/world/particles.h"
 
 typedef ParticleColumns CpuParticles;
@@ -25,16 +26,18 @@ typedef struct Cpu {
     uint32_t *cell, *spare_cell;              /* by `grid`: of each particle, sorted; before the sort */
     uint32_t *rank;                           /* by `grid`: place within the cell before its sort by id */
     uint32_t *order;                          /* by `grid`: old place of each new one */
-    uint32_t *cell_start; /* by `grid`: cells + 2; the last cell is for what is set aside */
+    CellFold fold;
+    uint32_t *cell_start; /* by `grid`, of each place of `fold`: places + 2; the last is for what is set
+                             aside */
     size_t gridded;       /* by `grid`: how many it has seen */
     size_t copies;      /* by `grid`, in boxes with periodic sides: particles that stand across one, behind */
     size_t copy_room;   /* the others; room for */
     uint32_t *copy_of;  /* of each of them: of which particle; at `count` and on */
     uint8_t *copy_side; /* and across which sides, from 0 on */
-    uint32_t *copy_start;  /* the first of each cell outside of the box; cells + 1; NULL: no periodic sides */
-    uint32_t *owned_at;    /* by `grid`: where its own particles stand; NULL without solids and ghosts */
-    uint32_t *boundary_at; /* and the solids'; NULL without solids */
-    uint32_t *fluid_at;    /* and the fluids', ghosts among them; without ghosts `owned_at` */
+    uint32_t *copy_start;   /* the first of each place of `fold`; places + 2; NULL: no periodic sides */
+    uint32_t *owned_at;     /* by `grid`: where its own particles stand; NULL without solids and ghosts */
+    uint32_t *boundary_at;  /* and the solids'; NULL without solids */
+    uint32_t *fluid_at;     /* and the fluids', ghosts among them; without ghosts `owned_at` */
     uint32_t *fluid_before; /* of each particle: how many of the fluids' particles stand before it; one entry
                                more, for all */
     const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, another's that are read here;
@@ -137,8 +140,8 @@ void cpu_find(Cpu *cpu);
 /* The grid; its two parts: the cell of each particle, in `spare_cell`; the particles sorted by these. */
 void cpu_grid(void *state);
 
-/* sim/cpu/copies.c, in boxes with periodic sides: counts the copies of the particles in the cells that `grid`
-   has counted, false where there is no room for them; makes room, false when memory is short: then a grid
+/* sim/cpu/copies.c, in boxes with periodic sides: counts the copies of the particles whose cells `grid` has
+   found, false where there is no room for them; makes room, false when memory is short: then a grid
    must follow, or there are none, and the step is in trouble; puts them behind the particles. Before a walk
    of the pass: gives them what its pair sums gather; what is packed. */
 bool cpu_copies_fit(Cpu *cpu);

@@ -13,7 +13,7 @@ bool cpu_has_room(Cpu *cpu, const float x[3])
     const float least = ROOM * cpu->constants->spacing;
     const uint32_t cell = cpu_cell_of(cpu->constants, x);
     CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(args->constants, args->cell_start, cell, rows);
+    const int row_count = cell_rows(args->constants, args->fold, args->cell_start, cell, rows);
     for (int row = 0; row < row_count; row++) {
         const float *shift = rows[row].shift;
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {

@@ -189,7 +189,7 @@ static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, 
     CellRow rows[CELL_ROWS];
     if (cpu->cell[b] == cpu->constants->cells.count)
         return;
-    const int count = cell_rows(cpu->constants, args->cell_start, cpu->cell[b], rows);
+    const int count = cell_rows(cpu->constants, args->fold, args->cell_start, cpu->cell[b], rows);
     for (int row = 0; row < count; row++) {
         const float *shift = rows[row].shift,
                     from[3] = {p->x[b] + shift[0], p->y[b] + shift[1], p->z[b] + shift[2]};

@@ -1,5 +1,6 @@
-/* Counting sort by cell. Places within a cell are handed out by atomic counters in any order, then sorted by
-   id: the result depends on positions and ids alone, not on threads or history. */
+/* Counting sort by place of the cells' fold (sim/world/cell_fold.h). Places among those of a cell are handed
+   out by atomic counters in any order, then sorted by cell and id: the result depends on positions and ids
+   alone, not on threads or history. */
 #include "sim/cpu/cpu.h"
 
 #include <string.h>
@@ -55,10 +56,13 @@ static void take_places(void *state, size_t begin, size_t end)
     for (size_t i = begin, stop; i < end; i = stop) {
         for (stop = i + 1; stop < end && cell[stop] == cell[i];)
             stop++;
+        const uint32_t place = cell_fold_of(&cpu->fold, &cpu->constants->cells, cell[i]);
         uint32_t rank =
-            __atomic_fetch_add(&cpu->cell_start[cell[i] + 1], (uint32_t)(stop - i), __ATOMIC_RELAXED);
+            __atomic_fetch_add(&cpu->cell_start[place + 1], (uint32_t)(stop - i), __ATOMIC_RELAXED);
         for (size_t k = i; k < stop; k++)
             cpu->rank[k] = rank++;
+        for (size_t k = i; cpu->fold.shared && k < stop; k++)
+            cpu->cell[k] = place;
     }
 }
 
@@ -78,8 +82,9 @@ static void find_cells(void *state, size_t begin, size_t end)
 static void place_particles(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
+    const uint32_t *place = cpu->fold.shared ? cpu->cell : cpu->spare_cell;
     for (size_t i = begin; i < end; i++)
-        cpu->order[cpu->cell_start[cpu->spare_cell[i]] + cpu->rank[i]] = (uint32_t)i;
+        cpu->order[cpu->cell_start[place[i]] + cpu->rank[i]] = (uint32_t)i;
 }
 
 /* Insertion: a cell holds some ten particles, mostly in order. */
@@ -94,12 +99,26 @@ static void sort_by_id(uint32_t *order, size_t count, const ParticleId *id)
     }
 }
 
-static void sort_cells(void *state, size_t begin, size_t end)
+/* Behind that: by cell, of those that share a place, so that each cell's particles follow each other. */
+static void sort_by_cell(uint32_t *order, size_t count, const uint32_t *cell)
+{
+    for (size_t i = 1; i < count; i++) {
+        const uint32_t moved = order[i];
+        size_t j = i;
+        for (; j > 0 && cell[order[j - 1]] > cell[moved]; j--)
+            order[j] = order[j - 1];
+        order[j] = moved;
+    }
+}
+
+static void sort_places(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
-    for (size_t cell = begin; cell < end; cell++) {
-        const uint32_t first = cpu->cell_start[cell];
-        sort_by_id(cpu->order + first, cpu->cell_start[cell + 1] - first, cpu->now.id);
+    for (size_t place = begin; place < end; place++) {
+        const uint32_t first = cpu->cell_start[place], count = cpu->cell_start[place + 1] - first;
+        sort_by_id(cpu->order + first, count, cpu->now.id);
+        if (cpu->fold.shared)
+            sort_by_cell(cpu->order + first, count, cpu->spare_cell);
     }
 }
 
@@ -137,17 +156,15 @@ void cpu_cells(Cpu *cpu)
 
 static void count_cells(Cpu *cpu)
 {
-    const size_t cells = cpu->constants->cells.count;
-    memset(cpu->cell_start, 0, (cells + 2) * sizeof *cpu->cell_start);
+    const size_t places = cpu->fold.count;
+    memset(cpu->cell_start, 0, (places + 2) * sizeof *cpu->cell_start);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, take_places, cpu);
-    for (size_t cell = 0; cell <= cells; cell++)
-        cpu->cell_start[cell + 1] += cpu->cell_start[cell];
+    for (size_t place = 0; place <= places; place++)
+        cpu->cell_start[place + 1] += cpu->cell_start[place];
 }
 
 void cpu_sort(Cpu *cpu)
 {
-    const size_t cells = cpu->constants->cells.count;
-
     count_cells(cpu);
     if (cpu->copy_start && !cpu_copies_fit(cpu)) {
         if (cpu_copies_grow(cpu)) {
@@ -159,7 +176,7 @@ void cpu_sort(Cpu *cpu)
         }
     }
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, place_particles, cpu);
-    parallel_ranges(cpu->threads, cells, 4 * CPU_GRAIN, sort_cells, cpu);
+    parallel_ranges(cpu->threads, cpu->fold.count, 4 * CPU_GRAIN, sort_places, cpu);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, move_particles, cpu);
 
     columns_swap(&cpu->sorted, &cpu->now, &cpu->spare);

@@ -13,11 +13,12 @@
 /* Arrays of particles sorted by cell; readable for LANES - 1 entries past the last. */
 typedef struct PairArgs {
     const Constants *constants;
-    size_t count;               /* particles */
-    uint32_t none;              /* whom lists are filled up with: behind the particles and their copies */
-    const uint32_t *cell_start; /* first particle of each cell; cells + 1 */
-    const uint32_t *copy_start; /* first copy of each cell outside of the box (sim/cpu/copies.c), `count` not
-                                   counted; cells + 1; NULL: no sides are periodic */
+    size_t count;  /* particles */
+    uint32_t none; /* whom lists are filled up with: behind the particles and their copies */
+    const CellFold *fold;
+    const uint32_t *cell_start; /* first particle of each place of `fold`; places + 1 */
+    const uint32_t *copy_start; /* first copy of those outside of the box (sim/cpu/copies.c), `count` not
+                                   counted; places + 1; NULL: no sides are periodic */
     const uint32_t *cell;       /* of each particle */
     const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, which have no lists; NULL */
     const ParticleId *id;

@@ -28,14 +28,16 @@ static void rows_add(Rows *rows, uint32_t begin, uint32_t end)
 static void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
 {
     const Constants *s = args->constants;
-    const int *size = s->cells.size;
+    const uint32_t width = (uint32_t)s->cells.size[0], height = (uint32_t)s->cells.size[1];
+    const uint32_t x = cell % width, y = cell / width % height, z = cell / width / height;
     const uint32_t *start = args->cell_start, *copies = args->copy_start, count = (uint32_t)args->count;
     rows->count = 0;
     for (int row = s->first_row; row < s->last_row; row++) {
-        const long middle = (long)cell + ((long)(row / 3 - 1) * size[1] + (row % 3 - 1)) * size[0];
+        const uint32_t first =
+            cell_fold_at(args->fold, x - 1, y + (uint32_t)(row % 3) - 1, z + (uint32_t)(row / 3) - 1);
         if (!copies)
-            rows_add(rows, start[middle - 1], start[middle + 2]);
-        for (long at = middle - 1; copies && at <= middle + 1; at++) {
+            rows_add(rows, start[first], start[first + 3]);
+        for (uint32_t at = first; copies && at < first + 3; at++) {
             rows_add(rows, start[at], start[at + 1]);
             rows_add(rows, count + copies[at], count + copies[at + 1]);
         }

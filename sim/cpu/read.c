@@ -30,7 +30,7 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
     const float h2 = args->constants->support_radius * args->constants->support_radius;
     int count = -1; /* not itself */
     CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(args->constants, args->cell_start, args->cell[i], rows);
+    const int row_count = cell_rows(args->constants, args->fold, args->cell_start, args->cell[i], rows);
     for (int row = 0; row < row_count; row++) {
         if (cell_row_again(args->constants, &rows[row]))
             continue;

@@ -201,7 +201,8 @@ void dist_halo(Dist *dist, Cpu *cpu)
 /* Behind the grid; a cell has few places. */
 static uint32_t place_now(const Cpu *cpu, uint32_t before)
 {
-    uint32_t place = cpu->cell_start[cpu->spare_cell[before]];
+    uint32_t place =
+        cpu->cell_start[cell_fold_of(&cpu->fold, &cpu->constants->cells, cpu->spare_cell[before])];
     while (cpu->order[place] != before)
         place++;
     return place;

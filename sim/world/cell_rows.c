@@ -1,5 +1,7 @@
 #include "sim/world/cell_rows.h"
 
+#include <math.h>
+
 /* The cell at `place` along one axis, for a place outside the box: across a periodic side. */
 static int across(const Constants *s, int k, int place, float *shift)
 {
@@ -12,16 +14,16 @@ static int across(const Constants *s, int k, int place, float *shift)
 }
 
 /* `count` cells from `first` on along x. */
-static CellRow row_from(const Constants *constants, const uint32_t *start, int first, int count,
-                        const int at[3], const float shift[3])
+static CellRow row_from(const CellFold *fold, const uint32_t *start, int first, int count, const int at[3],
+                        const float shift[3])
 {
-    const int *size = constants->cells.size;
-    const size_t cell = ((size_t)at[2] * (size_t)size[1] + (size_t)at[1]) * (size_t)size[0] + (size_t)first;
+    const size_t place = cell_fold_at(fold, (uint32_t)first, (uint32_t)at[1], (uint32_t)at[2]);
     return (CellRow){
-        .begin = start[cell], .end = start[cell + (size_t)count], .shift = {shift[0], shift[1], shift[2]}};
+        .begin = start[place], .end = start[place + (size_t)count], .shift = {shift[0], shift[1], shift[2]}};
 }
 
-int cell_rows(const Constants *s, const uint32_t *start, uint32_t cell, CellRow rows[CELL_ROWS])
+int cell_rows(const Constants *s, const CellFold *fold, const uint32_t *start, uint32_t cell,
+              CellRow rows[CELL_ROWS])
 {
     const int *size = s->cells.size, x = (int)(cell % (uint32_t)size[0]);
     const int y = (int)(cell / (uint32_t)size[0]) % size[1], z = (int)(cell / (uint32_t)size[0]) / size[1];
@@ -31,13 +33,35 @@ int cell_rows(const Constants *s, const uint32_t *start, uint32_t cell, CellRow 
         float shift[3] = {0};
         const int at[3] = {x, across(s, 1, y + row % 3 - 1, &shift[1]),
                            across(s, 2, z + row / 3 - 1, &shift[2])};
-        rows[count++] = row_from(s, start, low ? x : x - 1, low || high ? 2 : 3, at, shift);
+        rows[count++] = row_from(fold, start, low ? x : x - 1, low || high ? 2 : 3, at, shift);
         if (low || high) {
             const int far = across(s, 0, low ? x - 1 : x + 1, &shift[0]);
-            rows[count++] = row_from(s, start, far, 1, at, shift);
+            rows[count++] = row_from(fold, start, far, 1, at, shift);
         }
     }
     return count;
+}
+
+uint32_t cell_near(const Constants *s, const CellFold *fold, size_t place, const float x[3])
+{
+    const CellGrid *cells = &s->cells;
+    int at[3], middle = 13; /* of the 27 */
+    for (int k = 0; k < 3; k++) {
+        const float along = floorf((x[k] - cells->origin[k]) * cells->inverse[k]) - (float)cells->first[k];
+        at[k] = (int)fminf(fmaxf(along, 1), (float)cells->size[k] - 2);
+    }
+    uint32_t cell = 0;
+    for (int n = 0; n <= 27; n++) { /* at last its own, if none has */
+        const int near = n < 27 ? n : middle, step[3] = {near % 3 - 1, near / 3 % 3 - 1, near / 9 - 1};
+        uint32_t to[3];
+        float shift;
+        for (int k = 0; k < 3; k++)
+            to[k] = (uint32_t)across(s, k, at[k] + step[k], &shift);
+        cell = (to[2] * (uint32_t)cells->size[1] + to[1]) * (uint32_t)cells->size[0] + to[0];
+        if (cell_fold_at(fold, to[0], to[1], to[2]) == place)
+            return cell;
+    }
+    return cell;
 }
 
 bool cell_row_again(const Constants *s, const CellRow *row)

@@ -36,7 +36,7 @@
           CONSTANT(half_size), CONSTANT(wall_lift), CONSTANT(dimensions), CONSTANT(fluids[0].mass),          \
           CONSTANT(fluids[0].density), CONSTANT(fluids[0].stiffness), CONSTANT(fluids[0].viscosity),         \
           CONSTANT(fluids[7].viscosity), CONSTANT(cell_origin), CONSTANT(cell_inverse), CONSTANT(box_low),   \
-          CONSTANT(box_whole)),                                                                              \
+          CONSTANT(box_whole), CONSTANT(cell_fold)),                                                         \
         BLOCK("sim/step_block.h", StepBlock, STEP(rotation[0]), STEP(omega0), STEP(drift_dt), STEP(omega1),  \
               STEP(still), STEP(shift), STEP(velocity_change), STEP(gravity), STEP(kick_dt),                 \
               STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega), STEP(kick_gravity)),                    \

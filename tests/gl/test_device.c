@@ -358,7 +358,7 @@ static void a_blown_up_frame_costs_nothing(void **state)
     assert_true(world_step(world, NULL, &error));
     assert_false(world_sound(world));
     const Compute *compute = world->state;
-    const size_t cells = compute->constants->cells.count;
+    const size_t cells = compute->fold.count;
     uint32_t *start = calloc(cells + 1, sizeof *start), fullest = 0;
     glGetNamedBufferSubData(compute->start, 0, (GLsizeiptr)((cells + 1) * sizeof *start), start);
     for (size_t c = 0; c < cells; c++)

@@ -12,7 +12,7 @@ void main()
     if (i >= particle_count())
         return;
     // Clamped, so that a position that is not finite does no harm before it is reported.
-    uint c = uint(cell_number(cell_of(position[i].xyz)));
+    uint c = uint(cell_place(cell_of(position[i].xyz)));
     cell[i] = c;
     rank[i] = atomicAdd(count[c], 1u);
 }

@@ -19,7 +19,7 @@ void main()
     bool aside = !in_the_box(x);
     for (int k = 0; k < solid; k++)
         aside = aside || solid_clearance(k, x, 0.0) < 0.0;
-    uint c = aside ? cell_count() : uint(cell_number(cell_of(x)));
+    uint c = aside ? cell_count() : uint(cell_place(cell_of(x)));
     cell[b] = c;
     rank[b] = atomicAdd(count[c], 1u);
 }

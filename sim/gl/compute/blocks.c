@@ -17,7 +17,7 @@ static void fluid_constants(const Constants *s, Fluid fluids[FLUIDS_MAX])
         fluids[f] = (Fluid){s->mass[f], s->density[f], s->stiffness[f], s->viscosity[f]};
 }
 
-static void grid_constants(const Constants *s, ConstantBlock *c)
+static void grid_constants(const Constants *s, const CellFold *fold, ConstantBlock *c)
 {
     for (int k = 0; k < 3; k++) {
         c->first_cell[k] = s->cells.first[k];
@@ -27,7 +27,10 @@ static void grid_constants(const Constants *s, ConstantBlock *c)
         c->box_low[k] = s->periodic.low[k];
         c->box_whole[k] = s->periodic.size[k];
     }
-    c->cell_total = (int)s->cells.count;
+    c->cell_total = (int)fold->count;
+    c->cell_fold[0] = (int)fold->y;
+    c->cell_fold[1] = (int)fold->z;
+    c->cell_fold[2] = (int)fold->mask;
     c->first_row = s->first_row;
     c->last_row = s->last_row;
     if (s->periodic.any) { /* single cells: a row may go on across a side */
@@ -64,7 +67,7 @@ void compute_constants(Compute *compute)
                            wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale,
                        .particle_total = (int)compute->count,
                        .dimensions = s->dimensions};
-    grid_constants(s, &c);
+    grid_constants(s, &compute->fold, &c);
     memcpy(c.half_size, s->walls.half_size, sizeof s->walls.half_size);
     fluid_constants(s, c.fluids);
     blocks_create(compute);

@@ -90,7 +90,7 @@ bool compute_boundary_create(Compute *c)
     b->cell = compute_buffer(c, "boundary cells", 4 * n);
     b->rank = compute_buffer(c, "boundary ranks", 4 * n);
     b->order = compute_buffer(c, "boundary order", 4 * n);
-    b->start = compute_buffer(c, "boundary cell starts", 4 * (c->constants->cells.count + 2));
+    b->start = compute_buffer(c, "boundary cell starts", 4 * (c->fold.count + 2));
     b->position = compute_buffer(c, "boundary positions", 16 * n);
     b->velocity = compute_buffer(c, "boundary velocities", 16 * n);
     b->state = compute_buffer(c, "boundary pressures", 8 * n);
@@ -146,7 +146,7 @@ void compute_boundary_move(Compute *c, const SolidStep *steps)
 void compute_boundary_grid(Compute *c)
 {
     ComputeBoundary *b = &c->boundary;
-    const size_t cells = c->constants->cells.count, n = c->constants->boundary.count;
+    const size_t places = c->fold.count, n = c->constants->boundary.count;
     if (!b->due)
         return;
     b->due = false;
@@ -156,12 +156,12 @@ void compute_boundary_grid(Compute *c)
     BIND([RESTS_BUFFER] = b->rest, [CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank,
          [STARTS_BUFFER] = b->start);
     compute_run(c, COMPUTE_BOUNDARY_BIN, n);
-    compute_scan(c, b->start, cells + 2);
+    compute_scan(c, b->start, places + 2);
     BIND([CELLS_BUFFER] = b->cell, [RANKS_BUFFER] = b->rank, [STARTS_BUFFER] = b->start,
          [ORDERS_BUFFER] = b->order);
     compute_run(c, COMPUTE_BOUNDARY_PLACE, n);
     BIND([RESTS_BUFFER] = b->rest, [ORDERS_BUFFER] = b->order);
-    compute_run(c, COMPUTE_BOUNDARY_SORT, cells);
+    compute_run(c, COMPUTE_BOUNDARY_SORT, places);
 }
 
 void compute_boundary_fill(const Compute *c)

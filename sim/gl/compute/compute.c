@@ -21,7 +21,7 @@ static const char *const pass_names[] = {
 bool compute_no_memory(const Compute *c, Error *error)
 {
     return error_set(error, "the GPU has no memory for %zu particles and %zu cells; use a larger spacing",
-                     c->count, c->constants->cells.count);
+                     c->count, c->fold.count);
 }
 
 static void compute_destroy(void *state)
@@ -71,17 +71,17 @@ unsigned compute_buffer(Compute *c, const char *label, size_t bytes)
 
 static bool buffers_create(Compute *c, Error *error)
 {
-    const size_t n = c->capacity, cells = c->constants->cells.count;
+    const size_t n = c->capacity, places = c->fold.count;
     if (!compute_particles_create(c, &c->now, error) || !compute_particles_create(c, &c->spare, error))
         return false;
     c->cell = compute_buffer(c, "particle cells", 4 * n);
     c->rank = compute_buffer(c, "particle ranks", 4 * n);
     c->order = compute_buffer(c, "particle order", 4 * (n + 1));
-    c->start = compute_buffer(c, "cell starts", 4 * (cells + 1));
+    c->start = compute_buffer(c, "cell starts", 4 * (places + 1));
     c->pressure = compute_buffer(c, "particle pressures", 8 * n);
     c->near = compute_buffer(c, "particle positions and pressure terms", 16 * n);
     c->acceleration = compute_buffer(c, "particle accelerations", 16 * n);
-    size_t level = (n > cells ? n : cells) + COMPUTE_LAYER; /* of what is scanned: sim/gl/compute/flow.c */
+    size_t level = (n > places ? n : places) + COMPUTE_LAYER; /* of what is scanned: sim/gl/compute/flow.c */
     for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
         level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
         c->totals[k] = compute_buffer(c, "scan totals", 4 * level);
@@ -200,6 +200,11 @@ static size_t larger(size_t a, size_t b)
     return a > b ? a : b;
 }
 
+static CellFold fold_of(const Constants *s, size_t capacity)
+{
+    return cell_fold(s, capacity + s->boundary.count);
+}
+
 /* Of the largest array: a vec4 a particle, or what the method has; start of cells. */
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
@@ -209,8 +214,8 @@ static size_t most_bytes(const Constants *s, size_t capacity)
         const ShaderBuffer *own = compute_buffer_at(s, k);
         particle = larger(particle, own && own->needed(s) ? own->size : 0);
     }
-    const size_t particles = particle * capacity, cells = 4 * (s->cells.count + 2);
-    return larger(larger(particles, 16 * s->boundary.count), cells);
+    const size_t particles = particle * capacity, places = 4 * (fold_of(s, capacity).count + 2);
+    return larger(larger(particles, 16 * s->boundary.count), places);
 }
 
 /* Solids stand at the bindings 12 to 15, a method's own columns at 8 to 10, beside those of the pass that
@@ -248,6 +253,7 @@ static void *compute_create(const Constants *constants, const WorldDef *def, con
     c->constants = constants;
     c->count = initial->count;
     c->capacity = capacity;
+    c->fold = fold_of(constants, capacity);
     c->own = compute_own_of(constants);
     if (!buffers_create(c, error) ||
         !((compute_term_buffers(c) && compute_scratch_fit(c)) || compute_no_memory(c, error))) {

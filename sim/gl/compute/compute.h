@@ -7,6 +7,7 @@
 
 #include "sim/gl/mailbox.h"
 #include "sim/world/backend.h"
+#include "sim/world/cell_fold.h"
 
 enum {
     COMPUTE_SCAN_LEVELS = 3,
@@ -87,7 +88,7 @@ typedef enum ComputePass {
 /* Boundary particles of solids; all 0 without solids. */
 typedef struct ComputeBoundary {
     unsigned rest;                      /* vec4: x y z in the solid's frame, solid */
-    unsigned cell, rank, order, start;  /* start: cells + 2; the last cell is for what is set aside */
+    unsigned cell, rank, order, start;  /* start: places of `fold` + 2; the last is for what is set aside */
     unsigned position, velocity, state; /* vec4, vec4, uvec2: see boundary.glsl; sorted by cell */
     unsigned block, exact;              /* uniforms */
     bool due;                           /* solids have moved since they were sorted */
@@ -126,8 +127,9 @@ typedef struct Compute {
     int scratch_total;
     unsigned lists; /* uint: shaders/sim/lists.glsl; 0: none */
     size_t list_most;
-    size_t unlisted;                      /* bytes of lists that there was no memory for */
-    unsigned cell, rank, order, start;    /* start: cells + 1 */
+    size_t unlisted; /* bytes of lists that there was no memory for */
+    CellFold fold;
+    unsigned cell, rank, order, start;    /* start: places of `fold` + 1 */
     unsigned totals[COMPUTE_SCAN_LEVELS]; /* of the blocks of the level before */
     unsigned pressure;                    /* vec2: p, p V^2 */
     unsigned near;                        /* vec4: x y z, p V^2, which forces read of others */

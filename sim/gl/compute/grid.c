@@ -1,5 +1,5 @@
-/* Counting sort by cell; for who asks to have the same bits each time by id within a cell, the order that
-   sim/cpu/grid.c makes. */
+/* Counting sort by place of the cells' fold; for who asks to have the same bits each time by id within a
+   cell, the order that sim/cpu/grid.c makes. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/shared/scan.h"
@@ -42,14 +42,13 @@ void compute_scan(Compute *compute, unsigned buffer, size_t size)
 void compute_grid(void *state)
 {
     Compute *c = state;
-    const size_t cells = c->constants->cells.count;
     unsigned order = c->order;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(c->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     BIND([POSITIONS_BUFFER] = c->now.position, [CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank,
          [STARTS_BUFFER] = c->start);
     compute_run(c, COMPUTE_BIN, c->count);
-    compute_scan(c, c->start, cells + 1);
+    compute_scan(c, c->start, c->fold.count + 1);
     BIND([CELLS_BUFFER] = c->cell, [RANKS_BUFFER] = c->rank, [STARTS_BUFFER] = c->start,
          [ORDERS_BUFFER] = c->order);
     compute_run(c, COMPUTE_PLACE, c->count);

@@ -17,15 +17,18 @@ bool compute_read(void *state, const ParticleArrays *out)
     return true;
 }
 
-/* How many other particles have r < h, among those that the last grid has in and around `cell`; it had
- * particle i there. */
-static size_t neighbours_of(const Constants *s, const ParticleColumns *p, const uint32_t *start, size_t cell,
+/* How many other particles have r < h, among those that the last grid has in and around the cell of that
+ * place where it had particle i. */
+static size_t neighbours_of(const Compute *c, const ParticleColumns *p, const uint32_t *start, size_t place,
                             size_t i)
 {
+    const Constants *s = c->constants;
+    const float x[3] = {p->x[i], p->y[i], p->z[i]};
+    const uint32_t cell = c->fold.shared ? cell_near(s, &c->fold, place, x) : (uint32_t)place;
     const float h2 = s->support_radius * s->support_radius;
     size_t count = 0;
     CellRow rows[CELL_ROWS];
-    const int row_count = cell_rows(s, start, (uint32_t)cell, rows);
+    const int row_count = cell_rows(s, &c->fold, start, cell, rows);
     for (int row = 0; row < row_count; row++) {
         if (cell_row_again(s, &rows[row]))
             continue;
@@ -42,15 +45,15 @@ static size_t neighbours_of(const Constants *s, const ParticleColumns *p, const 
  * now. */
 static double neighbours_mean(const Compute *c, const ParticleColumns *p)
 {
-    const size_t cells = c->constants->cells.count;
-    uint32_t *start = malloc((cells + 1) * sizeof *start);
+    const size_t places = c->fold.count;
+    uint32_t *start = malloc((places + 1) * sizeof *start);
     size_t sum = 0;
     if (!start)
         return 0;
-    glGetNamedBufferSubData(c->start, 0, (GLsizeiptr)((cells + 1) * sizeof *start), start);
-    for (size_t cell = 0; cell < cells; cell++)
-        for (size_t i = start[cell]; i < start[cell + 1]; i++)
-            sum += neighbours_of(c->constants, p, start, cell, i);
+    glGetNamedBufferSubData(c->start, 0, (GLsizeiptr)((places + 1) * sizeof *start), start);
+    for (size_t place = 0; place < places; place++)
+        for (size_t i = start[place]; i < start[place + 1]; i++)
+            sum += neighbours_of(c, p, start, place, i);
     free(start);
     return c->count > 0 ? (double)sum / (double)c->count : 0;
 }

@@ -100,6 +100,8 @@ static void fill_cells(Cloud *cloud, const uint64_t *order)
         start[(cell[i] = (uint32_t)(order[i] >> 32)) + 1]++;
     for (size_t k = 0; k < cells; k++)
         start[k + 1] += start[k];
+    cloud->fold = cell_fold_plain(&cloud->constants.cells);
+    cloud->args.fold = &cloud->fold;
     cloud->args.cell_start = start;
     cloud->args.cell = cell;
 }

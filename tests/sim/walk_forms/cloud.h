@@ -16,8 +16,9 @@ typedef struct Cloud {
     Shape shape;
     Constants constants, wide; /* `wide`: h times the reach of lists */
     PairArgs args, making;     /* of passes; of lists: the same with `wide` */
-    int across;                /* cells that a particle sees on each side of its own */
-    uint32_t *axis[3];         /* cell (i, j, k) has the number axis[0][i] + axis[1][j] + axis[2][k] */
+    CellFold fold;
+    int across;        /* cells that a particle sees on each side of its own */
+    uint32_t *axis[3]; /* cell (i, j, k) has the number axis[0][i] + axis[1][j] + axis[2][k] */
 
     int32_t *numbers;         /* 0, 1, 2... */
     uint32_t *first, *length; /* of each particle: its list */
