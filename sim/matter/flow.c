@@ -42,27 +42,117 @@ double emit_time(const Emit *emit, double spacing, long index)
     return emit->start + (double)index * spacing / emit->speed;
 }
 
+/* Points (u / 2, v / 2) spacings of the lattice, u and v both odd or even as `odd` says: all that are nearer
+   to the middle than the rim, and of those on it a share. u^2 + v^2 is their `square`. */
+typedef struct Pattern {
+    int odd[2];
+    bool line;     /* v is 0 */
+    long rim;      /* its square */
+    long whole;    /* points within the rim */
+    long on_rim;   /* points on it, */
+    double filled; /* of these, a layer */
+} Pattern;
+
+/* The greatest odd or even number whose square is `square` at most; -1 for none. */
+static long greatest(long square, int odd)
+{
+    long u = square < 0 ? -1 : (long)sqrt((double)square);
+    u -= u > 0 && u * u > square;
+    return u % 2 == odd ? u : u - 1;
+}
+
+/* How many points have a square of `most` at most. */
+static long points_within(const Pattern *p, long most)
+{
+    const long top = p->line ? 0 : greatest(most, p->odd[1]);
+    long count = 0;
+    for (long v = -top; v <= top; v += 2)
+        count += most >= v * v ? greatest(most - v * v, p->odd[0]) + 1 : 0;
+    return count;
+}
+
+/* For so many particles a layer. */
+static Pattern pattern_of(int odd_u, int odd_v, bool line, double particles)
+{
+    Pattern p = {.odd = {odd_u, odd_v}, .line = line};
+    long low = -1, high = 4; /* the rim is in (low, high] */
+    while ((double)points_within(&p, high) <= particles)
+        high *= 2;
+    while (high - low > 1) {
+        const long middle = low + (high - low) / 2;
+        if ((double)points_within(&p, middle) <= particles)
+            low = middle;
+        else
+            high = middle;
+    }
+    p.rim = high;
+    p.whole = points_within(&p, low);
+    p.on_rim = points_within(&p, high) - p.whole;
+    p.filled = fmax(particles - (double)p.whole, 0);
+    return p;
+}
+
+/* The sum of the squares. */
+static double moment(const Pattern *p)
+{
+    const long top = p->line ? 0 : greatest(p->rim, p->odd[1]);
+    double sum = p->filled * (double)p->rim;
+    for (long v = -top; v <= top; v += 2) {
+        const double n = (double)(greatest(p->rim - 1 - v * v, p->odd[0]) + 1); /* n numbers, 2 apart */
+        sum += n > 0 ? n * ((n * n - 1) / 3 + (double)(v * v)) : 0;
+    }
+    return sum;
+}
+
+/* The roundest. */
+static Pattern pattern_for(const Emit *emit, int dimensions, double spacing)
+{
+    const double r = (1 + 1e-9) * emit->radius / spacing;
+    const bool line = dimensions == 2;
+    Pattern best = pattern_of(0, 0, line, line ? 2 * r : M_PI * r * r);
+    for (int odd = 1; odd < (line ? 2 : 4); odd += line ? 1 : 2) { /* (1, 0) or (1, 1), as (0, 1) is (1, 0) */
+        const Pattern other = pattern_of(1, odd / 2, line, line ? 2 * r : M_PI * r * r);
+        best = moment(&other) < moment(&best) ? other : best;
+    }
+    return best;
+}
+
+size_t emit_most(const Emit *emit, int dimensions, double spacing)
+{
+    const Pattern p = pattern_for(emit, dimensions, spacing);
+    return (size_t)(p.whole + p.on_rim);
+}
+
+/* Whether place `number` of the rim has a particle, counted over all layers. */
+static bool is_filled(const Pattern *p, double number)
+{
+    const double share = p->filled / (double)p->on_rim;
+    return floor((number + 1) * share + 0.5) > floor(number * share + 0.5);
+}
+
 void emit_place(const Emit *emit, int dimensions, double spacing, long index, double time, EmitLayer *layer)
 {
     const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double way = (time - emit_time(emit, spacing, index)) * emit->speed;
-    const double radius = (1 + 1e-9) * emit->radius;
-    const long reach = (long)(radius / spacing), deep = dimensions == 3 ? reach : 0;
-    double a[3], b[3];
+    const Pattern pattern = pattern_for(emit, dimensions, spacing);
+    const long top = pattern.line ? 0 : greatest(pattern.rim, pattern.odd[1]);
+    double a[3], b[3], number = (double)index * (double)pattern.on_rim;
     across(emit, dimensions, a, b);
     layer->count = 0;
     for (int k = 0; k < 3; k++)
         layer->velocity[k] = (float)(emit->speed * d[k] / norm);
-    for (long j = -deep; j <= deep; j++)
-        for (long i = -reach; i <= reach; i++) {
-            const double p = (double)i * spacing, q = (double)j * spacing;
-            if (p * p + q * q > radius * radius)
+    for (long v = -top; v <= top; v += 2) {
+        const long reach = greatest(pattern.rim - v * v, pattern.odd[0]);
+        for (long u = -reach; u <= reach; u += 2) {
+            if (u * u + v * v == pattern.rim && !is_filled(&pattern, number++))
                 continue;
+            const double p = 0.5 * (double)u * spacing, q = 0.5 * (double)v * spacing;
             for (int k = 0; layer->position && k < 3; k++)
                 layer->position[3 * layer->count + (size_t)k] =
                     (float)(emit->centre[k] + way * d[k] / norm + p * a[k] + q * b[k]);
             layer->count++;
         }
+    }
 }
 
 Guide flow_guide(const WorldDef *def, int fluid, const Emit *emit)

@@ -23,9 +23,12 @@ long emit_layers(const Emit *emit, double spacing, double begin, double end, lon
 double emit_time(const Emit *emit, double spacing, long index);
 
 /* Layer `index` as it is at `time`, had it always moved as it does when it comes out: points of a square
-   lattice over the disk, in two dimensions over the line that it is there. Fills count, velocity and, unless
-   it is NULL, position, which must have room. */
+   lattice over the disk, in two dimensions over the line that it is there. A layer stands for the disk's area
+   times the spacing, which is mostly no whole number of particles: of the points furthest from the middle
+   some are left out in each layer, others in the next, so that the sum over layers is right to one particle.
+   Fills count, velocity and, unless it is NULL, position, which must have room: for emit_most() points. */
 void emit_place(const Emit *emit, int dimensions, double spacing, long index, double time, EmitLayer *layer);
+size_t emit_most(const Emit *emit, int dimensions, double spacing);
 
 /* Where an emitter holds its fluid to its course: a cylinder from the disk on, as deep as the support radius.
    Free particles with nothing behind them would be pushed back, and layers that are not in step push them

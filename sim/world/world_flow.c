@@ -30,13 +30,12 @@ bool world_pours(const World *world, Emit *emit, int *fluid)
 /* Room for a layer of the emitter; false when memory is short. */
 static bool layer_reserve(World *world, const Emit *emit)
 {
-    EmitLayer layer = {0};
-    emit_place(emit, world->def.dimensions, world->def.spacing, 0, 0, &layer);
-    if (layer.count <= world->layer_room)
+    const size_t most = emit_most(emit, world->def.dimensions, world->def.spacing);
+    if (most <= world->layer_room)
         return true;
-    float *more = realloc(world->layer, 3 * layer.count * sizeof *more);
+    float *more = realloc(world->layer, 3 * most * sizeof *more);
     world->layer = more ? more : world->layer;
-    world->layer_room = more ? layer.count : world->layer_room;
+    world->layer_room = more ? most : world->layer_room;
     return more;
 }
 

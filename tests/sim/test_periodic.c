@@ -436,7 +436,7 @@ static void a_jet_goes_through_a_side(void **state)
     size_t beyond = 0;
     for (size_t i = 0; i < s.count; i++)
         beyond += s.position[4 * i] < 0.2F;
-    assert_in_range(s.count, 15, 18);
+    assert_int_equal(s.count, 12); /* six layers of two */
     assert_true(beyond > 9);
     fixture_free(&s);
     world_destroy(world);
