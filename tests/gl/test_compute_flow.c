@@ -23,7 +23,7 @@ static WorldDef jet_def(int dimensions)
     def.fluids[1] = (FluidDef){.name = "oil", .density = 800, .viscosity = 3};
     fixture_block(&def, 0, -0.6, 0, -0.4, 0.6, 0.2, 0.4);
     def.fluids[1].emits[def.fluids[1].emit_count++] = (Emit){
-        .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.13, .speed = 2, .start = 0.05};
+        .centre = {-0.2, 0.8, 0}, .direction = {0.3, -1, 0}, .radius = 0.135, .speed = 2, .start = 0.05};
     def.drains[def.drain_count++] = (Fill){.kind = FILL_BLOCK, .min = {0.4, 0, -0.4}, .max = {0.6, 0.2, 0.4}};
     def.drains[def.drain_count++] = (Fill){.kind = FILL_BALL, .centre = {-0.5, 0.1, 0}, .radius = 0.08};
     def.motions[def.motion_count++] =
