@@ -46,9 +46,7 @@ double stable_largest(const StableCellFound *found)
 
 bool stable_uneven(const StableCellFound *found)
 {
-    const StableSearch *search = &found->search;
-    const bool holes = search->below.kind != OUTCOME_NONE && search->below.kind != OUTCOME_HOLDS;
-    return found->searched && (holes || (search->end != STABLE_ALWAYS && search->again > search->rung));
+    return found->searched && found->search.again > found->search.rung;
 }
 
 int stable_silent(const StableCellFound *found)

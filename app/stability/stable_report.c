@@ -50,7 +50,7 @@ static void print_cell(const StableMap *map, const StableCellFound *found, FILE 
     for (int i = 0; i < STABLE_ABOVE && search->end != STABLE_ALWAYS; i++)
         fprintf(file, "%s%s", i ? ", " : "", found_word(&search->above[i], word));
     if (stable_uneven(found))
-        fprintf(file, "; uneven: %s at 0.71 times the step", found_word(&search->below, word));
+        fprintf(file, "; uneven: holds from some start up to %.3g ms", 1000 * stable_step(search->again));
     fputc('\n', file);
 }
 
@@ -70,8 +70,8 @@ static void print_spread(const StableMap *map, int series, FILE *file)
             "%d of %d cells have steps up to twice the largest that holds whose trouble the sentinel does not find\n",
             spread.silent, spread.cells);
     if (spread.uneven > 0)
-        fprintf(file, "%d of %d cells are uneven: a longer step holds again, or a shorter one does not\n",
-                spread.uneven, spread.cells);
+        fprintf(file, "%d of %d cells are uneven: a longer step holds from some start\n", spread.uneven,
+                spread.cells);
 }
 
 /* "viscosity" of "fluids[0].viscosity" */

@@ -20,12 +20,26 @@ typedef struct Bracket {
     void *context;
     int holds, fails;  /* rungs; */
     bool held, failed; /* whether there is one */
+    int highest;       /* rung that has held from some start */
 } Bracket;
+
+/* From so many starts, until one does not hold: its outcome, else that of the last. */
+static bool ask(Bracket *b, int rung, int starts, bool whole, StableFound *found)
+{
+    for (int start = 0; start < starts; start++) {
+        if (!b->attempt(b->context, rung, start, whole, found))
+            return false;
+        if (found->kind != OUTCOME_HOLDS)
+            return true;
+        b->highest = rung > b->highest ? rung : b->highest;
+    }
+    return true;
+}
 
 static bool try_rung(Bracket *b, int rung)
 {
     StableFound found;
-    if (!b->attempt(b->context, rung, false, &found))
+    if (!ask(b, rung, 1, false, &found))
         return false;
     if (found.kind == OUTCOME_HOLDS) {
         b->holds = rung;
@@ -38,9 +52,8 @@ static bool try_rung(Bracket *b, int rung)
 }
 
 /* By factors of two, until a rung holds and one does not, or there is no further one. */
-static bool enclose(Bracket *b, int first, int most)
+static bool enclose(Bracket *b, int first, int most, int lowest)
 {
-    const int lowest = first - STABLE_DOWN;
     bool ok = try_rung(b, first);
     while (ok && !b->failed && b->holds < most)
         ok = try_rung(b, b->holds + STABLE_RUNGS < most ? b->holds + STABLE_RUNGS : most);
@@ -49,42 +62,58 @@ static bool enclose(Bracket *b, int first, int most)
     return ok;
 }
 
+/* Down to where chance decides no more: what fails is no step to name, nor is what is longer. */
+static bool settle(Bracket *b, int lowest)
+{
+    static const int below[] = {0, 1, STABLE_BELOW}, starts[] = {STABLE_STARTS, STABLE_STARTS, 1};
+    for (bool all = false; b->held && !all;) {
+        all = true;
+        const int rung = b->holds;
+        for (int k = 0; all && k < 3; k++) {
+            StableFound found;
+            if (!ask(b, rung - below[k], starts[k], false, &found))
+                return false;
+            all = found.kind == OUTCOME_HOLDS;
+            if (all)
+                continue;
+            b->fails = rung - below[k];
+            b->failed = true;
+            b->holds = b->fails - 1;
+            b->held = b->holds >= lowest;
+        }
+    }
+    return true;
+}
+
 int stable_sample(const StableSearch *search, int sample)
 {
     return search->rung + (search->end == STABLE_NEVER ? sample * STABLE_RUNGS : stable_above[sample]);
 }
 
-/* Whether what is longer fails, and what is shorter holds. */
-static bool look_around(const Bracket *b, int most, StableSearch *search)
+/* Whether what is longer fails. */
+static bool look_above(Bracket *b, int most, StableSearch *search)
 {
-    search->again = search->rung;
-    search->below = (StableFound){.kind = OUTCOME_NONE};
-    if (search->end != STABLE_NEVER &&
-        !b->attempt(b->context, search->rung - STABLE_BELOW, false, &search->below))
-        return false;
     for (int i = 0; i < STABLE_ABOVE; i++) {
         const int rung = stable_sample(search, i);
         search->above[i] = (StableFound){.kind = OUTCOME_NONE};
-        if (rung > most)
-            continue;
-        if (!b->attempt(b->context, rung, search->end != STABLE_NEVER, &search->above[i]))
+        if (rung <= most && !ask(b, rung, STABLE_STARTS, search->end != STABLE_NEVER, &search->above[i]))
             return false;
-        if (search->above[i].kind == OUTCOME_HOLDS)
-            search->again = rung;
     }
+    search->again = b->highest > search->rung ? b->highest : search->rung;
     return true;
 }
 
 bool stable_search(StableTry *attempt, void *context, int first, int most, StableSearch *search)
 {
-    Bracket b = {.attempt = attempt, .context = context};
     first = first < most ? first : most;
-    bool ok = enclose(&b, first, most);
+    const int lowest = first - STABLE_DOWN;
+    Bracket b = {.attempt = attempt, .context = context, .highest = lowest - 1};
+    bool ok = enclose(&b, first, most, lowest);
     while (ok && b.held && b.failed && b.fails > b.holds + 1)
         ok = try_rung(&b, b.holds + (b.fails - b.holds) / 2);
-    if (!ok)
+    if (!ok || !settle(&b, lowest))
         return false;
     search->end = !b.held ? STABLE_NEVER : !b.failed ? STABLE_ALWAYS : STABLE_FOUND;
     search->rung = b.held ? b.holds : b.fails;
-    return look_around(&b, most, search);
+    return look_above(&b, most, search);
 }
