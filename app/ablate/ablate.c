@@ -42,7 +42,7 @@ static bool run_one(Work *work, int row, int round, ChartRow *run, Error *error)
 {
     static Scene scene;
     const ChartJob job = job_of(work, row, round);
-    return chart_prepare(&work->subject, &job, &scene, run, error) &&
+    return chart_prepare(&work->subject, &job, &scene, run, NULL, error) &&
            chart_run(&work->subject, &job, run, &work->progress, (double)work->done / work->all,
                      1.0 / work->all, error);
 }

@@ -30,7 +30,7 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
         ok = add_setting(&all, with->set[i], NULL, error);
     for (int i = 0; ok && i < setup->settings->count; i++)
         ok = add_setting(&all, setup->settings->set[i], setup->settings->said[i], error);
-    return ok && scene_load(setup->of->scene, &all, scene, NULL, error);
+    return ok && scene_load(setup->of->scene, &all, scene, setup->notes, error);
 }
 
 /* Arrays of the scene's own start, in the order of ids. */

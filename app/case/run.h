@@ -14,6 +14,7 @@ typedef struct CaseSetup {
     /* Told of each state that is sampled, which is sound; NULL: nobody. */
     void (*watch)(void *watcher, const WorldDef *def, World *world);
     void *watcher;
+    Notes *notes; /* lines about the scene; NULL: nobody listens */
 } CaseSetup;
 
 typedef struct CaseResult {

@@ -27,7 +27,7 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
     rows->probe_count = plan->scene.probes.count;
     for (rows->count = 0; rows->count < plan->count; rows->count++) {
         const int i = rows->count;
-        if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], error))
+        if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], NULL, error))
             return false;
         const ChartRow *old = chart_rows_find(&runs->kept, rows->row[i].key);
         runs->made[i] = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */

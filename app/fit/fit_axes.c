@@ -15,7 +15,7 @@
 static const double spacings[] = {4, 3, 2.5, 2, 1.75, 1.5, 1.25, 1, 0.75};
 
 /* Times the scene's. */
-static const double steps[] = {0.5, 0.7, 1, 1.4, 2, 2.8, 4};
+static const double steps[] = {0.25, 0.5, 0.7, 1, 1.4, 2, 2.8, 4};
 
 /* 2.1: as many neighbours as play has; 2.6, 3, 3.5: of what is measured, in three dimensions and in two. */
 static const char *const supports[] = {NULL, "2.1", "2.6", "3", "3.5"};
@@ -60,7 +60,7 @@ static void start_job(const FitAxes *axes, const char *method, const char *prese
 static bool load(const FitAxes *axes, const FitJob *job, Scene *scene, ChartRow *row)
 {
     Error none;
-    return chart_prepare(&axes->subject, &job->job, scene, row, &none);
+    return chart_prepare(&axes->subject, &job->job, scene, row, NULL, &none);
 }
 
 /* "0.1" and 0.10 are the same. */
@@ -166,7 +166,7 @@ static void find_methods(FitAxes *axes, Notes *notes)
             if (is_named(axes->scene, all[i]) != own)
                 continue;
             start_job(axes, all[i], NULL, &job);
-            if (chart_prepare(&axes->subject, &job.job, &scene, &row, &why))
+            if (chart_prepare(&axes->subject, &job.job, &scene, &row, NULL, &why))
                 axes->method[(*found)++] = all[i];
             else
                 notes_add(notes, "left out: %s: %.300s", all[i], why.message);

@@ -26,8 +26,12 @@ static void print_why(const FitPlan *plan, const FitTry *try, FILE *file)
     else if (try->fate == FIT_LUCK)
         fprintf(file, "left: luck, the next finer spacing has %.3g %%", 100 * try->finer);
     else if (try->fate == FIT_REPEAT)
-        fprintf(file, "left: a repeat has %.3g %%%s", 100 * try->worst,
-                try->figures.holds ? "" : ", or does not hold");
+        fprintf(file,
+                try->figures.holds
+                    ? "left: a repeat has %.3g %%"
+                    : "left: repeats have up to %.3g %%, and one of them, or a run three times as long, "
+                      "does not hold",
+                100 * try->worst);
     else
         fputs("left: does not hold", file);
 }
@@ -43,6 +47,8 @@ static void print_try(const FitPlan *plan, int i, FILE *file)
     fprintf(file, "%s\n", try == fit_plan_own(plan) ? "; the scene as it is" : "");
     if (row->outcome.kind != OUTCOME_HOLDS)
         fprintf(file, "  %s\n", outcome_text(&row->outcome, text));
+    else if (row->backs > 0)
+        fprintf(file, "  the sentinel went back %u time%s\n", row->backs, row->backs == 1 ? "" : "s");
 }
 
 static bool same_line(const FitPoint *a, const FitPoint *b)
@@ -81,6 +87,9 @@ void fit_print(const FitPlan *plan, FILE *file)
     for (int i = 0; i < ladder->count; i++)
         if (ladder->tries[i].fate == FIT_PRUNED)
             print_pruned_line(plan, i, file);
+    if (plan->runs.warned > 0)
+        fprintf(file, "not run, slosh would warn of them: %d, as of: %s\n", plan->runs.warned,
+                plan->runs.warning);
     if (ladder->full)
         fprintf(file, "not all that could be tried was: there is room for %d settings\n", FIT_TRIES);
     if (isfinite(plan->runs.floor))
@@ -110,11 +119,11 @@ static json_t *try_json(const FitPlan *plan, int i)
     if (!ran || !json)
         return json;
     const ChartRow *row = fit_plan_row(plan, i);
-    json_t *more =
-        json_pack("{s:s, s:s, s:f, s:I, s:o, s:o, s:o, s:b}", "backend", row->backend, "step", row->step,
-                  "spacing", row->spacing, "particles", (json_int_t)row->particles, "seconds_per_second",
-                  number_json(row->seconds), "error", number_json(row->error), "worst",
-                  number_json(try->worst), "own", try == fit_plan_own(plan));
+    json_t *more = json_pack("{s:s, s:s, s:f, s:I, s:I, s:o, s:o, s:o, s:b}", "backend", row->backend, "step",
+                             row->step, "spacing", row->spacing, "particles", (json_int_t)row->particles,
+                             "backs", (json_int_t)row->backs, "seconds_per_second", number_json(row->seconds),
+                             "error", number_json(row->error), "worst", number_json(try->worst), "own",
+                             try == fit_plan_own(plan));
     outcome_json(more, &row->outcome);
     json_object_update(json, more);
     json_decref(more);

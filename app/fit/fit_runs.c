@@ -41,10 +41,21 @@ static bool check_reference(const FitAxes *axes, Error *error)
     FitJob job;
     Error why;
     reference_job(axes, &job);
-    return axes->subject.of || chart_prepare(&axes->subject, &job.job, &scene, &row, &why) ||
+    return axes->subject.of || chart_prepare(&axes->subject, &job.job, &scene, &row, NULL, &why) ||
            error_set(error,
                      "the run at half the spacing, which all are compared with, cannot be made: %.700s",
                      why.message);
+}
+
+/* What is said of the scene as it is. */
+static bool note_own(FitRuns *runs, Error *error)
+{
+    static Scene scene;
+    static ChartRow row;
+    const FitPoint own = own_point(runs->axes);
+    FitJob job;
+    fit_axes_job(runs->axes, &own, &job);
+    return chart_prepare(&runs->axes->subject, &job.job, &scene, &row, &runs->own, error);
 }
 
 bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *runs, Error *error)
@@ -54,7 +65,8 @@ bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *r
     runs->used.metric_count = scene->metric_count;
     memcpy(runs->used.metrics, scene->metrics, sizeof runs->used.metrics);
     runs->used.probe_count = scene->probes.count;
-    return chart_rows_read(&runs->kept, csv, stderr, error) && check_reference(axes, error);
+    return chart_rows_read(&runs->kept, csv, stderr, error) && check_reference(axes, error) &&
+           note_own(runs, error);
 }
 
 /* What takes so short a time, s, is timed again, so many times in all, and the least time counts: another
@@ -91,11 +103,11 @@ int fit_threads(const Scene *scene)
 }
 
 /* What one machine took for a run is none of another's business. */
-static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Error *error)
+static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Notes *notes, Error *error)
 {
     static Scene scene;
     char machine[256];
-    if (!chart_prepare(&runs->axes->subject, job, &scene, row, error))
+    if (!chart_prepare(&runs->axes->subject, job, &scene, row, notes, error))
         return false;
     snprintf(machine, sizeof machine, "%d %s", fit_threads(&scene), bench_processor());
     row->key = run_key_text(row->key, machine);
@@ -105,7 +117,7 @@ static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Err
 /* The row of the job, by an older run where there is one. */
 static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
 {
-    if (!prepare(runs, job, row, &runs->error))
+    if (!prepare(runs, job, row, NULL, &runs->error))
         return false;
     const ChartRow *old = chart_rows_find(&runs->kept, row->key);
     const bool there = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */
@@ -204,17 +216,57 @@ static void say_left_out(FitRuns *runs, const char *why)
         fprintf(stderr, "left out: %s\n", why);
 }
 
+/* Whether two lines are the same but for their numbers, or to the letter. */
+static bool same_line(const char *a, const char *b, bool exactly)
+{
+    static const char NUMBER[] = "0123456789.";
+    for (; *a || *b; a++, b++) {
+        a += exactly ? 0 : strspn(a, NUMBER);
+        b += exactly ? 0 : strspn(b, NUMBER);
+        if (*a != *b)
+            return false;
+        if (!*a)
+            return true;
+    }
+    return true;
+}
+
+static bool is_said(const Notes *notes, const char *line, bool exactly)
+{
+    for (int i = 0; i < notes->count; i++)
+        if (same_line(notes->line[i], line, exactly))
+            return true;
+    return false;
+}
+
+/* Whether something is said of a setting that is not said of the scene as it is, of settings without effect
+   but, which the scene that is written leaves out. Where the scene as it is breaks, what is said of it may be
+   the reason. */
+static bool is_warned(FitRuns *runs, const Notes *notes)
+{
+    for (int i = notes->lasting; i < notes->count; i++) {
+        if (is_said(&runs->own, notes->line[i], !isfinite(runs->floor)))
+            continue;
+        if (runs->warned++ == 0)
+            snprintf(runs->warning, sizeof runs->warning, "%s", notes->line[i]);
+        return true;
+    }
+    return false;
+}
+
 /* Another setting may be the same scene: one that names what was so already. */
 static bool exists(void *of, const FitPoint *point)
 {
     static ChartRow row;
+    static Notes notes;
     FitRuns *runs = of;
     FitJob job;
     Error why;
     if (!fit_axes_job(runs->axes, point, &job))
         return false;
-    if (prepare(runs, &job.job, &row, &why))
-        return !chart_rows_find(&runs->used, row.key);
+    notes = (Notes){.count = 0};
+    if (prepare(runs, &job.job, &row, &notes, &why))
+        return !chart_rows_find(&runs->used, row.key) && !is_warned(runs, &notes);
     say_left_out(runs, why.message);
     return false;
 }
@@ -232,6 +284,12 @@ static void say(const FitRuns *runs, const ChartRow *row)
     fprintf(stderr, "%s\n", outcome_word(row->outcome.kind));
 }
 
+/* What goes back is saved by the sentinel: its steps are not those that it has. */
+static bool holds(const ChartRow *row)
+{
+    return row->outcome.kind == OUTCOME_HOLDS && row->backs == 0;
+}
+
 static bool make(void *of, const FitPoint *point, double predicted, FitFigures *figures)
 {
     static ChartRow row;
@@ -244,13 +302,14 @@ static bool make(void *of, const FitPoint *point, double predicted, FitFigures *
     chart_rows_add(&runs->used, &row, &runs->used);
     *figures = (FitFigures){.cost = row.seconds,
                             .error = row.error,
-                            .holds = row.outcome.kind == OUTCOME_HOLDS,
+                            .holds = holds(&row),
                             .row = (int)(chart_rows_find(&runs->used, row.key) - runs->used.row)};
     say(runs, &row);
     return true;
 }
 
-static bool repeat(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *holds)
+/* From starts that differ by next to nothing; and once three times as long. */
+static bool repeat(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *all_hold)
 {
     static ChartRow row;
     FitRuns *runs = of;
@@ -258,14 +317,21 @@ static bool repeat(void *of, const FitPoint *point, const FitFigures *figures, d
     fit_axes_job(runs->axes, point, &job);
     job.job.role = CHART_FLOOR;
     *worst = figures->error;
-    *holds = true;
+    *all_hold = true;
     for (int i = 0; i < REPEATS; i++) {
         job.job.jitter = jitters[i];
         if (!row_of(runs, &job.job, &row))
             return false;
         *worst = fmax(*worst, error_of(runs, &row));
-        *holds &= row.outcome.kind == OUTCOME_HOLDS;
+        *all_hold &= holds(&row);
     }
+    if (!*all_hold)
+        return true;
+    job.job.role = CHART_LONG;
+    job.job.jitter = 0;
+    if (!row_of(runs, &job.job, &row))
+        return false;
+    *all_hold = holds(&row);
     return true;
 }
 

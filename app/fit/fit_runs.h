@@ -15,7 +15,10 @@ typedef struct FitRuns {
     int there, made;    /* runs that were in the file already, and others */
     ChartRow reference; /* of a scene: what all are compared with */
     double floor;       /* how far runs are apart that differ by a millionth of a spacing; NaN: they broke */
-    int left_count;     /* reasons why settings could not be made, that were said: */
+    Notes own;          /* what is said of the scene as it is; of what is offered nothing else may be said */
+    int warned;         /* settings that were left since something is; */
+    char warning[NOTE_SIZE]; /* the first of these lines */
+    int left_count;          /* reasons why settings could not be made, that were said: */
     uint64_t left_out[FIT_REASONS];
     Error error; /* why a run could not be made; "" where a signal came */
 } FitRuns;

@@ -162,11 +162,14 @@ static void print_best(const FitPlan *plan, FILE *file)
             100 * best->figures.error, plan->error_of, 100 * best->worst);
     if (isfinite(best->finer))
         fprintf(file, "# At the next finer spacing it is %.3g %%.\n", 100 * best->finer);
-    if (!plan->subject.of)
-        fprintf(
-            file,
-            "# It is against the finest run of the scene, half its spacing and half its step, over %g s.\n",
-            plan->subject.time);
+    const double time = plan->subject.of ? plan->subject.of->time : plan->subject.time;
+    if (plan->subject.of)
+        fprintf(file, "# It is of %g s", time);
+    else
+        fprintf(file,
+                "# It is against the finest run of the scene, half its spacing and half its step, over %g s",
+                time);
+    fprintf(file, "; %g s, three times as long, hold too.\n", CHART_LONGER * time);
     fprintf(file, "# Cost: %.3g s of computing a simulated second, without pictures, on %s, %d thread%s.\n",
             best->figures.cost, bench_processor(), fit_threads(&plan->scene),
             fit_threads(&plan->scene) == 1 ? "" : "s");
@@ -268,7 +271,7 @@ static bool write_chosen(const FitPlan *plan, Tree *tree, Error *error)
     fit_axes_job(&plan->axes, &plan->ladder.tries[plan->ladder.best].point, &job);
     if (!chart_settings(&plan->subject, &job.job, &settings, &scene, &row, error) ||
         !apply(plan, &settings, &job.job, tree, error) ||
-        !chart_prepare(&plan->subject, &job.job, &scene, &row, error))
+        !chart_prepare(&plan->subject, &job.job, &scene, &row, NULL, error))
         return false;
     Node *solver = (Node *)tree_at(tree, "solver");
     if (solver)

@@ -54,7 +54,8 @@ typedef struct FitSpace {
     double (*work)(void *of, const FitPoint *point);
     /* Runs it; false: the search ends. */
     bool (*run)(void *of, const FitPoint *point, double predicted, FitFigures *figures);
-    /* Repeats it: `worst` gets the greatest error of all, and *holds whether all do. NULL: none. */
+    /* Repeats it: `worst` gets the greatest error of all, and *holds whether all do, and longer ones. NULL:
+     * none. */
     bool (*repeat)(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *holds);
     void *of;
 } FitSpace;

@@ -90,7 +90,7 @@ static bool try_job(ChartPlan *plan, ChartJob job, Error *why)
     if (plan->count == CHART_JOBS_MAX)
         return error_set(why, "more than %d runs; name fewer methods, backends or swept values",
                          CHART_JOBS_MAX);
-    if (!chart_prepare(&plan->subject, &job, &scene, &row, why))
+    if (!chart_prepare(&plan->subject, &job, &scene, &row, NULL, why))
         return false;
     plan->wants_context |= world_on_gpu(&scene.world);
     plan->work[plan->count] = pow(job.coarsening, -scene.world.dimensions - 1) * (1 << job.fineness);

@@ -50,8 +50,10 @@ void chart_print(const ChartRows *rows, double floor, FILE *file)
 
 static json_t *row_json(const ChartRows *rows, int i)
 {
-    static const char *const roles[] = {
-        [CHART_POINT] = "point", [CHART_REFERENCE] = "reference", [CHART_FLOOR] = "floor"};
+    static const char *const roles[] = {[CHART_POINT] = "point",
+                                        [CHART_REFERENCE] = "reference",
+                                        [CHART_FLOOR] = "floor",
+                                        [CHART_LONG] = "long"};
     const ChartRow *row = &rows->row[i];
     json_t *json =
         json_pack("{s:s, s:s, s:s, s:s, s:f, s:I, s:o, s:o, s:b}", "role", roles[row->role], "method",

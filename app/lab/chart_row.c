@@ -11,8 +11,8 @@
 
 static const char HEAD[] =
     "key,role,method,backend,step,fineness,spacing_m,particles,seconds_a_simulated_second,error,"
-    "outcome,outcome_s,outcome_words,swept,series\n";
-static const char *const roles[] = {"point", "reference", "floor"};
+    "outcome,outcome_s,outcome_words,backs,swept,series\n";
+static const char *const roles[] = {"point", "reference", "floor", "long"};
 
 /* What every chart's file begins with, whatever else its rows hold. */
 static const char OURS[] = "key,role,method,backend,";
@@ -44,7 +44,7 @@ static bool parse_series(char *text, ChartRow *row)
 
 static bool parse_role(const char *name, ChartRole *role)
 {
-    for (int r = CHART_POINT; r <= CHART_FLOOR; r++)
+    for (int r = CHART_POINT; r <= CHART_LONG; r++)
         if (strcmp(roles[r], name) == 0) {
             *role = (ChartRole)r;
             return true;
@@ -58,7 +58,7 @@ static bool copy_name(char name[NAME_SIZE], const char *cell)
 }
 
 /* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
-static const char *impossible(const ChartRow *row, double fineness, double particles)
+static const char *impossible(const ChartRow *row, double fineness, double particles, double backs)
 {
     if (!(fineness >= 0 && fineness < 100))
         return "fineness";
@@ -66,6 +66,8 @@ static const char *impossible(const ChartRow *row, double fineness, double parti
         return "spacing_m";
     if (!(particles >= 0 && particles < 1e15))
         return "particles";
+    if (!(backs >= 0 && backs < 1e9))
+        return "backs";
     if (row->seconds <= 0 || isinf(row->seconds))
         return "seconds_a_simulated_second";
     return row->error < 0 || isinf(row->error) ? "error" : NULL;
@@ -74,10 +76,10 @@ static const char *impossible(const ChartRow *row, double fineness, double parti
 /* NULL, or what is wrong: the run is made again. */
 static const char *parse_row(char *line, ChartRow *row)
 {
-    enum { CELLS = 14 };
+    enum { CELLS = 15 };
     static const char unreadable[] = "row";
     char *cells[CELLS], *at = line, *end;
-    double fineness, particles;
+    double fineness, particles, backs;
     if (!line[strcspn(line, "\n")])
         return unreadable;
     line[strcspn(line, "\n")] = '\0';
@@ -92,13 +94,14 @@ static const char *parse_row(char *line, ChartRow *row)
                     copy_name(row->step, cells[4]) && row_number(cells[5], &fineness) &&
                     row_number(cells[6], &row->spacing) && row_number(cells[7], &particles) &&
                     row_number(cells[8], &row->seconds) && row_number(cells[9], &row->error) &&
-                    row_outcome(&cells[10], &row->outcome) && row_text(row->swept, CHART_SWEPT, cells[13]) &&
-                    parse_series(at, row);
-    const char *wrong = ok ? impossible(row, fineness, particles) : unreadable;
+                    row_outcome(&cells[10], &row->outcome) && row_number(cells[13], &backs) &&
+                    row_text(row->swept, CHART_SWEPT, cells[14]) && parse_series(at, row);
+    const char *wrong = ok ? impossible(row, fineness, particles, backs) : unreadable;
     if (wrong)
         return wrong;
     row->fineness = (int)fineness;
     row->particles = (size_t)particles;
+    row->backs = (unsigned)backs;
     return NULL;
 }
 
@@ -184,6 +187,7 @@ static void print_row(const ChartRow *row, FILE *file)
             row->method, row->backend, row->step, row->fineness, row->spacing, row->particles, row->seconds,
             row->error, outcome_word(outcome->kind), outcome->time);
     row_put_text(outcome->words, file);
+    fprintf(file, "%u,", row->backs);
     row_put_text(row->swept, file);
     for (int t = 0; t < CHART_TIMES && row->quantities > 0; t++)
         for (int q = 0; q < row->quantities; q++)

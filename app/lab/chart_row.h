@@ -21,7 +21,8 @@ enum {
 typedef enum ChartRole {
     CHART_POINT,     /* a point of the chart */
     CHART_REFERENCE, /* the finest run of a scene that has no other reference */
-    CHART_FLOOR      /* one of three that differ by a millionth of a spacing */
+    CHART_FLOOR,     /* one of three that differ by a millionth of a spacing */
+    CHART_LONG       /* three times as long, to see whether it holds: slosh fit */
 } ChartRole;
 
 typedef struct ChartRow {
@@ -37,6 +38,7 @@ typedef struct ChartRow {
     double error;    /* NaN: not known */
     uint64_t steps;  /* of a scene, in all; the file does not keep it: 0 then */
     Outcome outcome; /* how it went; of OUTCOME_NONE that it has not been run */
+    unsigned backs;  /* times that the sentinel went back */
     int quantities;  /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
     double series[CHART_TIMES][CHART_QUANTITIES];
 } ChartRow;

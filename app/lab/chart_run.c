@@ -52,13 +52,28 @@ static bool add_swept(ChartSettings *job, const ChartJob *of, ChartRow *row, Err
 }
 
 static bool load(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
-                 Error *error)
+                 Notes *notes, Error *error)
 {
     if (!subject->of)
-        return scene_load(subject->scene, &settings->all, scene, NULL, error);
-    const CaseSetup setup = {
-        .of = subject->of, .level = CASE_DEFAULT, .method = job->method, .settings = &settings->all};
+        return scene_load(subject->scene, &settings->all, scene, notes, error);
+    const CaseSetup setup = {.of = subject->of,
+                             .level = CASE_DEFAULT,
+                             .method = job->method,
+                             .settings = &settings->all,
+                             .notes = notes};
     return case_scene(&setup, scene, error);
+}
+
+/* The spacing of the job, or what is taken in its place so that the fills have whole layers. */
+static bool add_spacing(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings,
+                        Scene *scene, ChartRow *row, Error *error)
+{
+    if (!add(settings, error, "particles.spacing=%.9g", row->spacing) ||
+        !load(subject, job, settings, scene, NULL, error))
+        return false;
+    row->spacing = scene->world.spacing;
+    snprintf(settings->texts[settings->used - 1], CHART_TEXT_SIZE, "particles.spacing=%.9g", row->spacing);
+    return true;
 }
 
 /* First as the scene has it, to know its spacing and step; then with those of the job. A step of mode fixed
@@ -69,14 +84,13 @@ bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSetti
     *settings = (ChartSettings){.all = *subject->settings};
     bool ok = add(settings, error, "solver.method=%s", job->method) &&
               add(settings, error, "solver.backend=%s", job->backend) &&
-              add_swept(settings, job, row, error) && load(subject, job, settings, scene, error);
+              add_swept(settings, job, row, error) && load(subject, job, settings, scene, NULL, error);
     if (!ok)
         return false;
     const WorldDef *def = &scene->world;
     row->spacing = def->spacing * job->coarsening;
     const bool follows = settings->all.particles > 0; /* the step went with the spacing, in this load alone */
     settings->all.particles = 0;
-    ok = add(settings, error, "particles.spacing=%.9g", row->spacing);
     if (def->step_mode == STEP_CFL) {
         const double number = def->cfl_number / (1 << job->fineness);
         snprintf(row->step, NAME_SIZE, "number %.3g", number);
@@ -91,11 +105,12 @@ bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSetti
              (!follows || add(settings, error, "solver.step.dt=%.9g", def->dt));
     }
     return ok &&
-           (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", def->jitter + job->jitter));
+           (job->jitter == 0 || add(settings, error, "particles.jitter=%.9g", def->jitter + job->jitter)) &&
+           add_spacing(subject, job, settings, scene, row, error);
 }
 
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
-                   Error *error)
+                   Notes *notes, Error *error)
 {
     ChartSettings settings;
     char rest[128];
@@ -105,7 +120,7 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
                       .error = (double)NAN,
                       .key = RUN_KEY};
     if (!chart_settings(subject, job, &settings, scene, row, error) ||
-        !load(subject, job, &settings, scene, error) || !world_can(&scene->world, error))
+        !load(subject, job, &settings, scene, notes, error) || !world_can(&scene->world, error))
         return false;
     snprintf(row->method, NAME_SIZE, "%s", scene->world.method);
     snprintf(row->backend, NAME_SIZE, "%s", scene->world.backend);
@@ -239,6 +254,7 @@ static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *pro
 static void judge(OutcomeHistory *history, const WorldTrouble *trouble, const char *failure, ChartRow *row)
 {
     history->trouble = *trouble;
+    row->backs = trouble->count;
     if (!*failure || trouble->ended)
         outcome_judge(history, &row->outcome);
     else
@@ -275,8 +291,10 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
     ChartSettings settings;
     if (!chart_settings(subject, job, &settings, &scene, row, error))
         return false;
-    CaseWatch watch = case_watch_begin(subject->of);
-    const CaseSetup setup = {.of = subject->of,
+    Case of = *subject->of;
+    of.time *= job->role == CHART_LONG ? CHART_LONGER : 1;
+    CaseWatch watch = case_watch_begin(&of);
+    const CaseSetup setup = {.of = &of,
                              .level = CASE_DEFAULT,
                              .method = job->method,
                              .settings = &settings.all,
@@ -286,7 +304,7 @@ static bool run_case(const ChartSubject *subject, const ChartJob *job, ChartRow 
     row->particles = result.particles;
     judge(&watch.history, &result.run.info.trouble, result.failure, row);
     if (ok && !*result.failure) {
-        row->seconds = result.step_seconds / subject->of->time;
+        row->seconds = result.step_seconds / of.time;
         row->error = result.run.figures[0].error;
     }
     case_result_free(&result);
@@ -301,6 +319,7 @@ bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, 
         return run_case(subject, job, row, progress, done, part, error);
     ChartSettings settings;
     return chart_settings(subject, job, &settings, &scene, row, error) &&
-           load(subject, job, &settings, &scene, error) &&
-           run_scene(&scene, subject->time, row, progress, done, part, error);
+           load(subject, job, &settings, &scene, NULL, error) &&
+           run_scene(&scene, subject->time * (job->role == CHART_LONG ? CHART_LONGER : 1), row, progress,
+                     done, part, error);
 }

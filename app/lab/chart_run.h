@@ -20,6 +20,9 @@ typedef struct ChartJob {
     bool step_unnamed;             /* row's swept leaves out what row's step says after the job's scaling */
 } ChartJob;
 
+/* CHART_LONG runs so many times the subject's time. */
+enum { CHART_LONGER = 3 };
+
 enum { CHART_TEXTS = 6, CHART_TEXT_SIZE = 96 };
 
 /* The settings of a run: those of the command line, and behind them those that the job adds. It points into
@@ -30,14 +33,15 @@ typedef struct ChartSettings {
     int used;
 } ChartSettings;
 
-/* Fills in row's step, spacing and what is swept, too; `scene` is for scratch. A case adds its own before
-   them. */
+/* Fills in row's step, what is swept, and its spacing: the one at which the fills have whole layers, which is
+   set. `scene` is for scratch. A case adds its own before them. */
 bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
                     ChartRow *row, Error *error);
 
-/* The scene of that job, with row's key, method, backend, step and spacing. */
+/* The scene of that job (its lines go to `notes`, unless it is NULL or a case), with row's key, method,
+ * backend, step and spacing. */
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
-                   Error *error);
+                   Notes *notes, Error *error);
 
 /* Runs it into `row`, which chart_prepare has filled. A simulation that breaks leaves seconds and error NaN,
    and its reason; false where something else fails, or a signal came. */

@@ -17,7 +17,7 @@ static void prepare(const ChartJob *job, SceneSettings *settings)
     static const char path[] = SLOSH_SOURCE_DIR "/scenes/dam_break.yaml";
     const ChartSubject subject = {.scene = path, .time = 1, .settings = settings};
     if (!scene_load(path, settings, &own, NULL, &error) ||
-        !chart_prepare(&subject, job, &scene, &row, &error))
+        !chart_prepare(&subject, job, &scene, &row, NULL, &error))
         fail_msg("%s", error.message);
 }
 
@@ -73,6 +73,23 @@ static void a_step_has_one_name(void **state)
     assert_int_equal(scene.world.substeps, 6);
 }
 
+/* A coarser spacing that gives the fills no whole layers: the row has the one that is taken, and nothing is
+   said of it. */
+static void a_row_has_the_spacing_that_runs(void **state)
+{
+    (void)state;
+    static Notes notes;
+    const ChartJob job = {.method = "wcsph", .backend = "cpu", .coarsening = 1.37};
+    SceneSettings settings = {0};
+    prepare(&job, &settings);
+    assert_true(fabs(row.spacing / scene.world.spacing - 1) < 1e-8 &&
+                fabs(row.spacing / (1.37 * own.world.spacing) - 1) > 1e-3);
+    assert_true(chart_prepare(&(ChartSubject){.scene = own.path, .time = 1, .settings = &settings}, &job,
+                              &scene, &row, &notes, &error));
+    for (int i = 0; i < notes.count; i++)
+        assert_null(strstr(notes.line[i], "is taken"));
+}
+
 int main(void)
 {
     backends_add();
@@ -80,6 +97,7 @@ int main(void)
         cmocka_unit_test(a_fixed_step_goes_with_the_particles),
         cmocka_unit_test(a_chosen_step_stays),
         cmocka_unit_test(a_step_has_one_name),
+        cmocka_unit_test(a_row_has_the_spacing_that_runs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -94,6 +94,22 @@ class Fit(FitTest):
         self.assertEqual(self.entries(), ['free_fall_fit.csv', 'free_fall_fit.yaml', 'out.json'])
         self.assertEqual(self.slosh('run', 'free_fall_fit.yaml', '-o', 'a.h5part', '--time', '0.01', '--quiet')[0], 0)
 
+    def test_what_is_offered_needs_no_help(self):
+        """No line about it, no going back, and the same three times as long."""
+        self.write('tank.yaml', command.SCENE)
+        done = self.fit('tank.yaml', '--error', '60', *FEW, '--time', '0.2', '--json', 'out.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        found = json.loads(self.read('out.json'))
+        self.assertTrue(all(run['fate'] == 'broke' for run in found['runs'] if run['backs']), found['runs'])
+        rows = [line.split(',') for line in self.text('tank_fit.csv').splitlines()]
+        spacing = rows[0].index('spacing_m')
+        long = {row[spacing] for row in rows if row[1] == 'long'}
+        self.assertIn('{:.9g}'.format(found['runs'][found['best']]['spacing']), long)
+        self.assertRegex(self.text('tank_fit.yaml'), r'over 0.2 s; 0.6 s, three times as long,\s')
+        code, said = self.slosh('run', 'tank_fit.yaml', '-o', 'a.h5part', '--time', '0.6', '--quiet', '--json', 'a.json')
+        self.assertEqual((code, said), (0, ''))
+        self.assertEqual(json.loads(self.read('a.json'))['outcome'], 'holds')
+
     def test_frames(self):
         found, _ = self.figures('scene.yaml', '--frame-ms', '5', *FEW, *COARSE)
         best = found['runs'][found['best']]
