@@ -19,24 +19,24 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-/* What pulls the fluid, m/s2: gravity, or surface tension across a spacing where that is more. */
+/* What pulls the fluid, m/s2: gravity, or surface tension across the box's height where that is more. */
 static double pull_of(const WorldDef *def)
 {
-    const double *g = def->gravity, s = def->spacing;
+    const double *g = def->gravity, height = def->box_size[1];
     double pull = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
     for (int f = 0; f < def->fluid_count; f++)
-        pull = fmax(pull, def->fluids[f].surface_tension / (def->fluids[f].density * s * s));
+        pull = fmax(pull, def->fluids[f].surface_tension / (def->fluids[f].density * height * height));
     return pull;
 }
 
-/* 1 over the time to settle. It goes with that of a fall by a spacing, and is 1/60 s where that is 5 cm.
-   Where nothing pulls it goes with the time that sound, which has no other part in this method, takes to
-   cross one, 1/60 s for 10 cm and 20 m/s. */
+/* 1 over the time to settle. It goes with that of a fall through the box, and is 1/60 s where that is 1 m
+   high. Where nothing pulls it goes with the time that sound, which has no other part in this method, takes
+   to cross a spacing, 1/60 s for 10 cm and 20 m/s. */
 static double settle_rate(const WorldDef *def)
 {
-    static const double FALLS = 60 * 60 * 0.05 / 9.81, SOUNDS = 60 * 0.1 / 20;
-    const double pull = pull_of(def), s = def->spacing;
-    return pull > 0 ? sqrt(FALLS * pull / s) : SOUNDS * def->sound_speed / s;
+    static const double FALLS = 60 * 60 / 9.81, SOUNDS = 60 * 0.1 / 20;
+    const double pull = pull_of(def);
+    return pull > 0 ? sqrt(FALLS * pull / def->box_size[1]) : SOUNDS * def->sound_speed / def->spacing;
 }
 
 static bool asks_sound(const WorldDef *def)
