@@ -161,12 +161,8 @@ void bodies_begin(Bodies *bodies, const BodiesStep *step)
 static void take(Bodies *bodies, Push push[SOLIDS_MAX])
 {
     memcpy(push, bodies->felt.solid, sizeof bodies->felt.solid);
-    if (bodies->told) {
-        bodies->told->seconds += bodies->felt.seconds;
-        push_add(&bodies->told->box, 1, &bodies->felt.box);
-        for (int k = 0; k < SOLIDS_MAX; k++)
-            push_add(&bodies->told->solid[k], 1, &push[k]);
-    }
+    if (bodies->told)
+        forces_add(bodies->told, &bodies->felt);
     bodies->felt = (Forces){.seconds = 0};
 }
 
@@ -208,6 +204,13 @@ double bodies_speed(const Bodies *bodies)
             most = fmax(most, speed);
         }
     return most;
+}
+
+void bodies_sums(const Bodies *bodies, EnergySums *sums)
+{
+    for (int k = 0; k < SOLIDS_MAX; k++)
+        if (floats(bodies, k))
+            body_sums(&bodies->body[k], &bodies->now.of[k], sums);
 }
 
 void bodies_save(const Bodies *bodies, BodyStates *to)

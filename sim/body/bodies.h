@@ -6,6 +6,7 @@
 #include "sim/body/body_state.h"
 #include "sim/box/box_step.h"
 #include "sim/box/wall.h"
+#include "sim/matter/energy_sums.h"
 #include "sim/matter/solid_step.h"
 
 typedef struct Bodies Bodies;
@@ -52,6 +53,9 @@ void bodies_end(Bodies *bodies);
 
 /* The greatest speed of their matter, m/s; NaN where a number is none. */
 double bodies_speed(const Bodies *bodies);
+
+/* Adds what they have of energy, mass, places and momenta. */
+void bodies_sums(const Bodies *bodies, EnergySums *sums);
 
 void bodies_save(const Bodies *bodies, BodyStates *to);
 void bodies_load(Bodies *bodies, const BodyStates *from);

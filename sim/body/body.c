@@ -32,6 +32,30 @@ static void inertia_times(const Body *body, const double orientation[4], bool in
     quat_rotate(axes, own, out);
 }
 
+/* Its matter's tensor sum m x x about the centre is half the trace of the inertia, less the inertia. */
+void body_sums(const Body *body, const BodyState *state, EnergySums *sums)
+{
+    const double *I = body->mass.inertia, *w = state->pose.angular_velocity;
+    const double half = 0.5 * (I[0] + I[1] + I[2]);
+    double centre[3], v[3], turned[3], axes[4];
+    body_centre(body, state, centre);
+    body_velocity(&state->pose, centre, v);
+    energy_sums_add(sums, body->mass.mass, centre, v);
+    energy_sums_add_turning(sums, body->mass.mass, centre, v);
+    inertia_times(body, state->pose.orientation, false, w, turned);
+    sums->own += 0.5 * dot(w, turned);
+    quat_multiply(state->pose.orientation, body->mass.axes, axes);
+    for (int k = 0; k < 3; k++) {
+        double axis[3] = {k == 0, k == 1, k == 2}, in_box[3];
+        quat_rotate(axes, axis, in_box);
+        for (int i = 0; i < 3; i++) {
+            sums->second[i] += (half - I[k]) * in_box[i] * in_box[i];
+            sums->second[3 + i] += (half - I[k]) * in_box[i] * in_box[(i + 1) % 3];
+        }
+        sums->turn[k] += turned[k];
+    }
+}
+
 static void hinge_make(Body *body, const BodyState *rest)
 {
     const double length = sqrt(dot(body->def.hinge_axis, body->def.hinge_axis));

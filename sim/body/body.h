@@ -25,6 +25,7 @@
 #include "sim/body/body_mass.h"
 #include "sim/body/body_state.h"
 #include "sim/box/box_step.h"
+#include "sim/matter/energy_sums.h"
 
 typedef struct Body {
     SolidDef def;
@@ -64,6 +65,9 @@ void body_fall(const Body *body, const double gravity[3], const ApparentGravity 
 /* How its frame's velocity and turning change, m/s2 and rad/s2, by what is known of the step before. */
 void body_rates(const Body *body, const ApparentGravity *apparent, const BodyState *state, double change[3],
                 double alpha[3]);
+
+/* Adds what it has of energy, mass, places and momenta. */
+void body_sums(const Body *body, const BodyState *state, EnergySums *sums);
 
 /* Velocity of the body's matter at x, box's frame. */
 void body_velocity(const BoxState *pose, const double x[3], double v[3]);

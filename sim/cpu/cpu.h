@@ -176,7 +176,7 @@ size_t cpu_emit(void *state, const EmitLayer *layer, size_t most);
    there the layer's particle of that number, for which there must be room. */
 bool cpu_has_room(Cpu *cpu, const float x[3]);
 void cpu_append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number);
-void cpu_guide(void *state, const Guide *guides, int count);
+double cpu_guide(void *state, const Guide *guides, int count);
 size_t cpu_drain(void *state, const Fill *regions, int count);
 
 /* Backend.excess and .sum; and the same as parts that add up: what is above 0, its greatest value or all. */

@@ -70,27 +70,48 @@ typedef struct Guiding {
     Cpu *cpu;
     const Guide *guides;
     int count;
+    ExactSum *work;
 } Guiding;
+
+/* Adds the energy that a particle of mass m gains as it takes the guide's velocity; ghosts are others'. */
+static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum *work)
+{
+    const Cpu *cpu = pass->cpu;
+    const CpuParticles *p = &cpu->now;
+    const float v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+    double gain = 0;
+    for (int k = 0; k < 3; k++)
+        gain += (double)to[k] * (double)to[k] - (double)v[k] * (double)v[k];
+    if (cpu_owns(cpu, i))
+        exact_add(work, 0.5 * (double)cpu->constants->mass[p->fluid[i]] * gain);
+    p->vx[i] = to[0], p->vy[i] = to[1], p->vz[i] = to[2];
+}
 
 static void guide_range(void *context, size_t begin, size_t end)
 {
     const Guiding *pass = context;
     const CpuParticles *p = &pass->cpu->now;
+    ExactSum work = {.strange = false};
     for (size_t i = begin; i < end; i++) {
         const float x[3] = {p->x[i], p->y[i], p->z[i]};
         for (int k = 0; k < pass->count; k++)
-            if (guide_holds(&pass->guides[k], &pass->cpu->constants->periodic, p->fluid[i], x)) {
-                const float *v = pass->guides[k].velocity;
-                p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
-            }
+            if (guide_holds(&pass->guides[k], &pass->cpu->constants->periodic, p->fluid[i], x))
+                guide_one(pass, i, pass->guides[k].velocity, &work);
     }
+    parallel_lock();
+    exact_merge(pass->work, &work);
+    parallel_unlock();
 }
 
-void cpu_guide(void *state, const Guide *guides, int count)
+double cpu_guide(void *state, const Guide *guides, int count)
 {
     Cpu *cpu = state;
-    Guiding pass = {cpu, guides, count};
+    ExactSum work = {.strange = false};
+    Guiding pass = {cpu, guides, count, &work};
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, guide_range, &pass);
+    if (cpu->sum_all)
+        cpu->sum_all(&work, 1);
+    return exact_value(&work);
 }
 
 static bool drains(const Fill *regions, int count, int dimensions, const double x[3])

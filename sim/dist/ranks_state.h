@@ -76,7 +76,7 @@ void ranks_drift(void *state, const BoxStep *step);
 void ranks_run(void *state, const Pass *pass, const PassInput *input);
 void ranks_kick(void *state, const float gravity[3], float dt);
 void ranks_touch(void *state, const FingerStep *finger);
-void ranks_guide(void *state, const Guide *guides, int count);
+double ranks_guide(void *state, const Guide *guides, int count);
 
 /* ---- what all ranks add up: ranks_sums.c ---- */
 

@@ -133,9 +133,10 @@ void ranks_touch(void *state, const FingerStep *finger)
     stale(ranks, "velocity");
 }
 
-void ranks_guide(void *state, const Guide *guides, int count)
+double ranks_guide(void *state, const Guide *guides, int count)
 {
     Ranks *ranks = state;
-    cpu_guide(ranks->cpu, guides, count);
+    const double work = cpu_guide(ranks->cpu, guides, count);
     stale(ranks, "velocity");
+    return work;
 }

@@ -18,6 +18,14 @@ void push_about(Push *push, const double to[3])
     push_at(push, none, (double[3]){-force[0], -force[1], -force[2]});
 }
 
+void forces_add(Forces *to, const Forces *sum)
+{
+    to->seconds += sum->seconds;
+    push_add(&to->box, 1, &sum->box);
+    for (int k = 0; k < SOLIDS_MAX; k++)
+        push_add(&to->solid[k], 1, &sum->solid[k]);
+}
+
 void forces_add_mean(Forces *to, const Forces *mean)
 {
     to->seconds += mean->seconds;

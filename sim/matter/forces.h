@@ -34,6 +34,9 @@ static inline void push_at(Push *push, const double x[3], const double force[3])
 /* The same push with its torque about another point, which is at `to` (m) seen from the one before. */
 void push_about(Push *push, const double to[3]);
 
+/* Adds what is summed to what is summed. */
+void forces_add(Forces *to, const Forces *sum);
+
 /* Adds what is the mean of some time to what is summed. */
 void forces_add_mean(Forces *to, const Forces *mean);
 

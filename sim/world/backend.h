@@ -72,8 +72,8 @@ typedef struct Backend {
     StepWatch (*watch)(void *state);
     /* What sim/touch/finger.h says, to all particles of fluids. */
     void (*touch)(void *state, const FingerStep *finger);
-    /* Gives the particles in each guide the guide's velocity. */
-    void (*guide)(void *state, const Guide *guides, int count);
+    /* Gives the particles in each guide the guide's velocity; the work that takes, J, where `energy` is. */
+    double (*guide)(void *state, const Guide *guides, int count);
     void (*sums)(void *state, WorldSums *sums);           /* all members but those that need the box's pose */
     bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
     size_t (*held)(const void *state); /* particles that `read` gives; NULL: all of the world's */

@@ -1,5 +1,8 @@
 #include "sim/world/energy_watch.h"
 
+#include "sim/body/bodies.h"
+#include "sim/matter/flow.h"
+
 #include <math.h>
 
 /* Of all energy, in so many steps. What summed density heats by too long a step of sound is 5 % in 3,400
@@ -10,36 +13,19 @@ static const double GAIN = 0.1, STEPS = 200;
    that move and boil gain a third to two thirds of that, calm ones a tenth. */
 static const double GAIN_SUSPECT = 0.25;
 
-/* What a jolt may do beside its mean is less than that of what is looked for; a harder one begins anew. */
-static const double JOLT = 0.25;
+/* Of what is trouble, what the box's change of velocity may do beside the mean between two looks: where it is
+   more, looks stand closer, down to one at each end of a step, where its work is known. */
+static const double JOLT = 0.02;
 
 /* A look costs some 4 % of a step: not at each step, but before energy has doubled. */
 static const double EVERY = 8, FASTER = 1.2;
 
-static const double STILL = 1e-6;      /* m/s: a hand at rest comes to its place as a spring does */
 static const double COMPRESSED = 0.01; /* its energy is part of what a gain is compared with */
 
-/* What a particle that leaves by one side and comes in by the other would gain or lose has no name. */
-static bool falls_around(const World *world)
+static bool watched(const World *world)
 {
-    bool falls = false;
-    for (int k = 0; k < 3; k++)
-        falls |= world->constants.periodic.any && fabs(world->box.velocity[k]) >= STILL;
-    for (int k = 0; k < 3; k++)
-        falls |= world->def.periodic[k] && world->def.gravity[k] != 0;
-    return falls;
-}
-
-static bool closed(const World *world)
-{
-    const WorldDef *def = &world->def;
-    bool closed = !finger_on(&world->finger) && def->retries > 0 && world->backend->energy &&
-                  (world->method->energy || world->method->incompressible) && !world->constants.emits &&
-                  def->drain_count == 0 && !world->constants.lid &&
-                  world->constants.tension_model == TENSION_NONE && !falls_around(world);
-    for (int i = 0; i < def->solid_count; i++)
-        closed &= !solid_moves(&def->solids[i]);
-    return closed;
+    return !finger_on(&world->finger) && world->def.retries > 0 && world->backend->energy &&
+           (world->method->energy || world->method->incompressible);
 }
 
 static bool turns(const BoxState *box)
@@ -63,27 +49,25 @@ static void in_box(const BoxState *begin, const BoxState *end, const double worl
         out[k] = 0.5 * (one[k] + other[k]);
 }
 
-/* Between two looks, in the box's axes: gravity less the acceleration of the box, m/s2; its turning, rad/s,
-   and the change of that. */
+/* Between two looks, in the box's axes: gravity, m/s2; the box's turning, rad/s; what it gained of that and
+   of velocity, m/s; how long, s. */
 typedef struct Felt {
-    double gravity[3], omega[3], change[3];
+    double gravity[3], omega[3], turned[3], gained[3], time;
 } Felt;
 
-static Felt felt_between(const World *world, const EnergyMark *before)
+static Felt felt_between(const World *world, const BoxState *begin, const BoxState *end, double time)
 {
-    const double time = world_time_at(world, (double)world->step);
-    const BoxState *begin = &before->box, *end = &world->box;
-    double gravity[3], omega[3], change[3];
-    Felt felt;
+    double omega[3], turned[3], gained[3];
+    Felt felt = {.time = time};
     for (int k = 0; k < 3; k++) {
-        const double gained = end->velocity[k] - begin->velocity[k];
-        gravity[k] = world->def.gravity[k] - (time > before->time ? gained / (time - before->time) : 0);
+        gained[k] = end->velocity[k] - begin->velocity[k];
         omega[k] = 0.5 * (begin->angular_velocity[k] + end->angular_velocity[k]);
-        change[k] = end->angular_velocity[k] - begin->angular_velocity[k];
+        turned[k] = end->angular_velocity[k] - begin->angular_velocity[k];
     }
-    in_box(begin, end, gravity, felt.gravity);
+    in_box(begin, end, world->def.gravity, felt.gravity);
     in_box(begin, end, omega, felt.omega);
-    in_box(begin, end, change, felt.change);
+    in_box(begin, end, turned, felt.turned);
+    in_box(begin, end, gained, felt.gained);
     return felt;
 }
 
@@ -96,31 +80,62 @@ static double centrifugal(const EnergySums *sums, const double omega[3])
                    2 * (w[0] * w[1] * s[3] + w[1] * w[2] * s[4] + w[2] * w[0] * s[5])));
 }
 
-/* Of what a body feels in the box's frame, exact where that is constant; walls at rest do none. */
-static double work_done(const EnergySums *before, const EnergySums *now, const Felt *felt)
+/* m, from the box's origin. */
+static double furthest(const World *world)
 {
-    double work = centrifugal(now, felt->omega) - centrifugal(before, felt->omega);
-    for (int k = 0; k < 3; k++)
-        work += felt->gravity[k] * (now->first[k] - before->first[k]) -
-                felt->change[k] * 0.5 * (now->turn[k] + before->turn[k]);
+    const double *size = world->def.box_size;
+    return sqrt(0.25 * (size[0] * size[0] + size[2] * size[2]) + size[1] * size[1]);
+}
+
+/* What would come free at most on the way to the lowest corner, or out to the walls, J: of a particle never
+   below 0, so that energy leaves with it. Along a periodic axis there is no lowest place. */
+static double to_be_freed(const World *world, const EnergySums *sums, const Felt *felt)
+{
+    const double *size = world->def.box_size, out = furthest(world);
+    double freed =
+        0.5 * sums->mass * dot(felt->omega, felt->omega) * out * out - centrifugal(sums, felt->omega);
+    for (int k = 0; k < 3; k++) {
+        const double g = felt->gravity[k], low = k == 1 ? 0 : -0.5 * size[k], high = low + size[k];
+        if (!world->def.periodic[k])
+            freed += sums->mass * fmax(g * low, g * high) - g * sums->first[k];
+    }
+    return freed;
+}
+
+/* What the box's motion is for the fluid, gravity, and Euler's force: that of velocities gained is exact
+   where they were gained at once, walls at rest do none. */
+static double work_done(const World *world, const EnergySums *before, const EnergySums *now, const Felt *felt)
+{
+    double work = to_be_freed(world, before, felt) - to_be_freed(world, now, felt);
+    for (int k = 0; k < 3; k++) {
+        const double fallen = world->def.periodic[k] ? felt->gravity[k] * felt->time : 0;
+        work += (fallen - felt->gained[k]) * 0.5 * (now->momentum[k] + before->momentum[k]) -
+                felt->turned[k] * 0.5 * (now->turn[k] + before->turn[k]);
+    }
     return work;
 }
 
-/* What the fluid would set free at most by going to the lowest corner, or out to the walls, J. */
-static double to_be_freed(const World *world, const EnergySums *sums, const Felt *felt)
+/* What a change of velocity between two looks may have done beside `work_done`, J. */
+static double doubt(const World *world, const BoxState *begin, const BoxState *end)
 {
-    const double *size = world->def.box_size, *g = felt->gravity;
-    const double lowest = fmin(0, -g[1] * size[1]) - 0.5 * (fabs(g[0]) * size[0] + fabs(g[2]) * size[2]);
-    const double out = 0.25 * (size[0] * size[0] + size[2] * size[2]) + size[1] * size[1];
-    return -dot(g, sums->first) - world->mass * lowest +
-           0.5 * world->mass * dot(felt->omega, felt->omega) * out;
+    double moved = 0, turned = 0;
+    for (int k = 0; k < 3; k++) {
+        moved += pow(end->velocity[k] - begin->velocity[k], 2);
+        turned += pow(end->angular_velocity[k] - begin->angular_velocity[k], 2);
+    }
+    return 0.5 * world->energy.sums.mass * pow(sqrt(moved) + furthest(world) * sqrt(turned), 2);
+}
+
+static bool jolts(const World *world, const BoxState *begin, const BoxState *end)
+{
+    return doubt(world, begin, end) > JOLT * world->energy.most;
 }
 
 static bool due(const World *world)
 {
     const EnergyMark *mark = &world->energy;
-    return world->stepping.frame_left <= 1 && (mark->until == 0 || (double)world->step >= mark->next ||
-                                               world->stepping.max_speed > FASTER * mark->speed);
+    return mark->until == 0 || (double)world->step >= mark->next ||
+           world->stepping.max_speed > FASTER * mark->speed || jolts(world, &mark->box, &world->box);
 }
 
 void energy_forget(World *world)
@@ -128,50 +143,66 @@ void energy_forget(World *world)
     world->energy = (EnergyMark){0};
 }
 
-/* What a jolt within the time between two looks may have done beside `work_done`, J. */
-static double doubt(const World *world, const BoxState *before)
+/* What of tension may come free, J. */
+static double surface(const World *world, const EnergySums *sums)
 {
-    const double *size = world->def.box_size;
-    const double reach = sqrt(0.25 * (size[0] * size[0] + size[2] * size[2]) + size[1] * size[1]);
-    double moved = 0, turned = 0;
-    for (int k = 0; k < 3; k++) {
-        moved += pow(world->box.velocity[k] - before->velocity[k], 2);
-        turned += pow(world->box.angular_velocity[k] - before->angular_velocity[k], 2);
-    }
-    return 0.5 * world->mass * pow(sqrt(moved) + reach * sqrt(turned), 2);
+    double most = 0;
+    for (int f = 0; f < world->def.fluid_count && world->constants.tension_model != TENSION_NONE; f++)
+        most = fmax(most, world->def.fluids[f].surface_tension);
+    return most * sums->bare;
 }
 
-/* How much more energy is trouble, J. */
+/* How much more energy is trouble, J: what tension may have pulled, or a lid dragged along, is none. */
 static double too_much(const World *world, const EnergyMark *now, const Felt *felt)
 {
     const WorldDef *def = &world->def;
     const double c = COMPRESSED * def->sound_speed;
-    const double free = now->sums.own + now->stirred + 0.5 * world->mass * c * c;
+    const double free = now->sums.own + now->stirred + 0.5 * now->sums.mass * c * c;
     const double gain = GAIN * (free + to_be_freed(world, &now->sums, felt));
+    const double lid = world->constants.lid ? 0.5 * now->sums.mass * dot(def->lid, def->lid) : 0;
     const bool suspect =
         world->stepping.dt > STEP_VISCOUS_STANDS * step_viscous(def, &world->constants.friction);
-    return suspect ? fmin(gain, GAIN_SUSPECT * free) : gain;
+    return (suspect ? fmin(gain, GAIN_SUSPECT * free) : gain) + now->surface + lid;
 }
 
-/* What is there now, with the work since `before`. */
-static EnergyMark look(World *world, const EnergyMark *before, const Felt *felt)
+/* What is there, with the work since the look before. */
+static Felt look(World *world, const BoxState *box, bool turning)
 {
-    EnergyMark now = *before;
-    now.time = world_time_at(world, (double)world->step);
-    now.box = world->box;
-    now.speed = world->stepping.max_speed;
-    now.next = (double)world->step + EVERY;
-    world->backend->energy(world->state, turns(&before->box) || turns(&now.box), &now.sums);
-    const double work = work_done(&before->sums, &now.sums, felt);
-    now.work += work;
-    now.stirred += fabs(work);
-    return now;
+    EnergyMark *mark = &world->energy;
+    const EnergySums before = mark->sums;
+    const double time = world_time_at(world, (double)world->step);
+    const Felt felt = felt_between(world, &mark->box, box, time - mark->time);
+    world->backend->energy(world->state, turning, &mark->sums);
+    if (world->bodies)
+        bodies_sums(world->bodies, &mark->sums);
+    const double work = work_done(world, &before, &mark->sums, &felt);
+    mark->work += work;
+    mark->stirred += fabs(work);
+    mark->time = time;
+    mark->box = *box;
+    mark->turning = turning;
+    mark->speed = world->stepping.max_speed;
+    mark->next = (double)world->step + EVERY;
+    mark->jolted = 0;
+    return felt;
 }
 
-static void take_as_least(EnergyMark *mark, double step)
+void energy_brace(World *world, const BoxState *begin)
 {
+    EnergyMark *mark = &world->energy;
+    if (mark->until == 0 || !jolts(world, begin, &world->box))
+        return;
+    if (mark->turning != 0 || !turns(begin))
+        look(world, begin, turns(begin) || turns(&world->box));
+    mark->jolted = 1;
+}
+
+static void take_as_least(World *world)
+{
+    EnergyMark *mark = &world->energy;
     mark->least = mark->sums.own - mark->work;
-    mark->until = step + STEPS;
+    mark->surface = surface(world, &mark->sums);
+    mark->until = (double)world->step + STEPS;
     mark->stirred = 0;
 }
 
@@ -179,26 +210,89 @@ static void take_as_least(EnergyMark *mark, double step)
 static bool compare(World *world)
 {
     EnergyMark *mark = &world->energy;
-    const Felt felt = felt_between(world, mark);
-    EnergyMark now = look(world, mark, &felt);
-    const double most = too_much(world, &now, &felt), gain = now.sums.own - now.work - mark->least;
-    const bool follows =
-        mark->until > 0 && (turns(&mark->box) || !turns(&now.box)) && doubt(world, &mark->box) < JOLT * most;
-    if (follows && gain > most)
-        return false;
+    const bool follows = mark->until > 0 && (mark->turning != 0 || !turns(&world->box));
     if (!follows)
-        now.work = 0;
-    if (!follows || gain < 0 || (double)world->step >= now.until)
-        take_as_least(&now, (double)world->step);
-    *mark = now;
+        *mark = (EnergyMark){.box = world->box};
+    const Felt felt = look(world, &world->box, turns(&mark->box) || turns(&world->box));
+    if (!follows)
+        mark->work = mark->stirred = 0;
+    mark->most = too_much(world, mark, &felt);
+    const double gain = mark->sums.own - mark->work - mark->least;
+    if (follows && gain > mark->most)
+        return false;
+    if (!follows || gain < 0 || (double)world->step >= mark->until)
+        take_as_least(world);
     return true;
 }
 
 bool energy_sound(World *world)
 {
-    if (!closed(world))
+    const EnergyMark *mark = &world->energy;
+    const bool ends = world->stepping.frame_left <= 1;
+    if (!watched(world))
         energy_forget(world);
-    else if (due(world) && !compare(world))
+    else if (ends && (mark->jolted != 0 || due(world)) && !compare(world))
         world->seen = STEP_TROUBLE_ENERGY;
+    else if (!ends && mark->jolted != 0)
+        look(world, &world->box, mark->turning != 0);
     return world->seen == STEP_TROUBLE_NONE;
+}
+
+/* ---- what comes, and what is pushed ---- */
+
+void energy_comes(World *world, const EmitLayer *layer, size_t number)
+{
+    EnergySums one = {.own = 0};
+    const double m = constants_mass(&world->constants, layer->fluid);
+    double centre[3] = {0}, v[3];
+    if (world->energy.until == 0 || layer->count == 0)
+        return;
+    for (size_t i = 0; i < layer->count; i++)
+        for (int k = 0; k < 3; k++)
+            centre[k] += (double)layer->position[3 * i + k] / (double)layer->count;
+    for (int k = 0; k < 3; k++)
+        v[k] = (double)layer->velocity[k];
+    energy_sums_add(&one, m, centre, v);
+    energy_sums_add_turning(&one, m, centre, v);
+    const Felt felt = felt_between(world, &world->box, &world->box, 0);
+    energy_works(world, (double)number * (one.own + to_be_freed(world, &one, &felt)));
+}
+
+void energy_works(World *world, double work)
+{
+    world->energy.work += work;
+    world->energy.stirred += fabs(work);
+}
+
+/* Whose way is prescribed, or a hand's. */
+static bool driven(const SolidDef *solid)
+{
+    return solid_moves(solid) && !solid_floats(solid);
+}
+
+bool energy_asks_solids(const World *world)
+{
+    bool any = false;
+    for (int k = 0; k < world->def.solid_count && watched(world); k++)
+        any |= driven(&world->def.solids[k]);
+    return any;
+}
+
+/* What the solids push with, which is the other way round of what they feel. Friction by implicit viscosity
+   is in the box's share: its work is at most that share's, at the fastest of them. */
+void energy_of_solids(World *world, const Forces *felt, const SolidStep solids[SOLIDS_MAX])
+{
+    double fastest = 0;
+    for (int k = 0; k < world->def.solid_count; k++) {
+        const Push *push = &felt->solid[k];
+        double speed2 = 0;
+        for (int i = 0; i < 3 && driven(&world->def.solids[k]); i++) {
+            const double v = (double)solids[k].end.v[i], w = (double)solids[k].end.w[i];
+            energy_works(world, -push->force[i] * v - push->torque[i] * w);
+            speed2 += pow(fabs(v) + fabs(w) * solid_reach(&world->def.solids[k]), 2);
+        }
+        fastest = fmax(fastest, sqrt(speed2));
+    }
+    if (world->constants.implicit.on)
+        energy_works(world, fastest * sqrt(dot(felt->box.force, felt->box.force)));
 }

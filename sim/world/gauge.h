@@ -30,37 +30,21 @@ static inline void gauge_add(WorldGauge *gauge, const Constants *constants, cons
             m * c * c * constants->method->energy(constants->negative_pressure ? compression : pressed);
 }
 
-/* The same for EnergySums. */
+/* The same for EnergySums; `turning`: with what a box that turns asks. */
 static inline void energy_add(EnergySums *sums, const Constants *constants, int fluid, double compression,
-                              const float x[3], const float v[3])
+                              const float at[3], const float velocity[3], bool turning)
 {
     const double m = constants_mass(constants, fluid), c = (double)constants->sound_speed;
-    double speed2 = 0;
-    for (int k = 0; k < 3; k++) {
-        speed2 += (double)v[k] * (double)v[k];
-        sums->first[k] += m * (double)x[k];
-    }
-    sums->own += 0.5 * m * speed2;
-    if (constants->method->energy && (compression > 0 || constants->negative_pressure))
-        sums->own += m * c * c * constants->method->energy(compression);
-}
-
-/* And what a box that turns asks besides. */
-static inline void energy_add_turning(EnergySums *sums, const Constants *constants, int fluid,
-                                      const float at[3], const float velocity[3])
-{
-    const double m = constants_mass(constants, fluid);
     double x[3], v[3];
     for (int k = 0; k < 3; k++) {
         x[k] = (double)at[k];
         v[k] = (double)velocity[k];
     }
-    for (int k = 0; k < 3; k++) {
-        const int next = (k + 1) % 3, last = (k + 2) % 3;
-        sums->second[k] += m * x[k] * x[k];
-        sums->second[3 + k] += m * x[k] * x[next];
-        sums->turn[k] += m * (x[next] * v[last] - x[last] * v[next]);
-    }
+    energy_sums_add(sums, m, x, v);
+    if (turning)
+        energy_sums_add_turning(sums, m, x, v);
+    if (constants->method->energy && (compression > 0 || constants->negative_pressure))
+        sums->own += m * c * c * constants->method->energy(compression);
 }
 
 #endif

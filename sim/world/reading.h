@@ -4,6 +4,7 @@
 
 #include "sim/base/scalar.h"
 #include "sim/box/box_filter.h"
+#include "sim/matter/energy_sums.h"
 #include "sim/world/column.h"
 #include "sim/world/step_control.h"
 #include "sim/world/step_parts.h"
@@ -94,14 +95,6 @@ typedef struct WorldGauge {
     double compression_energy;                    /* J */
     bool total_known; /* their sum is all of the energy; false with surface tension, whose is not known */
 } WorldGauge;
-
-/* What the watch over energy asks of the fluid, in the box's frame. */
-typedef struct EnergySums {
-    double own;       /* energy of motion and of compression, J */
-    double first[3];  /* sum m x, kg m */
-    double second[6]; /* sum m x x: xx, yy, zz, xy, yz, zx, kg m2 */
-    double turn[3];   /* sum m x cross v, kg m2/s */
-} EnergySums;
 
 /* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
    common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that

@@ -91,6 +91,7 @@ static void restore(World *world)
 {
     const WorldNumbers *numbers = &world->good.numbers;
     world->felt = world->felt_before;
+    world->pushed = (Forces){0};
     world->since_step = world->step;
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;

@@ -17,7 +17,8 @@ typedef struct Substep {
     double speed;      /* greatest of the step before, m/s; on a GPU of the frame before */
     StepSolve *solves; /* by number, SOLVES_MAX of them: what the solvers of the step did */
     BoxStep first_half, second_half;
-    int guide_count; /* of the emitters at work */
+    double *driven;  /* J: where the work of emitters adds up */
+    int guide_count; /* of those at work */
     Guide guides[GUIDES_MAX];
     FingerStep finger;               /* of who touches the fluid */
     SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
@@ -71,7 +72,7 @@ static inline void substep_kick(const Substep *step)
     if (step->finger.on)
         step->backend->touch(step->state, &step->finger);
     if (step->guide_count > 0)
-        step->backend->guide(step->state, step->guides, step->guide_count);
+        *step->driven += step->backend->guide(step->state, step->guides, step->guide_count);
     if (step->bodies && step->backend->felt)
         step->backend->felt(step->state);
     if (step->bodies)

@@ -1,3 +1,4 @@
+#include "sim/world/energy_watch.h"
 #include "sim/world/world_struct.h"
 
 #include <stdlib.h>
@@ -53,6 +54,7 @@ static void let_in(World *world, int fluid, const Emit *emit, double begin, doub
         for (size_t i = 0; i < layer.count; i++)
             periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
         const size_t more = world->backend->emit(world->state, &layer, world->capacity - world->count);
+        energy_comes(world, &layer, more);
         if (more > 0)
             births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
         world->emitted += more;

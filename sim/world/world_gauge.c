@@ -26,17 +26,22 @@ bool world_gauge(World *world, WorldGauge *gauge)
     return true;
 }
 
-bool world_feel(World *world, Error *error)
+bool world_sum_forces(World *world, Error *error)
 {
-    world->felt = world->felt_before = (Forces){0};
+    Forces *to = world->backend->felt ? &world->felt : &world->pushed;
     if (!world->backend->feel)
         return error_set(error, "backend %s sums no forces; use backend cpu or compute",
                          world->backend->name);
-    if (world->bodies) { /* they have summed them since the start */
-        bodies_tell(world->bodies, &world->felt);
-        return world->feels = true;
-    }
-    world->feels = world->backend->feel(world->state, &world->felt, error);
+    if (world->bodies) /* they have summed them since the start */
+        bodies_tell(world->bodies, to);
+    world->sums_forces = world->bodies || world->backend->feel(world->state, to, error);
+    return world->sums_forces;
+}
+
+bool world_feel(World *world, Error *error)
+{
+    world->felt = world->felt_before = (Forces){0};
+    world->feels = world_sum_forces(world, error);
     return world->feels;
 }
 

@@ -397,10 +397,8 @@ static World *made_with(const World *from, const WorldDef *def, const WorldState
     } else {
         error_set(error, "no memory for %zu particles", state->count);
     }
-    if (to) {
+    if (to)
         to->initial = from->initial;
-        to->mass = from->mass;
-    }
     const bool ok = to && world_load(to, state, error) && inherit(to, from, error);
     free((float *)initial.position);
     if (ok)

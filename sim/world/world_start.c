@@ -320,8 +320,6 @@ bool world_start(World *world, Error *error)
         world->capacity = world->capacity > initial.room ? world->capacity : initial.room;
         world->state =
             world->backend->create(&world->constants, &world->def, &initial, world->capacity, error);
-        for (size_t i = 0; i < initial.count; i++)
-            world->mass += constants_mass(&world->constants, initial.fluid ? initial.fluid[i] : 0);
         ok = world->state && start_bodies(world, error);
     }
     seeds_free(&seeds);

@@ -23,6 +23,10 @@ typedef struct EnergyMark {
     double speed;   /* at the last look, m/s */
     double work;    /* since the first look, of gravity and of what the box's motion is for the fluid, J */
     double stirred; /* its amount since `least`, whatever its sign, J */
+    double surface; /* what tension might set free then, J */
+    double most;    /* how much more energy than `least` was trouble at the last look, J */
+    double jolted;  /* not 0: the box's velocity jumps in the step in hand */
+    double turning; /* not 0: the sums have what a box that turns asks */
     double time;    /* of the last look, s; what was found there: */
     EnergySums sums;
     BoxState box;

@@ -204,6 +204,8 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
     step->speed = world->stepping.max_speed;
     step->constants = &world->constants;
     step->solves = world->solves;
+    step->driven = &world->energy.work;
+    energy_brace(world, &begin);
     box_step(&begin, &middle, 0.5 * dt, &step->first_half);
     box_step(&middle, &world->box, 0.5 * dt, &step->second_half);
     const FingerLimits limits = finger_limits(world);
@@ -305,6 +307,18 @@ static void end_of_bodies(World *world)
     bodies_end(world->bodies);
 }
 
+/* Behind a step: whom does what solids and box felt in it concern. */
+static void tell_forces(World *world, const Substep *step)
+{
+    if (!world->sums_forces || world->backend->felt)
+        return;
+    if (energy_asks_solids(world))
+        energy_of_solids(world, &world->pushed, step->solids[0]);
+    if (world->feels)
+        forces_add(&world->felt, &world->pushed);
+    world->pushed = (Forces){0};
+}
+
 bool world_substep(World *world, StageClock *clock, Error *error)
 {
     Substep step;
@@ -316,8 +330,8 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     }
     if (!begin_step(world, error))
         return false;
-    bool flowed = true;
-    if (world->constants.emits || world->def.drain_count > 0)
+    bool flowed = world->sums_forces || !energy_asks_solids(world) || world_sum_forces(world, error);
+    if (flowed && (world->constants.emits || world->def.drain_count > 0))
         STAGE (clock, STAGE_INTEGRATE)
             flowed = world_flow(world, error);
     if (!flowed)
@@ -330,6 +344,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
         world->backend->leave(world->state);
     if (world->bodies)
         end_of_bodies(world);
+    tell_forces(world, &step);
     world->kicked = true;
     count_step(world);
     if (world->backend->gpu)

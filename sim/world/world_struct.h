@@ -39,9 +39,10 @@ struct World {
     double pours;                       /* s: since when the finger does so */
     struct Bodies *bodies;              /* sim/body/bodies.h; NULL: no solid floats */
     uint64_t shut;                      /* gates of emitters and drains, a bit each */
-    double mass;                        /* of the initial fluid, kg */
     EnergyMark energy;                  /* of sim/world/energy_watch.h */
-    bool feels;                         /* it was asked; then: */
+    bool sums_forces;                   /* the backend does, into: */
+    Forces pushed;                      /* of the step in hand, or on a GPU at once into `felt`; */
+    bool feels;                         /* somebody asked; then: */
     Forces felt, felt_before;           /* since it was last asked; of the good state */
     bool gauge_asked;                   /* and not answered yet, */
     double gauge_time;                  /* of the state at this time, s */
@@ -59,6 +60,9 @@ bool world_flow(World *world, Error *error);
 
 /* Whether the backend has ids for so many particles that were ever born, or the reason. */
 bool world_names(const World *world, uint64_t born, Error *error);
+
+/* From now on the backend sums forces; false with the reason. */
+bool world_sum_forces(World *world, Error *error);
 
 /* Leaves out the births of layers that are gone. Before a state to go back to is marked: that one may have
    them still. */

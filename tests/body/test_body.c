@@ -54,6 +54,38 @@ static void mesh_weighs_what_its_box_does(void **state)
     triangles_free(&shape.triangles);
 }
 
+/* What the watch over energy asks of a body, beside the sum over points of its matter. */
+static void sums_are_those_of_its_matter(void **state)
+{
+    (void)state;
+    enum { POINTS = 40 };
+    const SolidDef box = {
+        .kind = SOLID_BOX, .size = {1, 2, 3}, .axis = {1, 2, -0.5}, .angle_deg = 40, .density = 500};
+    Body body;
+    BodyState at = {
+        .pose = {.position = {0.3, -0.2, 0.5}, .velocity = {1, -2, 0.5}, .angular_velocity = {0.7, 2, -1.1}}};
+    EnergySums sums = {.own = 0}, points = {.own = 0};
+    body_make(&body, &box, 3);
+    solid_turn((double[3]){-1, 0.3, 0.8}, 70, at.pose.orientation);
+    body_sums(&body, &at, &sums);
+    for (int n = 0; n < POINTS * POINTS * POINTS; n++) {
+        double x[3], v[3];
+        for (int k = 0; k < 3; k++) {
+            const int place = k == 0 ? n % POINTS : k == 1 ? n / POINTS % POINTS : n / POINTS / POINTS;
+            x[k] = box.size[k] * ((place + 0.5) / POINTS - 0.5);
+        }
+        quat_rotate(at.pose.orientation, x, x);
+        for (int k = 0; k < 3; k++)
+            x[k] += at.pose.position[k];
+        body_velocity(&at.pose, x, v);
+        energy_sums_add(&points, body.mass.mass / (POINTS * POINTS * POINTS), x, v);
+        energy_sums_add_turning(&points, body.mass.mass / (POINTS * POINTS * POINTS), x, v);
+    }
+    const double *one = &sums.own, *other = &points.own;
+    for (size_t k = 0; k < sizeof sums / sizeof sums.own; k++)
+        near(one[k], other[k], 1e-3 * points.own, "a sum");
+}
+
 /* Textbook values of the others; a bowl of a thick wall beside its half ball without a hole. */
 static void shapes_weigh_what_books_say(void **state)
 {
@@ -340,10 +372,15 @@ static void what_is_no_number_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mesh_weighs_what_its_box_does), cmocka_unit_test(shapes_weigh_what_books_say),
-        cmocka_unit_test(tumbling_keeps_momentum),       cmocka_unit_test(rod_swings),
-        cmocka_unit_test(pushes_move_and_turn),          cmocka_unit_test(blocks_come_to_rest),
-        cmocka_unit_test(what_is_no_number_ends),        cmocka_unit_test(what_stands_holds_a_face),
+        cmocka_unit_test(mesh_weighs_what_its_box_does),
+        cmocka_unit_test(sums_are_those_of_its_matter),
+        cmocka_unit_test(shapes_weigh_what_books_say),
+        cmocka_unit_test(tumbling_keeps_momentum),
+        cmocka_unit_test(rod_swings),
+        cmocka_unit_test(pushes_move_and_turn),
+        cmocka_unit_test(blocks_come_to_rest),
+        cmocka_unit_test(what_is_no_number_ends),
+        cmocka_unit_test(what_stands_holds_a_face),
         cmocka_unit_test(what_lies_flat_stays),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -301,7 +301,7 @@ void compute_flow_destroy(Compute *compute);
 void compute_pose(void *state, const SolidPose *pose);
 size_t compute_emit(void *state, const EmitLayer *layer, size_t most);
 void compute_touch(void *state, const FingerStep *finger);
-void compute_guide(void *state, const Guide *guides, int count);
+double compute_guide(void *state, const Guide *guides, int count);
 size_t compute_drain(void *state, const Fill *regions, int count);
 void compute_grid(void *state);
 void compute_drift(void *state, const BoxStep *step);

@@ -93,7 +93,7 @@ size_t compute_emit(void *state, const EmitLayer *layer, size_t most)
     return number;
 }
 
-void compute_guide(void *state, const Guide *guides, int count)
+double compute_guide(void *state, const Guide *guides, int count)
 {
     const Compute *c = state;
     FlowBlock block = {.guide_total = count};
@@ -110,6 +110,7 @@ void compute_guide(void *state, const Guide *guides, int count)
     put(c, offsetof(FlowBlock, guides), (size_t)count * sizeof block.guides[0], block.guides);
     bind_block(c);
     compute_sweep(c, COMPUTE_GUIDE, c->count);
+    return 0;
 }
 
 /* The least float not below `bound`: any float is below the result exactly where it is below `bound`. */

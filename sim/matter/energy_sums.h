@@ -1,0 +1,40 @@
+/* What the watch over energy (sim/world/energy_watch.h) asks of matter, in the box's frame: sums over its
+   parts, so that what comes, what leaves, and solids that float add their own. */
+#ifndef SLOSH_ENERGY_SUMS_H
+#define SLOSH_ENERGY_SUMS_H
+
+/* Those that a box which does not turn has no need of stand last. */
+typedef struct EnergySums {
+    double own;         /* energy of motion and of compression, J */
+    double mass;        /* kg */
+    double momentum[3]; /* kg m/s */
+    double first[3];    /* sum m x, kg m */
+    double bare; /* at most so much surface has fluid whose tension pulls, m2: sides that cells of h share
+                    with empty ones; of a backend that knows its cells */
+    double second[6]; /* sum m x x: xx, yy, zz, xy, yz, zx, kg m2 */
+    double turn[3];   /* sum m x cross v, kg m2/s */
+} EnergySums;
+
+/* A mass m (kg) at x (m) that moves with v (m/s). */
+static inline void energy_sums_add(EnergySums *sums, double m, const double x[3], const double v[3])
+{
+    sums->own += 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    sums->mass += m;
+    for (int k = 0; k < 3; k++) {
+        sums->momentum[k] += m * v[k];
+        sums->first[k] += m * x[k];
+    }
+}
+
+/* And what a box that turns asks besides. */
+static inline void energy_sums_add_turning(EnergySums *sums, double m, const double x[3], const double v[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const int next = (k + 1) % 3, last = (k + 2) % 3;
+        sums->second[k] += m * x[k] * x[k];
+        sums->second[3 + k] += m * x[k] * x[next];
+        sums->turn[k] += m * (x[next] * v[last] - x[last] * v[next]);
+    }
+}
+
+#endif
