@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Particles chained by the hash of their cell, whose sides are the limit long; 0 ends a chain. */
 typedef struct Chains {
@@ -67,21 +68,82 @@ static bool is_somewhere(const float x[3], double limit)
     return fabs((double)x[0]) < most && fabs((double)x[1]) < most && fabs((double)x[2]) < most;
 }
 
-bool metric_close(const Cloud *cloud, double limit, size_t stride, size_t *close)
+/* False when memory is short. */
+static bool chains_make(Chains *chains, const Cloud *cloud, double limit)
 {
-    size_t chains_count = 1;
-    while (chains_count < cloud->count)
-        chains_count *= 2;
-    Chains chains = {cloud->position, limit, chains_count - 1, calloc(chains_count, sizeof(uint32_t)),
-                     calloc(cloud->count + 1, sizeof(uint32_t))};
-    const bool ok = chains.first && chains.next;
-    *close = 0;
+    size_t count = 1;
+    while (count < cloud->count)
+        count *= 2;
+    *chains = (Chains){cloud->position, limit, count - 1, calloc(count, sizeof(uint32_t)),
+                       calloc(cloud->count + 1, sizeof(uint32_t))};
+    const bool ok = chains->first && chains->next;
     for (size_t i = 0; ok && i < cloud->count; i++)
         if (is_somewhere(cloud->position + 4 * i, limit))
-            put(&chains, i);
+            put(chains, i);
+    return ok;
+}
+
+static void chains_free(Chains *chains)
+{
+    free(chains->first);
+    free(chains->next);
+}
+
+bool metric_close(const Cloud *cloud, double limit, size_t stride, size_t *close)
+{
+    Chains chains;
+    const bool ok = chains_make(&chains, cloud, limit);
+    *close = 0;
     for (size_t i = 0; ok && i < cloud->count; i += stride)
         *close += is_somewhere(cloud->position + 4 * i, limit) && is_close(&chains, i);
-    free(chains.first);
-    free(chains.next);
+    chains_free(&chains);
+    return ok;
+}
+
+/* Adds what is in a cell's chain to the velocities beside i, by weight. Another cell of the same chain is
+   passed over: it would count twice. */
+static void add_beside(const Chains *chains, const Cloud *cloud, const int64_t cell[3], size_t i,
+                       double sum[4])
+{
+    const float *x = cloud->position + 4 * i;
+    for (size_t at = chains->first[chain_of(chains, cell)]; at; at = chains->next[at - 1]) {
+        const float *y = cloud->position + 4 * (at - 1), *v = cloud->velocity + 4 * (at - 1);
+        int64_t own[3];
+        double r2 = 0;
+        cell_of(chains, at - 1, own);
+        for (int k = 0; k < 3; k++)
+            r2 += ((double)x[k] - (double)y[k]) * ((double)x[k] - (double)y[k]);
+        if (at == i + 1 || r2 >= chains->limit * chains->limit || memcmp(own, cell, sizeof own) != 0)
+            continue;
+        const double weight = 1 - sqrt(r2) / chains->limit;
+        for (int k = 0; k < 3; k++)
+            sum[k] += weight * (double)v[k];
+        sum[3] += weight;
+    }
+}
+
+bool metric_together(const Cloud *cloud, double h, size_t stride, double *together)
+{
+    Chains chains;
+    const bool ok = chains_make(&chains, cloud, h);
+    double alike = 0, all = 0;
+    for (size_t i = 0; ok && i < cloud->count; i += stride) {
+        const float *v = cloud->velocity + 4 * i;
+        double sum[4] = {0};
+        int64_t cell[3];
+        if (!is_somewhere(cloud->position + 4 * i, h))
+            continue;
+        cell_of(&chains, i, cell);
+        for (int n = 0; n < 27; n++)
+            add_beside(&chains, cloud,
+                       (int64_t[]){cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1}, i,
+                       sum);
+        for (int k = 0; k < 3; k++) {
+            all += (double)v[k] * (double)v[k];
+            alike += (double)v[k] * (sum[3] > 0 ? sum[k] / sum[3] : (double)v[k]);
+        }
+    }
+    *together = all > 0 ? alike / all : 1;
+    chains_free(&chains);
     return ok;
 }

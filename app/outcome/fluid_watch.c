@@ -25,8 +25,12 @@ static const char *advice(OutcomeKind kind, const WorldDef *def)
 {
     const bool solves = method_find(def->method)->incompressible;
     switch (kind) {
+    case OUTCOME_BOILS:
+        return "; use a greater viscosity, or shorter steps";
     case OUTCOME_NOISY:
         return "; use shorter steps";
+    case OUTCOME_FAST:
+        return "; use a higher solver.sound_speed";
     case OUTCOME_SQUEEZED:
         return solves ? "; use more solver.iterations or shorter steps" : "; use a higher solver.sound_speed";
     case OUTCOME_CLUMPS:
@@ -63,6 +67,10 @@ static OutcomeLook untold(const FluidWatch *watch, OutcomeLook look)
 {
     if (watch->told >> OUTCOME_NOISY & 1)
         look.energy = (double)NAN;
+    if (watch->told >> OUTCOME_BOILS & 1)
+        look.jump = 0;
+    if (watch->told >> OUTCOME_FAST & 1)
+        look.mach = 0;
     if (watch->told >> OUTCOME_SQUEEZED & 1)
         look.pressed = 0;
     if (watch->told >> OUTCOME_CLUMPS & 1)
@@ -80,14 +88,17 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     OutcomeLook look;
     Outcome now;
     world_info(world, &info);
-    if (world_on_gpu(def) || info.within_frame || info.step < watch->next)
+    const bool fast = outcome_of_info(def, &info).mach > OUTCOME_MACH && !(watch->told >> OUTCOME_FAST & 1);
+    if (info.within_frame || (info.step < watch->next && !fast))
         return false;
     watch->next = info.step + (info.step < FLUID_WATCH_STEPS   ? FLUID_WATCH_STEPS
                                : info.step < FLUID_WATCH_LATER ? info.step
                                                                : FLUID_WATCH_LATER);
-    if (!outcome_glance(&look, def, !watch->closed, world))
+    if (world_on_gpu(def)) /* what costs no wait */
+        look = outcome_of_info(def, &info);
+    else if (!outcome_glance(&look, def, !watch->closed, world))
         return false; /* no memory: the next look may have it */
-    if (!watch->looked)
+    else if (!watch->looked)
         begin(watch, &look);
     judge(watch, &look, &now);
     if (now.kind > watch->worst.kind)
@@ -110,5 +121,5 @@ bool fluid_watch_outcome(const FluidWatch *watch, const WorldTrouble *trouble, O
         outcome_judge(&end, outcome);
     else
         *outcome = watch->worst;
-    return trouble->ended || watch->looked;
+    return trouble->ended || watch->looked || watch->worst.kind > OUTCOME_HOLDS;
 }

@@ -1,6 +1,7 @@
 /* Watches a fluid while it runs, for what the sentinel does not go back for: lost volume, particles that lie
-   on each other or beyond walls, energy that grows too slowly for it (app/outcome/outcome.h). On backends on
-   a GPU it would have to wait for each look, and does not look. */
+   on each other or beyond walls, that boils or is too fast, energy that grows too slowly for it
+   (app/outcome/outcome.h). On backends on a GPU it would have to wait for each look, and looks at speeds
+   alone. */
 #ifndef SLOSH_FLUID_WATCH_H
 #define SLOSH_FLUID_WATCH_H
 

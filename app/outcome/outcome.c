@@ -73,6 +73,19 @@ static void judge_energy(const OutcomeHistory *history, Outcome *outcome)
     }
 }
 
+static void judge_motion(const OutcomeLook *look, Outcome *outcome)
+{
+    if (look->mach > OUTCOME_MACH && outcome->kind < OUTCOME_FAST) {
+        find(outcome, OUTCOME_FAST, look->time);
+        snprintf(outcome->words, OUTCOME_WORDS, "a particle was %.3g times as fast as sound", look->mach);
+    }
+    if (look->jump > 1 && look->together < OUTCOME_TOGETHER && outcome->kind < OUTCOME_BOILS) {
+        find(outcome, OUTCOME_BOILS, look->time);
+        snprintf(outcome->words, OUTCOME_WORDS, "%s: %.3g %% of their energy of motion",
+                 outcome_help(OUTCOME_BOILS), 100 * (1 - look->together));
+    }
+}
+
 static double part(size_t some, const OutcomeLook *look)
 {
     return look->count > 0 ? (double)some / (double)look->count : 0;
@@ -130,6 +143,7 @@ void outcome_judge(const OutcomeHistory *history, Outcome *outcome)
     } else {
         judge_energy(history, outcome);
         for (int i = 0; i < history->count; i++) {
+            judge_motion(&history->look[i], outcome);
             judge_volume(&history->look[i], outcome);
             judge_places(history, i, outcome);
         }

@@ -11,7 +11,9 @@
 #define OUTCOMES(X)                                                                                          \
     X(NONE, "not run", "something else than the fluid failed")                                               \
     X(HOLDS, "holds", "none of the others")                                                                  \
+    X(BOILS, "boils", "neighbours move in all directions, as in a gas")                                      \
     X(NOISY, "noisy", "energy grows without work done")                                                      \
+    X(FAST, "too fast", "particles are faster than sound")                                                   \
     X(SQUEEZED, "squeezed", "fluid has lost volume")                                                         \
     X(CLUMPS, "clumps", "particles lie on each other")                                                       \
     X(LEAKS, "leaks", "particles cross walls, or have no place in a grid")                                   \
@@ -34,6 +36,16 @@ OutcomeKind outcome_of_word(const char *word);
 /* Energy has grown without work done where it is so much (a fraction) above the least that it was before, of
    all that moves, is pressed, or could come down. The scenes that gain most gain 2.2 % (docs/failures.md). */
 #define OUTCOME_GAIN 0.05
+
+/* Fluid boils where less than this part of its energy of motion is of motion together with neighbours, and
+   particles jump higher than so many spacings in gravity, or are faster than so much of sound. Calm or
+   splashing, scenes have a half and more. */
+#define OUTCOME_TOGETHER 0.35
+#define OUTCOME_JUMP     0.5
+#define OUTCOME_OF_SOUND 0.05
+
+/* Fluid is too fast where a particle was faster than so many times sound, of a method that has one. */
+#define OUTCOME_MACH 1
 
 /* Fluid has lost volume where its particles are pressed by so much above rest density in the mean. Calm
    scenes have less than 0.02 with all methods. */
@@ -59,9 +71,13 @@ typedef struct OutcomeLook {
                   */
     size_t lost; /* of them, without a place in the grid */
     double pressed; /* how much of their density is above that at rest, a fraction, in the mean */
-    bool stuck;     /* a solver of the last step ended in trouble */
-    double energy;  /* of motion, place and compression, J; NaN: not known, or something does work */
-    double scale;   /* what its growth is compared with, J */
+    double
+        together;  /* of the energy of motion, a fraction: that of motion with neighbours; 1 of what rests */
+    double jump;   /* how fast they move, in the mean, over what OUTCOME_JUMP and OUTCOME_OF_SOUND say */
+    double mach;   /* greatest speed of any of them so far over sound; 0 without sound */
+    bool stuck;    /* a solver of the last step ended in trouble */
+    double energy; /* of motion, place and compression, J; NaN: not known, or something does work */
+    double scale;  /* what its growth is compared with, J */
 } OutcomeLook;
 
 enum { OUTCOME_LOOKS_MAX = 64 };

@@ -58,6 +58,21 @@ static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPos
     return beyond;
 }
 
+/* How fast particles are in the mean, over what makes a jump of OUTCOME_JUMP spacings in gravity, or
+ * OUTCOME_OF_SOUND. */
+static double jump_of(const WorldDef *def, const Cloud *cloud)
+{
+    const double *g = def->gravity, weight = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    const bool sounds = !method_find(def->method)->incompressible;
+    const double enough = weight > 0 ? sqrt(2 * weight * OUTCOME_JUMP * def->spacing)
+                          : sounds   ? OUTCOME_OF_SOUND * def->sound_speed
+                                     : INFINITY;
+    double sum = 0;
+    for (size_t i = 0; i < 4 * cloud->count; i++)
+        sum += i % 4 < 3 ? (double)cloud->velocity[i] * (double)cloud->velocity[i] : 0;
+    return cloud->count > 0 ? sqrt(sum / (double)cloud->count) / enough : 0;
+}
+
 /* Of every `stride`-th particle whether it lies on another, and as many of all; `mass`, kg, in 2D of a
    metre's depth. */
 static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, size_t stride,
@@ -74,6 +89,8 @@ static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldIn
     }
     const bool ok =
         cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
+    look->jump = ok ? jump_of(def, &cloud) : 0;
+    const bool moves = look->jump > 1; /* else there is nothing to be found */
     for (size_t i = 0; ok && i < cloud.count; i++) {
         const double density = def->fluids[cloud.fluid[i]].density;
         look->beyond += is_beyond(def, info, pose, cloud.position + 4 * i);
@@ -82,17 +99,27 @@ static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldIn
     }
     look->close = look->close * stride < look->count ? look->close * stride : look->count;
     look->pressed = cloud.count > 0 ? pressed / (double)cloud.count : 0;
+    const bool all =
+        ok && (!moves || metric_together(&cloud, def->spacing * def->support, 4 * stride, &look->together));
     cloud_free(&cloud);
-    return ok;
+    return all;
 }
 
-static OutcomeLook look_from(const WorldInfo *info)
+OutcomeLook outcome_of_info(const WorldDef *def, const WorldInfo *info)
 {
-    OutcomeLook look = {.time = info->time,
-                        .count = info->count,
-                        .lost = info->lost,
-                        .energy = (double)NAN,
-                        .scale = (double)NAN};
+    return (OutcomeLook){.time = info->time,
+                         .count = info->count,
+                         .together = 1,
+                         .mach =
+                             method_find(def->method)->incompressible ? 0 : info->fastest / def->sound_speed,
+                         .energy = (double)NAN,
+                         .scale = (double)NAN};
+}
+
+static OutcomeLook look_from(const WorldDef *def, const WorldInfo *info)
+{
+    OutcomeLook look = outcome_of_info(def, info);
+    look.lost = info->lost;
     for (int k = 0; k < SOLVES_MAX; k++)
         look.stuck |= info->solves[k].failed;
     return look;
@@ -103,7 +130,7 @@ static bool look_with(OutcomeLook *look, const WorldDef *def, bool moved, size_t
     WorldInfo info;
     double mass;
     world_info(world, &info);
-    *look = look_from(&info);
+    *look = look_from(def, &info);
     if (!look_at_places(look, def, &info, 1 + info.count / most, &mass, world))
         return false;
     if (!moved && is_left_alone(def))

@@ -15,6 +15,9 @@ bool outcome_look(OutcomeHistory *history, const WorldDef *def, bool moved, Worl
    when memory is short. */
 bool outcome_glance(OutcomeLook *look, const WorldDef *def, bool moved, World *world);
 
+/* What is known without looking at particles: their number and their speeds. */
+OutcomeLook outcome_of_info(const WorldDef *def, const WorldInfo *info);
+
 /* Takes what ended the run, if something did. */
 void outcome_end(OutcomeHistory *history, const World *world);
 

@@ -19,9 +19,10 @@ enum {
 };
 
 static const char *const kind_colours[OUTCOME_COUNT] = {
-    [OUTCOME_NONE] = "#8795a3",     [OUTCOME_HOLDS] = "#4f9d69",    [OUTCOME_NOISY] = "#c9a227",
-    [OUTCOME_SQUEEZED] = "#5b5ea6", [OUTCOME_CLUMPS] = "#7a4f2a",   [OUTCOME_LEAKS] = "#35a7a0",
-    [OUTCOME_DIVERGES] = "#e07a3f", [OUTCOME_BLOWN_UP] = "#c0392b",
+    [OUTCOME_NONE] = "#8795a3",     [OUTCOME_HOLDS] = "#4f9d69", [OUTCOME_NOISY] = "#c9a227",
+    [OUTCOME_BOILS] = "#d98cb3",    [OUTCOME_FAST] = "#8e44ad",  [OUTCOME_SQUEEZED] = "#5b5ea6",
+    [OUTCOME_CLUMPS] = "#7a4f2a",   [OUTCOME_LEAKS] = "#35a7a0", [OUTCOME_DIVERGES] = "#e07a3f",
+    [OUTCOME_BLOWN_UP] = "#c0392b",
 };
 
 typedef struct Drawing {

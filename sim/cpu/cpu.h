@@ -196,7 +196,7 @@ bool cpu_feel(void *state, Forces *to, Error *error);
 void cpu_feel_kick(Cpu *cpu, float dt);
 void cpu_feel_drift(Cpu *cpu);
 bool cpu_gauge(void *state, const double gravity[3]);
-bool cpu_gauged(void *state, WorldGauge *gauge);
+bool cpu_gauged(void *state, WorldGauge *gauge, bool waits);
 void cpu_energy(void *state, bool turning, EnergySums *sums);
 /* The same as parts that add up, one for each number of EnergySums. */
 enum { ENERGY_SUMS = sizeof(EnergySums) / sizeof(double) };

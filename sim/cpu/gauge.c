@@ -48,8 +48,9 @@ bool cpu_gauge(void *state, const double gravity[3])
     return true;
 }
 
-bool cpu_gauged(void *state, WorldGauge *gauge)
+bool cpu_gauged(void *state, WorldGauge *gauge, bool waits)
 {
+    (void)waits;
     const Cpu *cpu = state;
     const double time = gauge->time;
     *gauge = cpu->gauge;

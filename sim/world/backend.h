@@ -78,11 +78,12 @@ typedef struct Backend {
     bool (*read)(void *state, const ParticleArrays *out); /* false when memory is short */
     size_t (*held)(const void *state); /* particles that `read` gives; NULL: all of the world's */
     /* Begins to gather what sim/world/gauge.h says, with the gravity in the box's frame, m/s2; false when it
-       cannot. Then whether it has come, without waiting: sums of the gauge, the mean divided. */
+       cannot. Then whether it has come, or, where somebody `waits`, once it has: sums of the gauge, the mean
+       divided. */
     bool (*gauge)(void *state, const double gravity[3]);
-    bool (*gauged)(void *state, WorldGauge *gauge);
-    /* For sim/world/energy_watch.h, at once; `second` and `turn` for boxes that turn alone. NULL: it would
-       wait. */
+    bool (*gauged)(void *state, WorldGauge *gauge, bool waits);
+    /* For sim/world/energy_watch.h, at once; `second` and `turn` for boxes that turn alone. NULL: it has
+       the gauge. */
     void (*energy)(void *state, bool turning, EnergySums *sums);
     /* From now on steps add to `to` what box and solids feel; NULL: no more. False when memory is short.
        NULL: it sums no forces. */

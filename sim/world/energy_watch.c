@@ -13,19 +13,48 @@ static const double GAIN = 0.1, STEPS = 200;
    that move and boil gain a third to two thirds of that, calm ones a tenth. */
 static const double GAIN_SUSPECT = 0.25;
 
+static const double STILL = 1e-6; /* m/s, rad/s: a hand at rest comes to its place as a spring does */
+
 /* Of what is trouble, what the box's change of velocity may do beside the mean between two looks: where it is
    more, looks stand closer, down to one at each end of a step, where its work is known. */
 static const double JOLT = 0.02;
 
-/* A look costs some 4 % of a step: not at each step, but before energy has doubled. */
-static const double EVERY = 8, FASTER = 1.2;
+/* A look costs some 4 % of a step, on a GPU a wait: not at each step, but before energy has doubled. */
+static const double EVERY = 8, EVERY_ON_GPU = 50, FASTER = 1.2;
 
 static const double COMPRESSED = 0.01; /* its energy is part of what a gain is compared with */
 
+/* Whose way is prescribed, or a hand's. */
+static bool driven(const SolidDef *solid)
+{
+    return solid_moves(solid) && !solid_floats(solid);
+}
+
+static bool any_driven(const WorldDef *def)
+{
+    bool any = false;
+    for (int k = 0; k < def->solid_count; k++)
+        any |= driven(&def->solids[k]);
+    return any;
+}
+
+/* Where the gauge is all there is: it knows energy, and nothing of momenta. */
+static bool gauge_does(const World *world)
+{
+    const WorldDef *def = &world->def;
+    bool still = def->motion_count == 0 && !world->constants.emits && !any_driven(def);
+    for (int k = 0; k < 3; k++) {
+        still &= fabs(world->box.velocity[k]) < STILL && fabs(world->box.angular_velocity[k]) < STILL;
+        still &= !(def->periodic[k] && def->gravity[k] != 0);
+    }
+    return still;
+}
+
 static bool watched(const World *world)
 {
-    return !finger_on(&world->finger) && world->def.retries > 0 && world->backend->energy &&
-           (world->method->energy || world->method->incompressible);
+    return !finger_on(&world->finger) && world->def.retries > 0 &&
+           (world->method->energy || world->method->incompressible) &&
+           (world->backend->energy || gauge_does(world));
 }
 
 static bool turns(const BoxState *box)
@@ -165,6 +194,36 @@ static double too_much(const World *world, const EnergyMark *now, const Felt *fe
     return (suspect ? fmin(gain, GAIN_SUSPECT * free) : gain) + now->surface + lid;
 }
 
+/* Of the gauge: places as far as gravity tells them, all of one mass, each with a surface of its own. */
+static void sums_of_gauge(World *world, EnergySums *sums)
+{
+    const Constants *s = &world->constants;
+    WorldGauge gauge;
+    double gravity[3], m = 0;
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, gravity);
+    const double g2 = dot(gravity, gravity), count = (double)world->count;
+    *sums = (EnergySums){.own = 0};
+    if (!world_gauge_now(world, &gauge))
+        return;
+    for (int f = 0; f < s->fluid_count; f++)
+        m = fmax(m, (double)s->mass[f]);
+    sums->own = gauge.kinetic_energy + gauge.compression_energy;
+    sums->mass = count * m;
+    for (int k = 0; k < 3 && g2 > 0; k++)
+        sums->first[k] = -gauge.potential_energy * gravity[k] / g2;
+    sums->bare = 2 * s->dimensions * count * pow((double)s->spacing, s->dimensions - 1);
+}
+
+static void sums_now(World *world, bool turning, EnergySums *sums)
+{
+    if (world->backend->energy)
+        world->backend->energy(world->state, turning, sums);
+    else
+        sums_of_gauge(world, sums);
+    if (world->bodies)
+        bodies_sums(world->bodies, sums);
+}
+
 /* What is there, with the work since the look before. */
 static Felt look(World *world, const BoxState *box, bool turning)
 {
@@ -172,17 +231,16 @@ static Felt look(World *world, const BoxState *box, bool turning)
     const EnergySums before = mark->sums;
     const double time = world_time_at(world, (double)world->step);
     const Felt felt = felt_between(world, &mark->box, box, time - mark->time);
-    world->backend->energy(world->state, turning, &mark->sums);
-    if (world->bodies)
-        bodies_sums(world->bodies, &mark->sums);
+    sums_now(world, turning, &mark->sums);
     const double work = work_done(world, &before, &mark->sums, &felt);
     mark->work += work;
     mark->stirred += fabs(work);
     mark->time = time;
     mark->box = *box;
     mark->turning = turning;
+    mark->gauged = !world->backend->energy;
     mark->speed = world->stepping.max_speed;
-    mark->next = (double)world->step + EVERY;
+    mark->next = (double)world->step + (world->backend->energy ? EVERY : EVERY_ON_GPU);
     mark->jolted = 0;
     return felt;
 }
@@ -190,7 +248,7 @@ static Felt look(World *world, const BoxState *box, bool turning)
 void energy_brace(World *world, const BoxState *begin)
 {
     EnergyMark *mark = &world->energy;
-    if (mark->until == 0 || !jolts(world, begin, &world->box))
+    if (mark->until == 0 || !world->backend->energy || !jolts(world, begin, &world->box))
         return;
     if (mark->turning != 0 || !turns(begin))
         look(world, begin, turns(begin) || turns(&world->box));
@@ -206,11 +264,24 @@ static void take_as_least(World *world)
     mark->stirred = 0;
 }
 
+/* Whether what is seen now may be compared with the mark. */
+static bool goes_on(const World *world)
+{
+    const EnergyMark *mark = &world->energy;
+    const bool gauged = !world->backend->energy;
+    bool same = mark->until > 0 && (mark->gauged != 0) == gauged;
+    for (int k = 0; k < 3 && gauged; k++)
+        same &= fabs(mark->box.position[k] - world->box.position[k]) < STILL;
+    for (int k = 0; k < 4 && gauged; k++)
+        same &= fabs(mark->box.orientation[k] - world->box.orientation[k]) < STILL;
+    return same && (gauged || mark->turning != 0 || !turns(&world->box));
+}
+
 /* Against the least of late, and then a new least. */
 static bool compare(World *world)
 {
     EnergyMark *mark = &world->energy;
-    const bool follows = mark->until > 0 && (mark->turning != 0 || !turns(&world->box));
+    const bool follows = goes_on(world);
     if (!follows)
         *mark = (EnergyMark){.box = world->box};
     const Felt felt = look(world, &world->box, turns(&mark->box) || turns(&world->box));
@@ -264,18 +335,9 @@ void energy_works(World *world, double work)
     world->energy.stirred += fabs(work);
 }
 
-/* Whose way is prescribed, or a hand's. */
-static bool driven(const SolidDef *solid)
-{
-    return solid_moves(solid) && !solid_floats(solid);
-}
-
 bool energy_asks_solids(const World *world)
 {
-    bool any = false;
-    for (int k = 0; k < world->def.solid_count && watched(world); k++)
-        any |= driven(&world->def.solids[k]);
-    return any;
+    return watched(world) && any_driven(&world->def);
 }
 
 /* What the solids push with, which is the other way round of what they feel. Friction by implicit viscosity

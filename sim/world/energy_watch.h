@@ -9,15 +9,18 @@
    - of emitters: what comes brings its own, and they hold it to its course. What leaves takes its own along.
 
    Of a surface's energy only a bound is known: tension may free all that was there, as a lid may drag fluid
-   along to its own speed. Who touches the fluid with a finger is not watched. On the CPU only: the sums of a
-   GPU come when they come, and no two runs would go back at the same step. */
+   along to its own speed. Who touches the fluid with a finger is not watched.
+
+   On a GPU the gauge is read now and then, at the end of a frame whose numbers were waited for. It has no
+   momenta: a box that moves is not watched there, nor emitters, solids on ways of their own, or gravity along
+   a periodic axis. */
 #ifndef SLOSH_ENERGY_WATCH_H
 #define SLOSH_ENERGY_WATCH_H
 
 #include "sim/world/world_struct.h"
 
-/* After each step that is sound, and of the initial state. False when energy has grown, with the reason in
-   world->seen; compares at the ends of frames only. */
+/* After each step that is sound (on a GPU: each frame), and of the initial state. False when energy has
+   grown, with the reason in world->seen; compares at the ends of frames only. */
 bool energy_sound(World *world);
 
 /* Before a step, with the box at its begin; world->box is at its end. */

@@ -65,6 +65,8 @@ typedef struct WorldInfo {
     size_t unlisted; /* backend compute: bytes of lists of neighbours that are more than the driver or its
                         memory allows, so that steps take longer; 0: it has them, or is not to have them */
     size_t guarded;  /* times that the last guard of a wall held a particle back, since the start */
+    double fastest;  /* greatest speed of a particle at the end of any step that is sound, on a GPU of any
+                        frame, since  the start or since it was loaded into, m/s */
     double courant;  /* dt (c + greatest speed) / h of the last step, whatever bounded it; on a GPU the speed
                         is that of the frame before */
 } WorldInfo;

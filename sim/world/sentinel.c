@@ -1,6 +1,7 @@
 #include "sim/world/sentinel.h"
 
 #include "sim/body/bodies.h"
+#include "sim/world/energy_watch.h"
 #include "sim/world/iterate.h"
 
 #include <math.h>
@@ -65,6 +66,10 @@ bool world_sound(World *world)
         look_at_bodies(world);
         look_at_solves(world);
         world->kicked = false;
+        if (world->backend->gpu && !world->seen)
+            energy_sound(world);
+        if (!world->seen)
+            world->fastest = fmax(world->fastest, (double)watch.max_speed);
     }
     return world->seen == STEP_TROUBLE_NONE;
 }

@@ -3,21 +3,39 @@
 #include "sim/body/bodies.h"
 #include "sim/world/world_struct.h"
 
-void world_gauge_ask(World *world)
+static bool gather(World *world)
 {
     double gravity[3];
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, gravity);
+    return world->backend->gauge(world->state, gravity);
+}
+
+void world_gauge_ask(World *world)
+{
     if (world->gauge_asked)
         return;
-    quat_rotate_inverse(world->box.orientation, world->def.gravity, gravity);
-    world->gauge_asked = world->backend->gauge(world->state, gravity);
+    world->gauge_asked = gather(world);
     world->gauge_time = world_time_at(world, (double)world->step);
+}
+
+bool world_gauge_now(World *world, WorldGauge *gauge)
+{
+    *gauge = (WorldGauge){.time = world->gauge_time};
+    if (world->gauge_asked && !world->gauge_kept) {
+        world->gauge = *gauge;
+        world->gauge_asked = world->gauge_kept = world->backend->gauged(world->state, &world->gauge, true);
+    }
+    return gather(world) && world->backend->gauged(world->state, gauge, true);
 }
 
 bool world_gauge(World *world, WorldGauge *gauge)
 {
     *gauge = (WorldGauge){.time = world->gauge_time};
-    if (!world->gauge_asked || !world->backend->gauged(world->state, gauge))
+    if (world->gauge_kept)
+        *gauge = world->gauge;
+    else if (!world->gauge_asked || !world->backend->gauged(world->state, gauge, false))
         return false;
+    world->gauge_kept = false;
     world->gauge_asked = false;
     gauge->total_known = true;
     for (int f = 0; f < world->def.fluid_count; f++)

@@ -235,7 +235,7 @@ bool world_load(World *world, const WorldState *state, Error *error)
     world->pours = numbers->pours;
     if (world->bodies)
         bodies_load(world->bodies, &numbers->bodies);
-    world->energy = world->backend->energy ? numbers->energy : (EnergyMark){0};
+    world->energy = numbers->energy;
     world_vary(world, world_time_at(world, numbers->step));
     world_put_back(world, numbers, state->count);
     world_forget(world, &state->particles);

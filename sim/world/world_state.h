@@ -27,6 +27,7 @@ typedef struct EnergyMark {
     double most;    /* how much more energy than `least` was trouble at the last look, J */
     double jolted;  /* not 0: the box's velocity jumps in the step in hand */
     double turning; /* not 0: the sums have what a box that turns asks */
+    double gauged;  /* not 0: they are of the gauge of a GPU */
     double time;    /* of the last look, s; what was found there: */
     EnergySums sums;
     BoxState box;

@@ -487,6 +487,7 @@ void world_info(const World *world, WorldInfo *info)
         .within_frame = world->stepping.frame_left != 0,
         .dt = world->stepping.dt,
         .limit = (StepLimit)world->stepping.limit,
+        .fastest = world->fastest,
         .trouble = world->trouble,
         .courant = world->step > 0 ? world->stepping.dt *
                                          ((world->method->incompressible ? 0 : world->def.sound_speed) +

@@ -27,6 +27,7 @@ struct World {
     double stop;                  /* s: a state falls on it in mode cfl; behind: none does */
     StepSolve solves[SOLVES_MAX]; /* of the last step */
     SolveTally tally;             /* of all of them */
+    double fastest;               /* as WorldInfo has it */
     bool kicked;                  /* since the watch was last asked */
     StepTrouble seen;             /* then, since the last good state */
     WorldState good;              /* what the sentinel goes back to */
@@ -45,7 +46,9 @@ struct World {
     bool feels;                         /* somebody asked; then: */
     Forces felt, felt_before;           /* since it was last asked; of the good state */
     bool gauge_asked;                   /* and not answered yet, */
-    double gauge_time;                  /* of the state at this time, s */
+    double gauge_time;                  /* of the state at this time, s; */
+    bool gauge_kept;                    /* but the answer is here: */
+    WorldGauge gauge;
 };
 
 /* Makes the backend's state from the def's initial state or fills, with constants that are there. */
@@ -60,6 +63,10 @@ bool world_flow(World *world, Error *error);
 
 /* Whether the backend has ids for so many particles that were ever born, or the reason. */
 bool world_names(const World *world, uint64_t born, Error *error);
+
+/* The gauge of the present state; waits for it. What somebody else has asked for is kept. False when it is
+   not to be had. */
+bool world_gauge_now(World *world, WorldGauge *gauge);
 
 /* From now on the backend sums forces; false with the reason. */
 bool world_sum_forces(World *world, Error *error);

@@ -74,6 +74,30 @@ static void fluid_that_loses_volume_is_squeezed(void **state)
            "squeezed at t = 0.4 s: fluid has lost volume: it is pressed by 6 % in the mean");
 }
 
+static void neighbours_that_move_in_all_directions_boil(void **state)
+{
+    (void)state;
+    for (int i = 0; i < history.count; i++)
+        history.look[i].together = 0.9 * OUTCOME_TOGETHER; /* of fluid that is as good as at rest */
+    history.look[3].together = 1.1 * OUTCOME_TOGETHER;
+    history.look[3].jump = 1.1;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.look[6].jump = 1.1;
+    expect(
+        OUTCOME_BOILS, 0.6,
+        "boils at t = 0.6 s: neighbours move in all directions, as in a gas: 68.5 % of their energy of motion");
+}
+
+static void who_is_faster_than_sound_is_too_fast(void **state)
+{
+    (void)state;
+    history.look[4].mach = 0.99;
+    expect(OUTCOME_HOLDS, (double)NAN, "holds");
+    history.look[5].mach = 1.5;
+    history.look[6].mach = 2;
+    expect(OUTCOME_FAST, 0.5, "too fast at t = 0.5 s: a particle was 1.5 times as fast as sound");
+}
+
 static void particles_on_each_other_clump(void **state)
 {
     (void)state;
@@ -151,6 +175,57 @@ static void words_are_the_same_everywhere(void **state)
     assert_string_equal(json_string_value(json_object_get(json, "outcome_words")),
                         "no memory, or no GPU at all");
     json_decref(json);
+}
+
+static double together(const Cloud *cloud, double h, size_t stride)
+{
+    double value = -1;
+    assert_true(metric_together(cloud, h, stride, &value));
+    return value;
+}
+
+/* A current, a gas, and both, against all pairs. */
+static void motion_together_is_that_of_all_pairs(void **state)
+{
+    (void)state;
+    enum { N = 700 };
+    static float position[4 * N], velocity[4 * N];
+    const double h = 0.15, current[3] = {1, -2, 0.5};
+    const Cloud cloud = {.count = N, .spacing = 0.05, .position = position, .velocity = velocity};
+    uint32_t seed = 1;
+    for (int kind = 0; kind < 3; kind++) {
+        double alike = 0, all = 0;
+        for (size_t i = 0; i < 4 * N; i++) {
+            seed = seed * 1664525U + 1013904223U;
+            const double random = (double)(seed >> 8) / 0x1p24 - 0.5;
+            if (kind == 0)
+                position[i] = (float)(0.6 * random);
+            velocity[i] =
+                (float)((kind > 0 ? 4 * random : 0) + (kind != 1 && i % 4 < 3 ? current[i % 4] : 0));
+        }
+        for (size_t i = 0; i < N; i += 3) {
+            double sum[3] = {0}, weights = 0;
+            for (size_t j = 0; j < N; j++) {
+                double r2 = 0;
+                for (size_t k = 0; k < 3; k++)
+                    r2 += pow((double)position[4 * i + k] - (double)position[4 * j + k], 2);
+                const double weight = i == j ? 0 : fmax(1 - sqrt(r2) / h, 0);
+                for (size_t k = 0; k < 3; k++)
+                    sum[k] += weight * (double)velocity[4 * j + k];
+                weights += weight;
+            }
+            for (size_t k = 0; k < 3; k++) {
+                const double v = (double)velocity[4 * i + k];
+                all += v * v;
+                alike += v * (weights > 0 ? sum[k] / weights : v);
+            }
+        }
+        printf("%d: %.3f together\n", kind, alike / all);
+        assert_true(fabs(together(&cloud, h, 3) - alike / all) < 1e-9);
+        assert_true(kind == 0 ? alike / all > 0.999 : kind == 1 ? alike / all < 0.1 : alike / all > 0.3);
+    }
+    memset(velocity, 0, sizeof velocity);
+    assert_true(together(&cloud, h, 1) == 1);
 }
 
 /* A block of a lattice with pairs in it, against all pairs. */
@@ -296,6 +371,25 @@ static void looks_come_at_their_steps(void **state)
     assert_true(world_step(world, NULL, &error) && fluid_watch(&watch, &squeezed, world, said));
 }
 
+/* At the first step, and once. */
+static void what_is_faster_than_sound_is_told(void **state)
+{
+    (void)state;
+    Error error = {{0}};
+    WorldDef slow = calm_def;
+    WorldInfo info;
+    assert_false(fluid_watch(&watch, &calm_def, world, said));
+    assert_true(world_step(world, NULL, &error));
+    world_info(world, &info);
+    assert_true(info.fastest > 0);
+    slow.sound_speed = 1.01 * info.fastest;
+    assert_false(fluid_watch(&watch, &slow, world, said));
+    slow.sound_speed = 0.99 * info.fastest;
+    assert_true(fluid_watch(&watch, &slow, world, said) && strstr(said, "too fast: a particle was"));
+    assert_false(fluid_watch(&watch, &slow, world, said));
+    assert_true(fluid_watch_outcome(&watch, &info.trouble, &outcome) && outcome.kind == OUTCOME_FAST);
+}
+
 /* What it begins with hides nothing that comes later. */
 static void each_kind_is_told_once(void **state)
 {
@@ -391,14 +485,18 @@ int main(void)
         cmocka_unit_test_setup(what_keeps_its_energy_holds, calm),
         cmocka_unit_test_setup(energy_that_grows_is_noise, calm),
         cmocka_unit_test_setup(fluid_that_loses_volume_is_squeezed, calm),
+        cmocka_unit_test_setup(neighbours_that_move_in_all_directions_boil, calm),
+        cmocka_unit_test_setup(who_is_faster_than_sound_is_too_fast, calm),
         cmocka_unit_test_setup(particles_on_each_other_clump, calm),
         cmocka_unit_test_setup(particles_beyond_walls_are_a_leak, calm),
         cmocka_unit_test_setup(solvers_that_are_stuck_do_not_converge, calm),
         cmocka_unit_test_setup(trouble_that_ends_a_run_is_its_kind, calm),
         cmocka_unit_test(words_are_the_same_everywhere),
+        cmocka_unit_test(motion_together_is_that_of_all_pairs),
         cmocka_unit_test(close_particles_are_those_of_all_pairs),
         cmocka_unit_test(a_world_that_ends_says_of_what),
         WATCHED(looks_come_at_their_steps),
+        WATCHED(what_is_faster_than_sound_is_told),
         WATCHED(each_kind_is_told_once),
         WATCHED(energy_is_followed_where_nothing_else_acts),
         WATCHED(what_starts_close_is_no_clump),

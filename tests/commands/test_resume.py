@@ -325,7 +325,7 @@ class Resume(ResumeTest):
             self.assertIn(said, answer)
             self.assertRegex(answer, r'; only the \d+ before it can be exported\n')
 
-    MARK = 42  # doubles of EnergyMark (sim/world/world_state.h)
+    MARK = 43  # doubles of EnergyMark (sim/world/world_state.h)
     BODIES = 16 * 25  # of the solids that float (sim/body/body_state.h)
     LAST = MARK + 11 + BODIES  # with what stands behind it, the last of the restart's numbers
 

@@ -65,7 +65,6 @@ static void boiling_is_found_and_mended(void **state)
 {
     static const double shares[] = {1.15, 1.5};
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
     for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
         const WorldDef def = viscous_tank(shares[i]);
         World *world = fixture_world(&def);
@@ -76,7 +75,7 @@ static void boiling_is_found_and_mended(void **state)
         printf("%g of the limit: t = %g s\n", shares[i], trouble.time);
         assert_int_equal(trouble.count, 1);
         assert_int_equal(trouble.what, STEP_TROUBLE_ENERGY);
-        assert_true(trouble.time - trouble.back_to < 1.01 * def.dt);
+        assert_true(trouble.time - trouble.back_to < (fixture_on_cpu() ? 1.01 : 2.01) * def.dt);
         for (int steps = 0; steps < 150; steps++) {
             fixture_step(world, 1);
             fastest = steps > 20 ? fmax(fastest, rms_speed(world)) : 0;
@@ -91,7 +90,7 @@ static void boiling_is_found_and_mended(void **state)
 static void it_gives_up_and_names_friction(void **state)
 {
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     WorldDef def = viscous_tank(4);
     def.retries = 1;
     World *world = fixture_world(&def);
@@ -110,10 +109,12 @@ static void who_falls_or_rests_is_not_accused(void **state)
     (void)state;
     defs[4].dt = 1.0 / 60;
     for (size_t i = 0; i < (fixture_on_cpu() ? 6 : 3); i++) {
+        if (fixture_on_fragment() && strcmp(defs[i].method, "mueller") != 0)
+            continue;
         World *world = fixture_world(&defs[i]);
         fixture_step(world, i == 4 ? 200 : fixture_count(1500, 50));
         assert_int_equal(trouble_of(world).count, 0);
-        assert_true((numbers_of(world).energy.until > 0) == fixture_on_cpu());
+        assert_true(numbers_of(world).energy.until > 0);
         world_destroy(world);
     }
 }
@@ -138,7 +139,7 @@ static void work_of_a_moving_box_is_counted(void **state)
 {
     const Motion motions[] = {SHAKEN, ROCKED, SPUN};
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (size_t i = 0; i < sizeof motions / sizeof *motions; i++) {
         WorldDef def = dam("mueller");
         def.motions[def.motion_count++] = motions[i];
@@ -166,7 +167,7 @@ static void boiling_is_found_in_a_box_that_moves(void **state)
 {
     const Motion motions[] = {SHAKEN, ROCKED, SPUN};
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (size_t i = 0; i < sizeof motions / sizeof *motions; i++)
         for (int boils = 0; boils < 2; boils++) {
             WorldDef def = viscous_tank(boils ? 1.15 : 0.6);
@@ -183,7 +184,7 @@ static void boiling_is_found_in_a_box_that_moves(void **state)
 static void work_is_no_trouble(void **state)
 {
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     WorldDef def = dam("mueller");
     def.motions[def.motion_count] = SHAKEN;
     def.motions[def.motion_count].start = 0.1003;
@@ -231,7 +232,7 @@ static void jolts_are_counted(void **state)
 {
     static const double frames[] = {0.001, 0.004, 0.016};
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (int i = 0; i < 12; i++) {
         WorldDef def = dam(i % 4 < 3 ? "mueller" : "dfsph");
         const double start = 0.05 + 0.0007 * i, way = i % 2 ? 1 : -1;
@@ -297,7 +298,7 @@ static void open_worlds_are_watched(void **state)
 {
     static const char *const names[] = {"mueller", "wcsph", "dfsph", "pbf"};
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (int i = 0; i < OPEN_COUNT; i++)
         for (int m = 0; m < 4; m++) {
             const WorldDef def = open_world(dam(names[m]), (Open)i);
@@ -323,7 +324,7 @@ static void open_worlds_are_watched(void **state)
 static void a_ball_that_falls_brings_its_energy(void **state)
 {
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     WorldDef def = dam("mueller");
     def.fluids[0].fill_count = 0;
     fixture_block(&def, 0, -0.5, 0, -1, 0.5, 0.2, 1);
@@ -346,7 +347,7 @@ static void a_ball_that_falls_brings_its_energy(void **state)
 static void boiling_is_found_in_open_worlds(void **state)
 {
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (int i = 0; i < OPEN_COUNT; i++)
         for (int boils = 0; boils < 2; boils++) {
             const WorldDef def = open_world(viscous_tank(boils ? 1.15 : 0.6), (Open)i);
@@ -356,6 +357,32 @@ static void boiling_is_found_in_open_worlds(void **state)
             assert_int_equal(trouble_of(world).count, boils);
             world_destroy(world);
         }
+}
+
+/* Where the gauge is all there is: what it does not know is not watched, and begins anew behind a move. */
+static void gauges_watch_boxes_at_rest(void **state)
+{
+    (void)state;
+    if (fixture_on_cpu())
+        skip();
+    for (int moves = 0; moves < 2; moves++) {
+        WorldDef def = viscous_tank(0.6);
+        World *world = fixture_world(&def);
+        fixture_step(world, 60);
+        if (moves)
+            world_set_target(world, &(BoxTarget){{0.3, 0, 0}, {0, 0, 0, 1}});
+        fixture_step(world, 60);
+        assert_true((numbers_of(world).energy.until > 0) == !moves);
+        fixture_step(world, 600);
+        assert_int_equal(trouble_of(world).count, 0);
+        world_destroy(world);
+    }
+    WorldDef def = viscous_tank(0.6);
+    def.motions[def.motion_count++] = SHAKEN;
+    World *world = fixture_world(&def);
+    fixture_step(world, 5);
+    assert_true(numbers_of(world).energy.until == 0);
+    world_destroy(world);
 }
 
 static void a_finger_is_not_watched(void **state)
@@ -378,7 +405,7 @@ static void a_finger_is_not_watched(void **state)
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    fixture_needs_cpu("energy is watched on the CPU only");
+    fixture_needs_cpu("a GPU's gauge has no momenta");
     const WorldDef def = viscous_tank(1.15);
     World *straight = fixture_world(&def), *loaded = fixture_world(&def);
     WorldState saved = {.count = 0};
@@ -421,6 +448,7 @@ int main(void)
         cmocka_unit_test(open_worlds_are_watched),
         cmocka_unit_test(a_ball_that_falls_brings_its_energy),
         cmocka_unit_test(boiling_is_found_in_open_worlds),
+        cmocka_unit_test(gauges_watch_boxes_at_rest),
         cmocka_unit_test(a_finger_is_not_watched),
         cmocka_unit_test(save_load_step_is_step),
     };

@@ -318,7 +318,7 @@ void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out
 void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);
 bool compute_gauge(void *state, const double gravity[3]);
-bool compute_gauged(void *state, WorldGauge *gauge);
+bool compute_gauged(void *state, WorldGauge *gauge, bool waits);
 bool compute_save(void *state, const ParticleColumns *to);
 bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void compute_info(const void *state, WorldInfo *info);

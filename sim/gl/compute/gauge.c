@@ -33,10 +33,10 @@ bool compute_gauge(void *state, const double gravity[3])
     return true;
 }
 
-bool compute_gauged(void *state, WorldGauge *gauge)
+bool compute_gauged(void *state, WorldGauge *gauge, bool waits)
 {
     Compute *c = state;
-    const GaugePart *part = mailbox_look(&c->gauge);
+    const GaugePart *part = waits ? mailbox_wait(&c->gauge) : mailbox_look(&c->gauge);
     if (!part)
         return false;
     const double unit = c->constants->unit_volume; /* masses are over it */

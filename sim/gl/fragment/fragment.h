@@ -224,7 +224,7 @@ void fragment_share(void *state, unsigned attributes, struct ParticleBuffers *ou
 void fragment_sums(void *state, WorldSums *sums);
 bool fragment_read(void *state, const ParticleArrays *out);
 bool fragment_gauge(void *state, const double gravity[3]);
-bool fragment_gauged(void *state, WorldGauge *gauge);
+bool fragment_gauged(void *state, WorldGauge *gauge, bool waits);
 bool fragment_save(void *state, const ParticleColumns *to);
 bool fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void fragment_info(const void *state, WorldInfo *info);

@@ -48,10 +48,10 @@ bool fragment_gauge(void *state, const double gravity[3])
     return true;
 }
 
-bool fragment_gauged(void *state, WorldGauge *gauge)
+bool fragment_gauged(void *state, WorldGauge *gauge, bool waits)
 {
     Fragment *f = state;
-    const float *found = mailbox_look(&f->gauge);
+    const float *found = waits ? mailbox_wait(&f->gauge) : mailbox_look(&f->gauge);
     if (!found)
         return false;
     const double unit = f->constants->unit_volume; /* masses are over it */
