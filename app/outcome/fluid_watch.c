@@ -70,7 +70,7 @@ static OutcomeLook untold(const FluidWatch *watch, OutcomeLook look)
     if (watch->told >> OUTCOME_BOILS & 1)
         look.jump = 0;
     if (watch->told >> OUTCOME_FAST & 1)
-        look.mach = 0;
+        look.fastest = 0;
     if (watch->told >> OUTCOME_SQUEEZED & 1)
         look.pressed = 0;
     if (watch->told >> OUTCOME_CLUMPS & 1)
@@ -88,14 +88,15 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     OutcomeLook look;
     Outcome now;
     world_info(world, &info);
-    const bool fast = outcome_of_info(def, &info).mach > OUTCOME_MACH && !(watch->told >> OUTCOME_FAST & 1);
+    const OutcomeLook known = outcome_of_info(def, &info);
+    const bool fast = known.sound > 0 && known.fastest > known.sound && !(watch->told >> OUTCOME_FAST & 1);
     if (info.within_frame || (info.step < watch->next && !fast))
         return false;
     watch->next = info.step + (info.step < FLUID_WATCH_STEPS   ? FLUID_WATCH_STEPS
                                : info.step < FLUID_WATCH_LATER ? info.step
                                                                : FLUID_WATCH_LATER);
     if (world_on_gpu(def)) /* what costs no wait */
-        look = outcome_of_info(def, &info);
+        look = known;
     else if (!outcome_glance(&look, def, !watch->closed, world))
         return false; /* no memory: the next look may have it */
     else if (!watch->looked)

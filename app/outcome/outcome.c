@@ -75,9 +75,10 @@ static void judge_energy(const OutcomeHistory *history, Outcome *outcome)
 
 static void judge_motion(const OutcomeLook *look, Outcome *outcome)
 {
-    if (look->mach > OUTCOME_MACH && outcome->kind < OUTCOME_FAST) {
+    if (look->sound > 0 && look->fastest > look->sound && outcome->kind < OUTCOME_FAST) {
         find(outcome, OUTCOME_FAST, look->time);
-        snprintf(outcome->words, OUTCOME_WORDS, "a particle was %.3g times as fast as sound", look->mach);
+        snprintf(outcome->words, OUTCOME_WORDS, "a particle moves at %.4g m/s, and sound at %g m/s",
+                 look->fastest, look->sound);
     }
     if (look->jump > 1 && look->together < OUTCOME_TOGETHER && outcome->kind < OUTCOME_BOILS) {
         find(outcome, OUTCOME_BOILS, look->time);

@@ -40,12 +40,9 @@ OutcomeKind outcome_of_word(const char *word);
 /* Fluid boils where less than this part of its energy of motion is of motion together with neighbours, and
    particles jump higher than so many spacings in gravity, or are faster than so much of sound. Calm or
    splashing, scenes have a half and more. */
-#define OUTCOME_TOGETHER 0.35
+#define OUTCOME_TOGETHER 0.2
 #define OUTCOME_JUMP     0.5
 #define OUTCOME_OF_SOUND 0.05
-
-/* Fluid is too fast where a particle was faster than so many times sound, of a method that has one. */
-#define OUTCOME_MACH 1
 
 /* Fluid has lost volume where its particles are pressed by so much above rest density in the mean. Calm
    scenes have less than 0.02 with all methods. */
@@ -72,12 +69,13 @@ typedef struct OutcomeLook {
     size_t lost; /* of them, without a place in the grid */
     double pressed; /* how much of their density is above that at rest, a fraction, in the mean */
     double
-        together;  /* of the energy of motion, a fraction: that of motion with neighbours; 1 of what rests */
-    double jump;   /* how fast they move, in the mean, over what OUTCOME_JUMP and OUTCOME_OF_SOUND say */
-    double mach;   /* greatest speed of any of them so far over sound; 0 without sound */
-    bool stuck;    /* a solver of the last step ended in trouble */
-    double energy; /* of motion, place and compression, J; NaN: not known, or something does work */
-    double scale;  /* what its growth is compared with, J */
+        together;   /* of the energy of motion, a fraction: that of motion with neighbours; 1 of what rests */
+    double jump;    /* how fast they move, in the mean, over what OUTCOME_JUMP and OUTCOME_OF_SOUND say */
+    double fastest; /* greatest speed of any of them so far, m/s */
+    double sound;   /* m/s; 0 without sound */
+    bool stuck;     /* a solver of the last step ended in trouble */
+    double energy;  /* of motion, place and compression, J; NaN: not known, or something does work */
+    double scale;   /* what its growth is compared with, J */
 } OutcomeLook;
 
 enum { OUTCOME_LOOKS_MAX = 64 };

@@ -110,8 +110,8 @@ OutcomeLook outcome_of_info(const WorldDef *def, const WorldInfo *info)
     return (OutcomeLook){.time = info->time,
                          .count = info->count,
                          .together = 1,
-                         .mach =
-                             method_find(def->method)->incompressible ? 0 : info->fastest / def->sound_speed,
+                         .fastest = info->fastest,
+                         .sound = method_find(def->method)->incompressible ? 0 : def->sound_speed,
                          .energy = (double)NAN,
                          .scale = (double)NAN};
 }

@@ -73,7 +73,8 @@ typedef struct Guiding {
     ExactSum *work;
 } Guiding;
 
-/* Adds the energy that a particle of mass m gains as it takes the guide's velocity; ghosts are others'. */
+/* Adds what holding a particle to the guide's velocity takes: the impulse times that velocity, as of a wall
+   that moves. Ghosts are others'. */
 static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum *work)
 {
     const Cpu *cpu = pass->cpu;
@@ -81,9 +82,9 @@ static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum
     const float v[3] = {p->vx[i], p->vy[i], p->vz[i]};
     double gain = 0;
     for (int k = 0; k < 3; k++)
-        gain += (double)to[k] * (double)to[k] - (double)v[k] * (double)v[k];
+        gain += (double)to[k] * ((double)to[k] - (double)v[k]);
     if (cpu_owns(cpu, i))
-        exact_add(work, 0.5 * (double)cpu->constants->mass[p->fluid[i]] * gain);
+        exact_add(work, (double)cpu->constants->mass[p->fluid[i]] * gain);
     p->vx[i] = to[0], p->vy[i] = to[1], p->vz[i] = to[2];
 }
 
