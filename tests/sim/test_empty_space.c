@@ -1,6 +1,7 @@
 /* Boxes that are mostly empty: cells share places, which costs no memory and changes no bit. */
 #include "fixture.h"
 
+#include "sim/cpu/cpu.h"
 #include "sim/world/cell_fold.h"
 #include "sim/world/world_struct.h"
 
@@ -36,6 +37,16 @@ static CellFold fold_of(const WorldDef *def, size_t particles)
     return fold;
 }
 
+/* What is summed cell by cell has the same bits on ranks, which share other places: each cell's particles
+   follow each other. */
+static void check_cells_are_whole(const World *world)
+{
+    const Cpu *cpu = world->state;
+    for (size_t i = 1; i < cpu->count; i++)
+        for (size_t j = 0; j < i && cpu->cell[i] != cpu->cell[i - 1]; j++)
+            assert_int_not_equal(cpu->cell[i], cpu->cell[j]);
+}
+
 /* As after room for so many that no cells share a place. */
 static void compare(const WorldDef *def, const char *what)
 {
@@ -51,6 +62,8 @@ static void compare(const WorldDef *def, const char *what)
         fixture_step(world, fixture_count(20, 10));
         world_sums(world, &sums);
         neighbours[k] = sums.neighbours_mean;
+        if (fixture_on_cpu())
+            check_cells_are_whole(world);
         state[k] = fixture_read(world);
         world_destroy(world);
     }
@@ -76,6 +89,30 @@ static void no_bit_changes(void **state)
     def.solids[def.solid_count++] =
         (SolidDef){.kind = SOLID_SPHERE, .centre = {-3.5, 0.9, -3.5}, .radius = 0.3, .slip = SLIP_NONE};
     compare(&def, "a sphere");
+}
+
+/* Small drops all over the box, so that many cells share a place; neighbours by their ids are in several
+ * drops. */
+static void drops_change_no_bit(void **state)
+{
+    (void)state;
+    fixture_needs("shared places");
+    enum { DROPS = 25, COUNT = 8 * DROPS };
+    WorldDef def = fixture_def(8, 8, 8);
+    float x[3 * COUNT];
+    uint32_t seed = 5;
+    for (int drop = 0; drop < DROPS; drop++) {
+        double middle[3];
+        for (int k = 0; k < 3; k++)
+            middle[k] = 0.5 + 7 * fixture_random(&seed) - (k == 1 ? 0 : 4);
+        for (int i = 0; i < 8; i++)
+            for (int k = 0; k < 3; k++)
+                x[3 * (DROPS * i + drop) + k] =
+                    (float)(middle[k] + 0.08 * (i >> k & 1) + 0.01 * fixture_random(&seed));
+    }
+    const InitialState initial = {.count = COUNT, .position = x};
+    def.initial = &initial;
+    compare(&def, "drops");
 }
 
 /* A number in [1, inner], the first and the last one often. */
@@ -166,6 +203,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_bit_changes),
+        cmocka_unit_test(drops_change_no_bit),
         cmocka_unit_test(a_walk_meets_each_cell_once),
         cmocka_unit_test(empty_space_takes_no_memory),
     };
