@@ -84,7 +84,7 @@ static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum
     for (int k = 0; k < 3; k++)
         gain += (double)to[k] * ((double)to[k] - (double)v[k]);
     if (cpu_owns(cpu, i))
-        exact_add(work, (double)cpu->constants->mass[p->fluid[i]] * gain);
+        exact_add(work, constants_mass(cpu->constants, p->fluid[i]) * gain);
     p->vx[i] = to[0], p->vy[i] = to[1], p->vz[i] = to[2];
 }
 

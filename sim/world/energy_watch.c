@@ -206,7 +206,7 @@ static void sums_of_gauge(World *world, EnergySums *sums)
     if (!world_gauge_now(world, &gauge))
         return;
     for (int f = 0; f < s->fluid_count; f++)
-        m = fmax(m, (double)s->mass[f]);
+        m = fmax(m, constants_mass(s, f));
     sums->own = gauge.kinetic_energy + gauge.compression_energy;
     sums->mass = count * m;
     for (int k = 0; k < 3 && g2 > 0; k++)

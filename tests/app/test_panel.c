@@ -376,7 +376,7 @@ static void test_typed_numbers_are_accepted(void **state)
     }
     assert_true(tried > 10 && session.settings >= 2 * tried);
     assert_int_equal(session.refused, 0);
-    assert_true(session.scene.world.dt == 1);
+    assert_true(session.scene.world.dt == 100);
     session_close(&session, desk);
 }
 
