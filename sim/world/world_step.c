@@ -307,7 +307,7 @@ static void end_of_bodies(World *world)
     bodies_end(world->bodies);
 }
 
-/* Behind a step: whom does what solids and box felt in it concern. */
+/* Behind a step: what solids and box felt in it, to the watch over energy and to who asked. */
 static void tell_forces(World *world, const Substep *step)
 {
     if (!world->sums_forces || world->backend->felt)
