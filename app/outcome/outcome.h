@@ -37,9 +37,9 @@ OutcomeKind outcome_of_word(const char *word);
    all that moves, is pressed, or could come down. The scenes that gain most gain 2.2 % (docs/failures.md). */
 #define OUTCOME_GAIN 0.05
 
-/* Fluid boils where less than this part of its energy of motion is of motion together with neighbours, and
-   particles jump higher than so many spacings in gravity, or are faster than so much of sound. Calm or
-   splashing, scenes have a half and more. */
+/* Fluid in a box at rest boils where less than this part of its energy of motion is of motion together with
+   neighbours, and particles jump higher than so many spacings in gravity, or are faster than so much of
+   sound. Calm or splashing, scenes have a half and more. */
 #define OUTCOME_TOGETHER 0.2
 #define OUTCOME_JUMP     0.5
 #define OUTCOME_OF_SOUND 0.05

@@ -73,6 +73,15 @@ static double jump_of(const WorldDef *def, const Cloud *cloud)
     return cloud->count > 0 ? sqrt(sum / (double)cloud->count) / enough : 0;
 }
 
+/* Fluid that a box throws about moves in all directions too. */
+static bool is_thrown(const BoxState *box)
+{
+    double speed = 0;
+    for (int k = 0; k < 3; k++)
+        speed += fabs(box->velocity[k]) + fabs(box->angular_velocity[k]);
+    return speed > 0;
+}
+
 /* Of every `stride`-th particle whether it lies on another, and as many of all; `mass`, kg, in 2D of a
    metre's depth. */
 static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, size_t stride,
@@ -89,7 +98,7 @@ static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldIn
     }
     const bool ok =
         cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
-    look->jump = ok ? jump_of(def, &cloud) : 0;
+    look->jump = ok && !is_thrown(&info->box) ? jump_of(def, &cloud) : 0;
     const bool moves = look->jump > 1; /* else there is nothing to be found */
     for (size_t i = 0; ok && i < cloud.count; i++) {
         const double density = def->fluids[cloud.fluid[i]].density;
