@@ -23,6 +23,9 @@
     X(FRICTION_BEFORE_X, "friction_before_x", "m/s2")                                                        \
     X(FRICTION_BEFORE_Y, "friction_before_y", "m/s2")                                                        \
     X(FRICTION_BEFORE_Z, "friction_before_z", "m/s2")                                                        \
+    X(FRICTION_LEFT_X, "friction_left_x", "m/s")                                                             \
+    X(FRICTION_LEFT_Y, "friction_left_y", "m/s")                                                             \
+    X(FRICTION_LEFT_Z, "friction_left_z", "m/s")                                                             \
     X(ACCELERATION_X, "acceleration_x", "m/s2")                                                              \
     X(ACCELERATION_Y, "acceleration_y", "m/s2")                                                              \
     X(ACCELERATION_Z, "acceleration_z", "m/s2")

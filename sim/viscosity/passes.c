@@ -95,14 +95,15 @@ static void begin_one(const CpuRange *range, size_t i)
     const float *g = range->input->gravity, dt = range->input->dt,
                 m = range->cpu->constants->mass[p->fluid[i]], mu = t[MISS][i];
     const float v[3] = {p->vx[i], p->vy[i], p->vz[i]},
-                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]};
+                a[3] = {p->ax[i] + g[0], p->ay[i] + g[1], p->az[i] + g[2]}, rate = dt > 0 ? m / dt : 0;
     float d[3], force[3] = {t[RESIDUAL][i], t[RESIDUAL + 1][i], t[RESIDUAL + 2][i]}, held[3] = {0}, z[3];
     change_before(range, i, d);
     t[INERTIA][i] = inertia_of(range, i) + held_by_walls(range, i, mu, v, force);
     if (t[HELD])
         times(t + HELD, i, d, held);
     for (int k = 0; k < 3; k++) {
-        force[k] += m * a[k] - t[INERTIA][i] * d[k] - 0.5F * held[k]; /* the sums have half of it */
+        /* the sums have half of `held` */
+        force[k] += m * a[k] + rate * p->own[LEFT + k][i] - t[INERTIA][i] * d[k] - 0.5F * held[k];
         t[RESIDUAL + k][i] = force[k];
         t[CHANGE + k][i] = d[k];
         t[DIRECTION + k][i] = t[ALONG + k][i] = 0;
@@ -145,7 +146,7 @@ const Pass viscosity_begin = {
     .stage = STAGE_SOLVE,
     .cpu = &begin,
     .shader = "viscosity/begin",
-    .reads = "position velocity fluid volume viscosity acceleration friction_before",
+    .reads = "position velocity fluid volume viscosity acceleration friction_before friction_left",
     .writes = "velocity_change residual direction along product inverse held inertia miss scale",
     .mirrors = true,
 };
@@ -224,11 +225,13 @@ static void end_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const float *g = range->input->gravity, rate = range->input->dt > 0 ? 1 / range->input->dt : 0;
-    float *const a[3] = {p->ax, p->ay, p->az}, *const *before = p->own + BEFORE;
+    const Constants *s = range->cpu->constants;
+    float *const a[3] = {p->ax, p->ay, p->az}, *const *before = p->own + BEFORE, *const *left = p->own + LEFT;
     for (int k = 0; k < 3; k++)
         for (size_t i = range->begin; i < range->end && rate > 0; i++) {
             const float change = rate * p->term[CHANGE + k][i];
             before[k][i] = change - (a[k][i] + g[k]);
+            left[k][i] = p->term[RESIDUAL + k][i] * range->input->dt / s->mass[p->fluid[i]];
             a[k][i] = change - g[k];
         }
 }
@@ -240,8 +243,8 @@ const Pass viscosity_end = {
     .stage = STAGE_SOLVE,
     .cpu = &end,
     .shader = "viscosity/end",
-    .reads = "velocity_change acceleration",
-    .writes = "acceleration friction_before",
+    .reads = "fluid velocity_change residual acceleration",
+    .writes = "acceleration friction_before friction_left",
 };
 
 static bool is_implicit(const Constants *constants)
@@ -268,6 +271,8 @@ static bool by_solids(const Constants *constants)
 const ColumnDef viscosity_columns[] = {
     {"friction_before", "m/s2", .at = COLUMN_OWN(BEFORE), 3, COLUMN_FLOAT,
      .flags = COLUMN_SAVED | COLUMN_SORTED, .needed = is_named},
+    {"friction_left", "m/s", .at = COLUMN_OWN(LEFT), 3, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED,
+     .needed = is_named},
     TERM("velocity_change", "m/s", CHANGE, 3),
     TERM("residual", "N", RESIDUAL, 3),
     TERM("direction", "m/s", DIRECTION, 3),

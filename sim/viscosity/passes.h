@@ -23,14 +23,22 @@
    the friction of the step before, which is a part of the saved state, and with all else as it is now: the
    sums of the right side are then those of the residual, with v + d for v, and cost nothing more. Fluid that
    falls or creeps needs few iterations so. There is one at least: friction that is out of date in a corner of
-   the fluid, and little beside the speed of the rest, would go on pushing. */
+   the fluid, and little beside the speed of the rest, would go on pushing.
+
+   What is left of the residual is a force that the fluid was not given: the next step's right side has it
+   (`friction_left`). So what iterations leave does not add up, whatever the tolerance: momentum is out by
+   that of one step, of fluid that turns too, whose friction of the step before pulls to where the middle was
+   then; and steady flow has no part of it. */
 #ifndef SLOSH_VISCOSITY_PASSES_H
 #define SLOSH_VISCOSITY_PASSES_H
 
 #include "sim/cpu/pass.h"
 
-/* Of what goes on from step to step: what friction adds to the acceleration, m/s2: 3. */
-enum { BEFORE = COLUMNS_KEPT };
+/* Of what goes on from step to step. */
+enum {
+    BEFORE = COLUMNS_KEPT, /* what friction adds to the acceleration, m/s2: 3 */
+    LEFT = BEFORE + 3,     /* residual times dt / m, m/s: 3 */
+};
 
 /* Where its other columns stand among those of terms. */
 enum {

@@ -14,8 +14,8 @@
 struct Constants; /* sim/world/constants.h */
 struct WorldDef;  /* sim/matter/world_def.h */
 
-enum { COLUMNS_OWN = 34, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
-enum { COLUMNS_KEPT = 25, COLUMNS_LEFT = 28, COLUMNS_SHOWN = 31 }; /* of ParticleColumns.own */
+enum { COLUMNS_OWN = 37, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_KEPT = 25, COLUMNS_LEFT = 31, COLUMNS_SHOWN = 34 }; /* of ParticleColumns.own */
 
 /* All that there may be of a particle, a column each; NULL where it is not needed. */
 typedef struct ParticleColumns {

@@ -77,6 +77,12 @@ static void what_is_thrown_falls(void **state)
         ball_check_thrown(fixture_method_names[m], "compute");
 }
 
+static void what_turns_keeps_turning(void **state)
+{
+    (void)state;
+    ball_check_turn("mueller", "compute");
+}
+
 static void save_load_step_is_step(void **state)
 {
     (void)state;
@@ -108,6 +114,7 @@ int main(void)
         cmocka_unit_test_teardown(steps_are_those_of_the_cpu, no_gl_errors),
         cmocka_unit_test_teardown(a_second_at_1e5_pascal_seconds_stands, no_gl_errors),
         cmocka_unit_test_teardown(what_is_thrown_falls, no_gl_errors),
+        cmocka_unit_test_teardown(what_turns_keeps_turning, no_gl_errors),
         cmocka_unit_test_teardown(save_load_step_is_step, no_gl_errors),
         cmocka_unit_test_teardown(a_viscosity_may_come_later, no_gl_errors),
     };

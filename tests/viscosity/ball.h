@@ -81,6 +81,32 @@ static inline void ball_check_thrown(const char *method, const char *backend)
     world_destroy(world);
 }
 
+/* What turns and is thick, with the tolerance that a user gets, in a turn. Friction alone holds it
+   together: as much of it as a step takes over from the one before pulls to where the middle was then. */
+static inline void ball_check_turn(const char *method, const char *backend)
+{
+    static Ball ball;
+    WorldDef def = thick_def(method, 3, 5000);
+    ball_make(&ball, 3, 0, 5);
+    snprintf(def.backend, sizeof def.backend, "%s", backend);
+    def.initial = &ball.initial;
+    def.sound_speed = 5;
+    def.viscosity_tolerance = world_def_default().viscosity_tolerance;
+    def.dt = 0.002;
+    World *world = fixture_world(&def);
+    WorldSums before, after;
+    const int steps = (int)(2 * M_PI / 5 / def.dt);
+    world_sums(world, &before);
+    fixture_step(world, steps);
+    world_sums(world, &after);
+    const double gained = after.angular_momentum[2] / before.angular_momentum[2] - 1;
+    printf("%s: gains %.3f %% of its angular momentum a turn; %.0f iterations\n", method, 100 * gained,
+           world->solves[SOLVE_VISCOSITY].iterations);
+    assert_float_equal(gained, 0, 0.001);
+    assert_true(after.kinetic_energy < before.kinetic_energy);
+    world_destroy(world);
+}
+
 /* Three steps of 1 s with 1e5 Pa s: what moves at random loses its energy; momenta stay, as far as the digits
    of friction, some 1e4 times inertia, let them. */
 static inline void ball_check_long_step(const char *method, const char *backend)

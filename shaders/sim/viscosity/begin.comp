@@ -16,11 +16,12 @@ layout(location = PASS_DT_AT) uniform float dt;
 
 #define ENDLESS 1e18 // m in a step of no time: nothing changes
 
+vec3 own_column_of(uint at, uint i) { return vec3(own[at + i], own[at + OWN_STRIDE + i], own[at + 2u * OWN_STRIDE + i]); }
+
 // What the velocity changes by where friction is that of the step before: where the iterations begin.
 vec3 change_before(uint j)
 {
-    uint at = OWN_viscosity_friction_before + j;
-    return dt * (acceleration[j].xyz + kick_gravity + vec3(own[at], own[OWN_STRIDE + at], own[2u * OWN_STRIDE + at]));
+    return dt * (acceleration[j].xyz + kick_gravity + own_column_of(OWN_viscosity_friction_before, j));
 }
 
 // Explicit friction, with that change; the sums of all blocks, and of those of solids twice: xx yy zz, xy yz zx.
@@ -112,6 +113,8 @@ void main()
     friction *= scale;
     float inertia = (dt > 0.0 ? m / dt : ENDLESS * m) + held_by_walls(place.xyz, place.w, v);
     vec3 a = acceleration[i].xyz + kick_gravity, residual = friction + m * a - inertia * change;
+    if (dt > 0.0)
+        residual += m / dt * own_column_of(OWN_viscosity_friction_left, i);
     diagonal = scale * (diagonal + 0.5 * held_diagonal) + inertia; // the sum has those of solids once
     mixed = scale * (mixed + 0.5 * held_mixed);
 #ifdef SOLIDS
