@@ -4,6 +4,7 @@
 #define PLACES near
 #include "sim/walk.glsl"
 #include "sim/pair_direction.glsl"
+#include "sim/pair_viscosity.glsl"
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: p V^2
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #ifndef SEEN_VELOCITY // what pairs see of each other

@@ -16,6 +16,18 @@
     PairLoop PAIR_NAME(name);                                                                                \
     void PAIR_NAME(name)(const PairArgs *args, size_t begin, size_t end)
 
+/* Of two viscosities: pair_viscosity of sim/matter/viscosity.h. */
+SIMD_INLINE f8 harmonic(f8 a, f8 b)
+{
+    return f8_splat(4) * a * b / greater(a + b, f8_splat(1e-30F));
+}
+
+/* That of a pair; of one fluid without a division. */
+SIMD_INLINE f8 pair_viscosities(const PairArgs *args, f8 mi, const uint32_t *j)
+{
+    return args->viscosity ? harmonic(mi, f8_gather(args->viscosity, j)) : mi + mi;
+}
+
 static uint32_t folded_id(ParticleId id)
 {
     return (uint32_t)(id ^ id >> 32);

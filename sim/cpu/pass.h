@@ -4,6 +4,7 @@
 #define SLOSH_CPU_PASS_H
 
 #include "sim/cpu/cpu.h"
+#include "sim/matter/viscosity.h"
 #include "sim/world/method.h"
 #include "sim/world/micro.h"
 
@@ -61,11 +62,12 @@ static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, doubl
     return (float)(-scale * s->unit_volume * kernel->derivative(r, (double)s->support_radius) / r);
 }
 
-/* The sum of both viscosities of a pair, Pa s, where forces have friction. */
+/* pair_viscosity of sim/matter/viscosity.h, Pa s, where forces have friction. */
 static inline float cpu_pair_viscosity(const SolidPair *pair)
 {
     const float *viscosity = pair->cpu->now.viscosity;
-    return viscosity ? viscosity[pair->i] + viscosity[pair->b] : 2 * pair->cpu->constants->viscosity[0];
+    return viscosity ? (float)pair_viscosity((double)viscosity[pair->i], (double)viscosity[pair->b])
+                     : 2 * pair->cpu->constants->viscosity[0];
 }
 
 /* Forces as sums over pairs and walls become accelerations, surface tension among them. */

@@ -142,14 +142,12 @@ SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near ne
                              float nearest, Place *sum)
 {
     const Constants *s = args->constants;
-    const f8 inverse_h = f8_splat(1 / s->support_radius), same = f8_splat(s->viscosity[0]),
-             least = f8_splat(nearest);
+    const f8 inverse_h = f8_splat(1 / s->support_radius), least = f8_splat(nearest);
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
         const f8 q = f8_sqrt(d.r2) * inverse_h, apart = f8_select(q > least, q, least);
         const f8x4 v = motion(args, j);
-        const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : same;
-        const f8 drag = vi.w * v.w * (mi + mj) * shape(apart, INCOMPRESSIBLE_KERNEL);
+        const f8 drag = vi.w * v.w * pair_viscosities(args, mi, j) * shape(apart, INCOMPRESSIBLE_KERNEL);
         sum->x += drag * (v.x - vi.x), sum->y += drag * (v.y - vi.y), sum->z += drag * (v.z - vi.z);
     }
 }

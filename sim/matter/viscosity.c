@@ -22,6 +22,11 @@ const ViscosityKind viscosity_solvers[] = {
     [VISCOSITY_IMPLICIT + 1] = {0},
 };
 
+double pair_viscosity(double a, double b)
+{
+    return a + b > 0 ? 4 * a * b / (a + b) : 0;
+}
+
 enum { REACH = 4, SITES = (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1), WAVES = 8 };
 
 /* Half of the neighbours, since a site and its mirror image weigh the same. */

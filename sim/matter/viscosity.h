@@ -20,6 +20,13 @@
 
 typedef enum ViscosityForm { VISCOSITY_MORRIS, VISCOSITY_RADIAL } ViscosityForm;
 
+/* What stands for mu_i + mu_j in both: twice the harmonic mean, after P. W. Cleary, J. J. Monaghan,
+   "Conduction modelling using smoothed particle hydrodynamics", 1999, eq. 26, so that two layers have one
+   shear stress and the kink of their speeds lies between them. With the mean the thin one would be thick as
+   far as the kernel reaches. Of equal ones their sum; 0 where one has none: along an inviscid fluid all
+   slips. Pa s. */
+double pair_viscosity(double a, double b);
+
 /* How a step takes friction (solver.viscosity): by the velocities at its begin, or at its end. */
 typedef enum ViscositySolver { VISCOSITY_EXPLICIT, VISCOSITY_IMPLICIT } ViscositySolver;
 

@@ -99,7 +99,7 @@ SIMD_INLINE Place force_of(const PairArgs *args, size_t i, const Images *images,
             const f8x4 v = motion(args, j);
             f8 drag = drag_scale * t * v.w;
             if (many)
-                drag *= mi + f8_gather(args->viscosity, j);
+                drag *= pair_viscosities(args, mi, j);
             sum.x += drag * (v.x - ui);
             sum.y += drag * (v.y - vi);
             sum.z += drag * (v.z - wi);

@@ -7,10 +7,11 @@
 #include "sim/viscosity/passes.h"
 
 /* F R (mu_i + mu_j) V_j of a pair. */
-SIMD_INLINE f8 weight(const Constants *s, Separation d, f8 mi, f8 volume, const ShapeKernel kernel)
+SIMD_INLINE f8 weight(const PairArgs *args, Separation d, f8 mi, f8 volume, const ShapeKernel kernel)
 {
-    const f8 q = f8_sqrt(d.r2) * f8_splat(1 / s->support_radius);
-    return (mi + d.term) * volume * shape(greater(q, f8_splat(1e-6F)), kernel);
+    const f8 q = f8_sqrt(d.r2) * f8_splat(1 / args->constants->support_radius);
+    return (args->viscosity ? harmonic(mi, d.term) : mi + mi) * volume *
+           shape(greater(q, f8_splat(1e-6F)), kernel);
 }
 
 /* A symmetric matrix. */
@@ -84,11 +85,10 @@ SIMD_INLINE Begun nothing_begun(void)
 SIMD_INLINE void begin_of(const PairArgs *args, const Place at, const Near near, f8 mi, f8x4 vi,
                           const ShapeKernel kernel, const bool solids, Begun *sum)
 {
-    const Constants *s = args->constants;
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
         const f8x4 v = motion(args, j);
-        const f8 c = weight(s, d, mi, solids ? greater(v.w, -v.w) : v.w, kernel);
+        const f8 c = weight(args, d, mi, solids ? greater(v.w, -v.w) : v.w, kernel);
         const f8 pull = c * ((v.x - vi.x) * d.x + (v.y - vi.y) * d.y + (v.z - vi.z) * d.z);
         sum->force.x += pull * d.x, sum->force.y += pull * d.y, sum->force.z += pull * d.z;
         block_add(&sum->all, c, d);
@@ -137,8 +137,8 @@ SIMD_INLINE void product_of(const PairArgs *args, const Place at, const Near nea
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, at, j);
         const f8x4 v = motion(args, j);
-        const f8 pull = weight(args->constants, d, mi, v.w, kernel) *
-                        ((z.x - v.x) * d.x + (z.y - v.y) * d.y + (z.z - v.z) * d.z);
+        const f8 pull =
+            weight(args, d, mi, v.w, kernel) * ((z.x - v.x) * d.x + (z.y - v.y) * d.y + (z.z - v.z) * d.z);
         sum->x += pull * d.x, sum->y += pull * d.y, sum->z += pull * d.z;
     }
 }

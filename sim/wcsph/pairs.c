@@ -90,12 +90,6 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     }
 }
 
-/* What has no column is the same for all. */
-SIMD_INLINE f8 of_each(const float *column, f8 same, const uint32_t *j)
-{
-    return column ? f8_gather(column, j) : same;
-}
-
 /* a_i + a_j of a pair; none between two fluids of other density that both have it: they slide along each
    other, since what damps numbers would hold waves between them back. Solids, and fluids with a viscosity,
    have 0. */
@@ -148,10 +142,9 @@ SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, con
                 const f8x4 v = motion(args, j);
                 const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi, both = volume * lesser(v.w, most);
                 if (viscous && radial)
-                    push += both * (mi + of_each(args->viscosity, mi, j)) * scale *
-                            (ux * d.x + uy * d.y + uz * d.z);
+                    push += both * pair_viscosities(args, mi, j) * scale * (ux * d.x + uy * d.y + uz * d.z);
                 else if (viscous) {
-                    const f8 drag = f * both * (mi + of_each(args->viscosity, mi, j));
+                    const f8 drag = f * both * pair_viscosities(args, mi, j);
                     fx += drag * ux;
                     fy += drag * uy;
                     fz += drag * uz;

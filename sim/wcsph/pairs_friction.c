@@ -16,11 +16,6 @@ SIMD_INLINE f8 half_there(const PairArgs *args, const uint32_t *j)
     return half_of(f8_gather(c[0], j), f8_gather(c[1], j), f8_gather(c[2], j), args->constants->dimensions);
 }
 
-SIMD_INLINE f8 viscosity_there(const PairArgs *args, const uint32_t *j)
-{
-    return args->viscosity ? f8_gather(args->viscosity, j) : f8_splat(args->constants->viscosity[0]);
-}
-
 SIMD_INLINE void friction_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
@@ -45,7 +40,7 @@ SIMD_INLINE void friction_range(const PairArgs *args, size_t begin, size_t end, 
             const f8 f = f8_masked(fluid, shape(f8_sqrt(d.r2) * inverse_h, kernel));
             const f8x4 other = motion(args, j);
             const f8 along = (other.x - u) * d.x + (other.y - v) * d.y + (other.z - z) * d.z;
-            const f8 push = f * volume * lesser(other.w, most) * (mu + viscosity_there(args, j)) *
+            const f8 push = f * volume * lesser(other.w, most) * pair_viscosities(args, mu, j) *
                             (half + half_there(args, j)) * along;
             sum.x += push * d.x, sum.y += push * d.y, sum.z += push * d.z;
         }

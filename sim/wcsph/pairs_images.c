@@ -66,9 +66,8 @@ SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const Near near, cons
     NEIGHBOURS (near, j) {
         const Separation d = separation(args, image->at, j);
         const f8x4 v = motion(args, j);
-        const f8 mj = args->viscosity ? f8_gather(args->viscosity, j) : mi;
-        const f8 rub =
-            shape(greater(f8_sqrt(d.r2) * inverse_h, least), kernel) * volume * lesser(v.w, most) * (mi + mj);
+        const f8 rub = shape(greater(f8_sqrt(d.r2) * inverse_h, least), kernel) * volume * lesser(v.w, most) *
+                       pair_viscosities(args, mi, j);
         const f8 ux = v.x - ui, uy = v.y - vi, uz = v.z - wi;
         const f8 along = rub * scale * (ux * d.x + uy * d.y + uz * d.z);
         sum->fx += radial ? along * d.x : rub * ux;

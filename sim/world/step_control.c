@@ -51,14 +51,15 @@ StepFriction step_friction(const WorldDef *def)
     return method->friction ? method->friction(def, &lattice) : (StepFriction){0};
 }
 
-/* A light particle between those of the most viscous fluid. */
+/* A particle between those of the most viscous fluid. */
 static double greatest_kinematic_viscosity(const WorldDef *def, const StepFriction *friction)
 {
     double greatest = 0, most = 0;
     for (int f = 0; f < def->fluid_count; f++)
         most = fmax(most, step_viscosity(def, friction, f));
     for (int f = 0; f < def->fluid_count; f++)
-        greatest = fmax(greatest, 0.5 * (step_viscosity(def, friction, f) + most) / def->fluids[f].density);
+        greatest = fmax(greatest, 0.5 * pair_viscosity(step_viscosity(def, friction, f), most) /
+                                      def->fluids[f].density);
     return greatest;
 }
 

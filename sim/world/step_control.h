@@ -107,8 +107,8 @@ double step_alpha(const WorldDef *def, double alpha, int f);
 double step_viscosity(const WorldDef *def, const StepFriction *friction, int f);
 
 /* The longest step that friction stands on the lattice at rest, s: what is longer makes differences of
-   velocity grow. With the def's present viscosities; of a pair of fluids their mean counts, over the lighter
-   one's density. INFINITY without friction. */
+   velocity grow. With the def's present viscosities; of a pair of fluids half of pair_viscosity counts, over
+   the lighter one's density. INFINITY without friction. */
 double step_viscous(const WorldDef *def, const StepFriction *friction);
 
 /* The longest step that sound stands, in h / c: 2 / omega of its stiffest wave on the lattice, 2.0 to 2.6 c /

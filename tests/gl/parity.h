@@ -43,7 +43,7 @@ static inline double pair_terms(const Constants *s, const State *state, size_t i
                  gradient = -s->lattice.gradient_scale * s->lattice.pressure_kernel->derivative(r, h);
     const uint32_t fi = state->fluid[i], fj = state->fluid[j];
     const double vi = (double)state->position[4 * i + 3], vj = (double)state->position[4 * j + 3];
-    const double mu = (double)(s->viscosity[fi] + s->viscosity[fj]);
+    const double mu = pair_viscosity((double)s->viscosity[fi], (double)s->viscosity[fj]);
     const bool carries = s->method->carries_density, morris = s->friction.walls != DRAG_LAPLACIAN;
     const WcsphBlock *wcsph = wcsph_constants(s);
     const double radial = carries ? (double)wcsph->radial_friction : 0;

@@ -3,6 +3,7 @@
 #include "fixture.h"
 
 #include "sim/kernel/lattice.h"
+#include "sim/matter/viscosity.h"
 #include "sim/mueller/mueller.h"
 
 enum { COUNT = 900 };
@@ -88,7 +89,7 @@ static void brute_accelerations(const WorldDef *def, const Cloud *cloud, Referen
             const double push =
                 -lattice.gradient_scale * kernel_spiky_derivative(q, h) * (r->term[i] + r->term[j]);
             const double drag = lattice.laplacian_scale * kernel_viscosity_laplacian(q, h) * 0.5 *
-                                (fi->viscosity + fj->viscosity) / (r->n[i] * r->n[j]);
+                                pair_viscosity(fi->viscosity, fj->viscosity) / (r->n[i] * r->n[j]);
             r->scale[i] += (fabs(push) + drag) / mass;
             for (int k = 0; k < 3; k++)
                 force[k] += push * d[k] / q + drag * (cloud->v[3 * j + k] - cloud->v[3 * i + k]);

@@ -50,7 +50,8 @@ static void each_limit_binds(void **state)
         assert_non_null(step_limit_name((StepLimit)i));
 }
 
-/* Of a pair of fluids the mean viscosity over the lighter density; what has none in wcsph, alpha c h / 4. */
+/* Of a pair of fluids the harmonic mean of viscosities over the lighter density; what has none in wcsph,
+ * alpha c h / 4. */
 static void friction_of_several_fluids(void **state)
 {
     (void)state;
@@ -61,9 +62,9 @@ static void friction_of_several_fluids(void **state)
     def.fluid_count = 2;
     def.fluids[0] = (FluidDef){.density = 10, .viscosity = 2};
     def.fluids[1] = (FluidDef){.density = 1000, .viscosity = 30};
-    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 1.6)) < 1e-12);
+    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 0.375)) < 1e-12);
     def.fluids[0].viscosity = 0;
-    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 1.5)) < 1e-12);
+    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 0.03)) < 1e-12);
     friction.alpha = 1;
     def.sound_speed = 100; /* alpha c h / 4 = 5.25 m2/s */
     assert_true(fabs(step_viscous(&def, &friction) - 2 / (50 * 5.25)) < 1e-12);
@@ -75,9 +76,9 @@ static void friction_of_several_fluids(void **state)
     def.fluids[0].viscosity_table.value[0] = 11;
     assert_true(isinf(step_viscous(&def, &friction))); /* none of alpha is left */
     def.fluid_count = 2;
-    friction.numerical = 1; /* 1.05 m2/s in both */
+    friction = (StepFriction){.laminar = 100, .numerical = 1}; /* 1.05 m2/s in both */
     def.fluids[1].viscosity = 0;
-    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 0.5 * (10.5 + 1050) / 10)) < 1e-12);
+    assert_true(fabs(step_viscous(&def, &friction) - 2 / (100 * 2 * 10.5 * 1050 / 1060.5 / 10)) < 1e-12);
 }
 
 static WorldInfo info_of(const World *world)
@@ -203,12 +204,13 @@ static double energy_left(const Stirred *s, double share)
     WorldSums before, after;
     fixture_step(world, s->alpha > 0 ? 0 : 60);
     const StepFriction friction = step_friction(&def);
-    def.fluids[0].viscosity = s->alpha > 0 ? 0 : 1;
+    for (int f = 0; f < def.fluid_count; f++)
+        def.fluids[f].viscosity = s->alpha > 0 ? 0 : 1;
     def.dt *= 0.5;
     if (s->alpha > 0) /* c, and alpha with it, cannot be had small */
         def.dt = share * step_viscous(&def, &friction);
     else
-        def.fluids[0].viscosity = share * step_viscous(&def, &friction) / def.dt;
+        def.fluids[0].viscosity = def.fluids[1].viscosity = share * step_viscous(&def, &friction) / def.dt;
     world_sums(world, &before);
     bool good = world_change(world, &def, &error);
     for (int i = 0; i < 200 && good; i++)

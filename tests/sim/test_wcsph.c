@@ -213,7 +213,7 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
             const double aj = fj->viscosity > 0 ? 0 : 0.5 * alpha * def->sound_speed * r->h / 2 * fj->density;
             const double damping = both * (ai + aj) * dot(v, x) / (d * d + r->h * r->h / 400);
             for (int k = 0; k < 3; k++) {
-                const double friction = both * (fi->viscosity + fj->viscosity);
+                const double friction = both * pair_viscosity(fi->viscosity, fj->viscosity);
                 const double drag =
                     friction * (wcsph_def(def)->viscosity_form ? r->radial * dot(v, x) * x[k] : v[k]);
                 force[k] += f * ((push - damping) * x[k] - drag);
@@ -229,10 +229,10 @@ static void reference_force(const WorldDef *def, const Cloud *cloud, Reference *
                                     (1 - w) * pressure[j] * volume[j] * volume[j];
                 const double nearest = wcsph_def(def)->viscosity_form ? 1e-6 * r->h : 0.5 * def->spacing;
                 const double d = fmax(sqrt(dot(x, x)), nearest);
-                const double rub = f == 0 ? 0
-                                          : -r->gradient * r->kernel->derivative(d, r->h) / d * volume[i] *
-                                                volume[j] *
-                                                (fi->viscosity + def->fluids[cloud->fluid[j]].viscosity);
+                const double rub =
+                    f == 0 ? 0
+                           : -r->gradient * r->kernel->derivative(d, r->h) / d * volume[i] * volume[j] *
+                                 pair_viscosity(fi->viscosity, def->fluids[cloud->fluid[j]].viscosity);
                 for (int k = 0; k < 3; k++) {
                     const double drag =
                         rub * (wcsph_def(def)->viscosity_form ? r->radial * dot(v, x) * x[k] : v[k]);
@@ -563,7 +563,7 @@ static void any_threads_give_the_same_bits(void **state)
     }
     assert_true(hash[0] == hash[1] && hash[0] == hash[2]);
     /* On x86-64 with any instruction set; what this build gave when sums equalled brute force. */
-    if (hash[0] != 0x579eff94dd079590ULL)
+    if (hash[0] != 0x1afec13a916b2a63ULL)
         fail_msg("the bits have changed: hash %016llx", (unsigned long long)hash[0]);
 }
 

@@ -13,7 +13,7 @@ vec3 pair_force(Side one, Side other, vec3 d, float r2)
 {
 #ifdef RUBS
     float f = FRICTION * shape(sqrt(r2) * inverse_support);
-    return f * one.volume * other.volume * (one.viscosity + other.viscosity) * (other.v - one.v);
+    return f * one.volume * other.volume * pair_viscosity(one.viscosity, other.viscosity) * (other.v - one.v);
 #else
     return vec3(0);
 #endif

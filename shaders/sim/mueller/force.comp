@@ -21,7 +21,7 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     vec3 force = push_of(own.pressure + other.pressure, r) * d;
 #ifdef RUBS
     float t = 1.0 - r * inverse_support;
-    force += 0.5 * viscosity_scale * own.volume * t * other.volume * (own.viscosity + other.viscosity) * (other.v - own.v);
+    force += 0.5 * viscosity_scale * own.volume * t * other.volume * pair_viscosity(own.viscosity, other.viscosity) * (other.v - own.v);
 #endif
     return force;
 }

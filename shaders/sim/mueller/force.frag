@@ -4,6 +4,7 @@
 #include "sim/wall_lift.glsl"
 #include "sim/wall_cushion.glsl"
 #include "sim/pair_direction.glsl"
+#include "sim/pair_viscosity.glsl"
 uniform sampler2D fields, near, moving; // of density.frag
 uniform vec3 felt_origin, felt_alpha, felt_omega; // apparent gravity
 uniform float dt;
@@ -49,7 +50,7 @@ void meet(int j)
 #ifdef VISCOUS
     vec4 its = of_particle(moving, j);
 #if FLUIDS > 1
-    float mu = viscosity + fluid_of(of_particle(velocity, j).w).viscosity;
+    float mu = pair_viscosity(viscosity, fluid_of(of_particle(velocity, j).w).viscosity);
 #else
     float mu = 2.0 * viscosity;
 #endif

@@ -16,6 +16,7 @@
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3
 #include "sim/walk.glsl"
 #include "sim/scratch.glsl"
+#include "sim/pair_viscosity.glsl"
 
 float own_viscosity;
 
@@ -23,5 +24,5 @@ float own_viscosity;
 float weight(vec3 d, float viscosity, float volume)
 {
     float q2 = dot(d, d) * (inverse_support * inverse_support);
-    return q2 < 1.0 ? (own_viscosity + viscosity) * volume * shape(max(sqrt(q2), 1e-6)) : 0.0;
+    return q2 < 1.0 ? pair_viscosity(own_viscosity, viscosity) * volume * shape(max(sqrt(q2), 1e-6)) : 0.0;
 }

@@ -46,7 +46,7 @@ vec3 more_friction(uint j, vec3 d, float f, float term)
 {
     Side other = side_of(j, term);
     float both = volume_felt(self_side.volume) * volume_felt(other.volume);
-    return f * radial_friction * both * (self_side.viscosity + other.viscosity) *
+    return f * radial_friction * both * pair_viscosity(self_side.viscosity, other.viscosity) *
            (half_missing(self) + half_missing(j)) * dot(other.v - self_side.v, d) * d;
 }
 
@@ -73,9 +73,9 @@ float extra_of(uint fluid) { return wcsph_fluids[fluid].artificial_viscosity; }
 vec3 rub(Side own, Side other, vec3 d, float f)
 {
 #if defined RUBS && defined RADIAL
-    return f * volume_felt(own.volume) * volume_felt(other.volume) * (own.viscosity + other.viscosity) * radial_friction * dot(other.v - own.v, d) * d;
+    return f * volume_felt(own.volume) * volume_felt(other.volume) * pair_viscosity(own.viscosity, other.viscosity) * radial_friction * dot(other.v - own.v, d) * d;
 #elif defined RUBS
-    return f * volume_felt(own.volume) * volume_felt(other.volume) * (own.viscosity + other.viscosity) * (other.v - own.v);
+    return f * volume_felt(own.volume) * volume_felt(other.volume) * pair_viscosity(own.viscosity, other.viscosity) * (other.v - own.v);
 #else
     return vec3(0);
 #endif

@@ -1,0 +1,9 @@
+// Of a pair: pair_viscosity of sim/matter/viscosity.h. Of one fluid's pairs it is what both have.
+float pair_viscosity(float a, float b)
+{
+#ifdef ONE_FLUID
+    return a + b;
+#else
+    return a + b > 0.0 ? 4.0 * a * b / (a + b) : 0.0;
+#endif
+}
