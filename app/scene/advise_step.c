@@ -1,4 +1,4 @@
-/* Whether the step fits what a scene asks for: friction and sound, by sim/world/step_control.h. */
+/* Whether the step fits what a scene asks for: friction, sound and tension, by sim/world/step_control.h. */
 #include "app/scene/advise_parts.h"
 #include "sim/matter/fall.h"
 #include "sim/matter/fill.h"
@@ -61,6 +61,12 @@ void advise_step(const Tree *tree, const Scene *scene, Notes *notes)
             "boils; use %g substeps or more",
             1e3 * step, greatest_fall(&def), 1e3 * step_pressure(&def),
             substeps_for(&def, step_pressure(&def)));
+    else if (def.step_mode == STEP_FIXED && step > step_tension(&def) * (1 + 1e-9))
+        advise(
+            tree, "solver.step.dt", notes,
+            "the step of %.3g ms is too long for surface tension, whose shortest waves stand %.3g ms: drops boil; use "
+            "%g substeps or more",
+            1e3 * step, 1e3 * step_tension(&def), substeps_for(&def, step_tension(&def)));
     else if (def.step_mode == STEP_FIXED)
         advise_viscous(tree, &def, &friction, notes);
 }

@@ -1,6 +1,7 @@
 #include "sim/world/step_control.h"
 
 #include "sim/matter/fall.h"
+#include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
 #include "sim/world/method.h"
 
@@ -178,6 +179,15 @@ double step_pressure(const WorldDef *def)
     return still * (damped + sqrt(damped * damped + 1));
 }
 
+double step_tension(const WorldDef *def)
+{
+    double rate = 0; /* sigma / rho */
+    for (int f = 0; f < def->fluid_count && def->tension_model != TENSION_NONE; f++)
+        rate = fmax(rate, def->fluids[f].surface_tension / def->fluids[f].density);
+    const double a = def->spacing;
+    return rate > 0 ? STEP_TENSION_STANDS * sqrt(a * a * a / (2 * M_PI * rate)) : INFINITY;
+}
+
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
                 double before, StepLimit *binding)
 {
@@ -194,6 +204,7 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
         [STEP_LIMIT_MAX_DT] = def->max_dt,
         [STEP_LIMIT_GROWTH] = before > 0 ? GROWTH * before : FIRST * fmin(courant, def->max_dt),
         [STEP_LIMIT_PRESSURE] = step_pressure(def),
+        [STEP_LIMIT_TENSION] = step_tension(def),
     };
     *binding = STEP_LIMIT_DT;
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)

@@ -37,6 +37,10 @@ static const struct Case {
      "too long for solver.artificial_viscosity 1:"},
     /* sound: h / c = 10.5 ms */
     {{"solver.step={dt: 0.01, substeps: 1}"}, "too long for sound at 20 m/s"},
+    /* tension: half of sqrt(0.1^3 / (2 pi)) = 6.31 ms */
+    {{"solver.step={dt: 0.0064, substeps: 1}", "solver.surface_tension=cohesion",
+      "fluids[0].surface_tension=1000", "solver.method=wcsph"},
+     "too long for surface tension, whose shortest waves stand 6.31 ms: drops boil; use 2 substeps or more"},
     {{"solver.step={dt: 0.0055, substeps: 1}", "solver.numerical_viscosity=0"},
      "steps of 0.52 h / sound_speed heat fluid"},
     {{"solver.step={dt: 0.0055, substeps: 1}"}, NULL},

@@ -2,6 +2,7 @@
    with the last good state. */
 #include "fixture.h"
 
+#include "sim/matter/tension.h"
 #include "sim/wcsph/wcsph.h"
 #include "sim/world/constants.h"
 #include "sim/world/step_control.h"
@@ -48,6 +49,30 @@ static void each_limit_binds(void **state)
     assert_true(step_cfl(&def, &friction, 0, 0, 1, &limit) == 1);
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)
         assert_non_null(step_limit_name((StepLimit)i));
+}
+
+/* A wave of two spacings: omega^2 = sigma k^3 / rho, k = pi / spacing; an explicit step stands 2 / omega. */
+static void tension_bounds_a_step(void **state)
+{
+    (void)state;
+    WorldDef def = fixture_def(1, 1, 1);
+    const StepFriction none = {0};
+    StepLimit limit;
+    const double wave = 2 / sqrt(0.072 * pow(M_PI / def.spacing, 3) / 1000);
+    def.max_dt = 1000;
+    def.sound_speed = 1e-9;
+    def.fluids[0].surface_tension = 0.072;
+    assert_true(isinf(step_tension(&def)));
+    for (int model = TENSION_COLOUR_FIELD; model <= TENSION_CURVATURE; model++) {
+        def.tension_model = model;
+        assert_true(step_tension(&def) > 0.5 * wave && step_tension(&def) < 0.6 * wave);
+        assert_true(step_cfl(&def, &none, 0, 0, 1000, &limit) == step_tension(&def));
+        assert_int_equal(limit, STEP_LIMIT_TENSION);
+    }
+    def.fluid_count = 2;
+    def.fluids[1] = def.fluids[0];
+    def.fluids[1].density = 250;
+    assert_float_equal(step_tension(&def), 0.5 * 0.56 * wave, 0.005 * wave);
 }
 
 /* Of a pair of fluids the harmonic mean of viscosities over the lighter density; what has none in wcsph,
@@ -522,6 +547,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_limit_binds),
+        cmocka_unit_test(tension_bounds_a_step),
         cmocka_unit_test(friction_of_several_fluids),
         cmocka_unit_test(light_fluid_rests_upon_heavy),
         cmocka_unit_test(friction_stands_the_step_that_it_names),
