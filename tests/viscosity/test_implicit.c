@@ -246,10 +246,11 @@ static double coupling(const World *world, const Lattice *lattice, size_t i, siz
         r2 += d[k] * d[k];
     }
     const double r = sqrt(r2);
-    return r > 0 && r < h ? -lattice->gradient_scale * lattice->pressure_kernel->derivative(r, h) / r *
-                                lattice->radial_scale * world->constants.unit_volume * (double)p->volume[i] *
-                                (double)p->volume[j] * pair_viscosity(viscosity_of(cpu, i), viscosity_of(cpu, j))
-                          : 0;
+    return r > 0 && r < h
+               ? -lattice->gradient_scale * lattice->pressure_kernel->derivative(r, h) / r *
+                     lattice->radial_scale * world->constants.unit_volume * (double)p->volume[i] *
+                     (double)p->volume[j] * pair_viscosity(viscosity_of(cpu, i), viscosity_of(cpu, j))
+               : 0;
 }
 
 static void dense_fill(const World *world, const Lattice *lattice, Dense *dense)
