@@ -127,7 +127,7 @@ double step_pressure(const WorldDef *def);
 
 /* The longest step that follows surface tension, s: J. U. Brackbill, D. B. Kothe, C. Zemach, "A continuum
    method for modeling surface tension", 1992, eq. 61, of the fluid that binds it most; a wave of two spacings
-   stands 1.8 times as much, and a drop with cohesion and dfsph 1.3 to 2.7. INFINITY without tension. */
+   stands 1.8 times as much, and a drop with cohesion without sound 1.3 to 2.7. INFINITY without tension. */
 double step_tension(const WorldDef *def);
 #define STEP_TENSION_STANDS 0.5
 

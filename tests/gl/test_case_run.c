@@ -33,7 +33,7 @@ static void samples_are_of_sound_states(void **state)
     Error error = {{0}};
     Progress progress;
     SceneSettings settings = {
-        .count = 2, .set = {"solver.backend=compute", "solver.step={mode: fixed, dt: 0.0003, substeps: 1}"}};
+        .count = 2, .set = {"solver.backend=compute", "solver.step.number=1.8"}};
     Case often = *case_find("elliptical_drop", &error);
     often.every = 1e-6; /* after each step */
     const CaseSetup setup = {.of = &often, .level = CASE_COARSE, .method = "wcsph", .settings = &settings};
@@ -42,7 +42,7 @@ static void samples_are_of_sound_states(void **state)
         fail_msg("%s", error.message);
     const Curve *axis = &result.run.column[0];
     const WorldTrouble *trouble = &result.run.info.trouble;
-    assert_true(trouble->count > 0 && axis->count > 100);
+    assert_true(trouble->count > 0 && axis->count > 50);
     for (size_t i = 1; i < axis->count; i++) {
         const double *was = axis->at[i - 1], *is = axis->at[i];
         const double rate = fabs(is[1] - was[1]) / (is[0] - was[0]);
