@@ -90,7 +90,7 @@ void cpu_copies_drop(Cpu *cpu)
 /* In the order of the particles of which they are. */
 static void place_copies(Cpu *cpu)
 {
-    Shown across;
+    Shown across = {.count = 0};
     uint32_t last = UINT32_MAX;
     for (size_t i = 0; i < cpu->count; i++) {
         if (cpu->cell[i] != last)

@@ -72,8 +72,9 @@ static double bare_sides(const Cpu *cpu, size_t i)
     const uint32_t cell = cpu->cell[i], *start = cpu->cell_start;
     const uint32_t step[3] = {1, (uint32_t)s->cells.size[0], (uint32_t)(s->cells.size[0] * s->cells.size[1])};
     int bare = 0;
-    for (int k = 0; k < s->dimensions && cell < s->cells.count; k++) {
-        const uint32_t low = cell - step[k], high = cell + step[k];
+    for (int k = 0; k < 3 && k < s->dimensions && cell < s->cells.count; k++) {
+        const uint32_t low = cell_fold_of(&cpu->fold, &s->cells, cell - step[k]),
+                       high = cell_fold_of(&cpu->fold, &s->cells, cell + step[k]);
         bare += (start[low + 1] == start[low]) + (start[high + 1] == start[high]);
     }
     return bare * pow((double)s->support_radius, s->dimensions - 1);

@@ -45,8 +45,8 @@ static bool rows_spread(const Constants *s, CellFold *fold, uint32_t places)
     fold->mask = places - 1;
     fold->count = (size_t)places + (size_t)s->cells.size[0];
     for (uint32_t aside = 0; aside < 32; aside++) {
-        fold->y = (uint32_t)(0.7548776662466927 * places + 2 * (aside % 8)) | 1;
-        fold->z = (uint32_t)(0.5698402909980532 * places + 2 * (aside / 8)) | 1;
+        fold->y = ((uint32_t)(0.7548776662466927 * places) + 2 * (aside % 8)) | 1;
+        fold->z = ((uint32_t)(0.5698402909980532 * places) + 2 * (aside / 8)) | 1;
         if (are_apart(s, fold))
             return true;
     }

@@ -218,7 +218,9 @@ class Ply(ExportTest):
 
 class SeriesTest(ExportTest):
     def write_on(self, every, size=1):
-        """A run that writes on and on, with that many bytes in its file."""
+        """A run that writes on and on, with that many bytes in its file, which it has begun: not what an earlier one left."""
+        if os.path.exists(self.path('a.h5part')):
+            os.remove(self.path('a.h5part'))
         process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--time', '100000', '--every', every, '--quiet')
         self.wait_for(lambda: os.path.exists(self.path('a.h5part')) and os.path.getsize(self.path('a.h5part')) >= size, process)
         return process

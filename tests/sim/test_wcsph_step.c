@@ -215,7 +215,7 @@ static void viscosity_keeps_momentum(void **state)
     World *world = world_of(def, &block);
     WorldSums before, after;
     world_sums(world, &before);
-    fixture_step(world, fixture_count(300, 50));
+    fixture_step(world, fixture_count(300, 120));
     world_sums(world, &after);
     assert_true(after.kinetic_energy < 0.9 * before.kinetic_energy);
     for (int k = 0; k < 3; k++)
