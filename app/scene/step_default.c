@@ -53,6 +53,7 @@ static double longest_step(const WorldDef *def, const char **what)
         {step_sound(def) > 0 ? STEP_SOUND_CALM * h / step_sound(def) : (double)INFINITY, "sound"},
         {method->leaps ? (double)INFINITY : STEP_VISCOUS_STANDS * step_viscous(def, &friction), "friction"},
         {step_pressure(def), "pressure"},
+        {step_tension(def), "surface tension"},
         {method->incompressible && !method->leaps && speed > 0 ? COURANT * h / speed : (double)INFINITY,
          "speed"},
     };

@@ -32,8 +32,7 @@ static void samples_are_of_sound_states(void **state)
     static CaseResult result;
     Error error = {{0}};
     Progress progress;
-    SceneSettings settings = {
-        .count = 2, .set = {"solver.backend=compute", "solver.step.number=1.8"}};
+    SceneSettings settings = {.count = 2, .set = {"solver.backend=compute", "solver.step.number=1.8"}};
     Case often = *case_find("elliptical_drop", &error);
     often.every = 1e-6; /* after each step */
     const CaseSetup setup = {.of = &often, .level = CASE_COARSE, .method = "wcsph", .settings = &settings};

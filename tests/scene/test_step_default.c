@@ -72,6 +72,22 @@ static void what_is_named_stays(void **state)
     assert_true(def->sound_speed == 20 && def->substeps == 47);
 }
 
+/* A dam of 0.6 m with cohesion, of so many N/m. */
+static const WorldDef *tense(double tension)
+{
+    char text[512];
+    SceneSettings settings = {.count = 0};
+    Error error;
+    snprintf(text, sizeof text,
+             "box: {size: [1, 1]}\nparticles: {spacing: 0.03}\n"
+             "fluids: [{surface_tension: %g, fill: [{block: {min: [-0.5, 0], max: [0, 0.6]}}]}]\n"
+             "solver: {method: dfsph, surface_tension: cohesion}\n",
+             tension);
+    if (!scene_parse("scene.yaml", text, strlen(text), &settings, &scene, &notes, &error))
+        fail_msg("%s", error.message);
+    return &scene.world;
+}
+
 static void friction_and_speed_bind_too(void **state)
 {
     (void)state;
@@ -80,6 +96,8 @@ static void friction_and_speed_bind_too(void **state)
     assert_true(dam(0.01, "method: dfsph")->substeps > 10);
     assert_true(told("which speed stands here") || told("which pressure stands here"));
     assert_int_equal(dam(0.01, "method: pbf")->substeps, 1); /* any step holds */
+    def = tense(7200);
+    assert_true(def->dt / def->substeps <= step_tension(def) && told("which surface tension stands here"));
 }
 
 int main(void)
