@@ -27,12 +27,19 @@ static double rounded(double x)
     return ceil(x / digit - 1e-9) * digit;
 }
 
+/* A step that is named was chosen for the usual speed of sound: both stay. */
+static bool step_is_named(const Tree *tree, const Scene *scene)
+{
+    return scene->world.step_mode == STEP_FIXED && (!open_to_default(tree, scene, "solver.step.dt") ||
+                                                    !open_to_default(tree, scene, "solver.step.substeps"));
+}
+
 static void fit_sound(const Tree *tree, Scene *scene, Notes *notes)
 {
     WorldDef *def = &scene->world;
     const double speed = scene_greatest_speed(def), ratio = def->sound_speed / speed;
     if (speed == 0 || step_sound(def) == 0 || !open_to_default(tree, scene, "solver.sound_speed") ||
-        (ratio >= SOUND_LEAST && ratio <= SOUND_MOST))
+        step_is_named(tree, scene) || (ratio >= SOUND_LEAST && ratio <= SOUND_MOST))
         return;
     def->sound_speed = fmin(fmax(rounded(SOUND * speed), 0.001), 1e4);
     advise(tree, "solver.sound_speed", notes,
@@ -71,8 +78,7 @@ static void fit_substeps(const Tree *tree, Scene *scene, Notes *notes)
     enum { MOST = 10000 };
     const WorldDef def = world_def_most_viscous(&scene->world);
     const char *what = "";
-    if (def.step_mode != STEP_FIXED || !open_to_default(tree, scene, "solver.step.dt") ||
-        !open_to_default(tree, scene, "solver.step.substeps"))
+    if (def.step_mode != STEP_FIXED || step_is_named(tree, scene))
         return;
     const double substeps = ceil(def.dt / longest_step(&def, &what) * (1 - 1e-9));
     if (substeps <= def.substeps)

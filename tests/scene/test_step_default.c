@@ -68,6 +68,8 @@ static void what_is_named_stays(void **state)
     assert_true(def->sound_speed == 20 && def->substeps == 10);
     assert_true(told("too long for sound"));
     assert_int_equal(dam(0.057, "sound_speed: 20, step: {dt: 0.01}")->substeps, 10);
+    def = dam(3, "step: {dt: 0.01}"); /* 54 m/s would be too fast for that step */
+    assert_true(def->sound_speed == 20 && def->substeps == 10);
     def = dam(0.057, "sound_speed: 20");
     assert_true(def->sound_speed == 20 && def->substeps == 47);
 }
