@@ -87,26 +87,19 @@ static void place_particles(void *state, size_t begin, size_t end)
         cpu->order[cpu->cell_start[place[i]] + cpu->rank[i]] = (uint32_t)i;
 }
 
-/* Insertion: a cell holds some ten particles, mostly in order. */
-static void sort_by_id(uint32_t *order, size_t count, const ParticleId *id)
+/* Insertion, since a cell holds some ten particles, mostly in order: by id; where cells share a place, `cell`
+   is there, by cell first, so that each cell's particles follow each other. */
+static inline void sort_place(uint32_t *order, size_t count, const ParticleId *id, const uint32_t *cell)
 {
     for (size_t i = 1; i < count; i++) {
         const uint32_t moved = order[i];
         size_t j = i;
-        for (; j > 0 && id[order[j - 1]] > id[moved]; j--)
-            order[j] = order[j - 1];
-        order[j] = moved;
-    }
-}
-
-/* Behind that: by cell, of those that share a place, so that each cell's particles follow each other. */
-static void sort_by_cell(uint32_t *order, size_t count, const uint32_t *cell)
-{
-    for (size_t i = 1; i < count; i++) {
-        const uint32_t moved = order[i];
-        size_t j = i;
-        for (; j > 0 && cell[order[j - 1]] > cell[moved]; j--)
-            order[j] = order[j - 1];
+        for (; j > 0; j--) {
+            const uint32_t before = order[j - 1];
+            if (cell && cell[before] != cell[moved] ? cell[before] < cell[moved] : id[before] <= id[moved])
+                break;
+            order[j] = before;
+        }
         order[j] = moved;
     }
 }
@@ -116,9 +109,10 @@ static void sort_places(void *state, size_t begin, size_t end)
     Cpu *cpu = state;
     for (size_t place = begin; place < end; place++) {
         const uint32_t first = cpu->cell_start[place], count = cpu->cell_start[place + 1] - first;
-        sort_by_id(cpu->order + first, count, cpu->now.id);
         if (cpu->fold.shared)
-            sort_by_cell(cpu->order + first, count, cpu->spare_cell);
+            sort_place(cpu->order + first, count, cpu->now.id, cpu->spare_cell);
+        else
+            sort_place(cpu->order + first, count, cpu->now.id, NULL);
     }
 }
 
