@@ -50,8 +50,6 @@ static bool gauge_does(const World *world)
     return still;
 }
 
-/* Not where solids push a method that moves places: what the way over a long step takes and gives is none of
-   the forces that solids feel. */
 /* Not where solids push a method that moves places: what they press in comes out steps later, and neither is
    in the forces that they feel. */
 static bool watched(const World *world)
