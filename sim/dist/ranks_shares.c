@@ -21,13 +21,13 @@ bool is_own(const Dist *dist, const Constants *constants, const float *x)
 
 void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial)
 {
-    const double begin = MPI_Wtime();
+    const Clock begin = clock_now();
     for (size_t cell = 0; initial->count == 0 && cell < constants->cells.count; cell++)
         ranks->weight[cell] = 1;
     for (size_t i = 0; i < initial->count; i++)
         ranks->weight[cpu_cell_of(constants, initial->position + 3 * i)]++;
     dist_balance(ranks->dist, ranks->weight, true);
-    ranks->took = MPI_Wtime() - begin;
+    ranks->took = clock_now().cpu - begin.cpu;
 }
 
 /* Behind cpu_cells, what its cells cost: particles, each as much as the rank's took in a step. */
@@ -47,23 +47,26 @@ static void weigh(Ranks *ranks)
 
 void share_anew(Ranks *ranks)
 {
-    const double begin = MPI_Wtime();
+    const Clock begin = clock_now();
     weigh(ranks);
     dist_balance(ranks->dist, ranks->weight, false);
     ranks->due = false;
     ranks->cpu_time = ranks->worked = 0;
     ranks->figures.balances++;
-    ranks->took = MPI_Wtime() - begin;
-    ranks->figures.balance += ranks->took;
+    const Clock end = clock_now();
+    ranks->took = end.cpu - begin.cpu;
+    ranks->figures.balance += end.wall - begin.wall;
 }
 
 void look_at_shares(Ranks *ranks)
 {
-    double most[2] = {ranks->cpu_time, ranks->took}, mean = ranks->cpu_time;
+    /* Who waits for nobody takes the least: a rank that came late, or shares its core, makes no shares dear.
+     */
+    double most[2] = {ranks->cpu_time, -ranks->took}, mean = ranks->cpu_time;
     if (!balances || dist_size(ranks->dist) == 1)
         return;
     reduce_most(most, 2);
     reduce_sum(&mean, 1);
     mean /= dist_size(ranks->dist);
-    ranks->due = most[0] > UNEVEN * mean && (most[0] - mean) / ranks->cpu->threads > TAKES * most[1];
+    ranks->due = most[0] > UNEVEN * mean && (most[0] - mean) / ranks->cpu->threads > TAKES * -most[1];
 }

@@ -27,7 +27,7 @@ typedef struct Ranks {
     size_t kept_count, kept_room;
     double *weight;  /* of each cell: room */
     bool due;        /* shares are to be made anew at the next grid */
-    double took;     /* s: to make them, the last time */
+    double took;     /* s of this rank's processor: to make them, the last time */
     double cpu_time; /* s of this rank's computing since then, of all its threads, */
     double worked;   /* and particles that it computed, each in each step */
     float *came;     /* places of particles that emitters sent out since the grid, on any rank */
