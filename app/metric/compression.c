@@ -15,9 +15,10 @@ void compression_add(CompressionTally *tally, const Cloud *cloud, const WorldDef
 {
     for (size_t i = 0; i < cloud->count; i++) {
         const double rest = def->fluids[cloud->fluid[i]].density;
-        const double pressed = fmax((double)cloud->density[i] / rest - 1, 0);
+        const double change = (double)cloud->density[i] / rest - 1, pressed = fmax(change, 0);
         tally->sum += pressed;
         tally->most = fmax(tally->most, pressed);
+        tally->thinned = fmax(tally->thinned, -change);
         tally->bins[bin_of(pressed)]++;
     }
     tally->particles += cloud->count;
@@ -41,5 +42,6 @@ CompressionFigures compression_figures(const CompressionTally *tally)
 {
     if (tally->particles == 0)
         return (CompressionFigures){0};
-    return (CompressionFigures){tally->sum / (double)tally->particles, percentile(tally, 0.999), tally->most};
+    return (CompressionFigures){tally->sum / (double)tally->particles, percentile(tally, 0.999), tally->most,
+                                1 - tally->thinned};
 }

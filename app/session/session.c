@@ -7,6 +7,7 @@
 #include "app/probe/probe_table.h"
 #include "app/scene/tables.h"
 #include "app/session/solved.h"
+#include "sim/world/method.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -218,6 +219,18 @@ static double wall_seconds(const Session *session)
     return fmax((wall_ms() - session->began_ms) / 1000, 1e-6);
 }
 
+/* A carried density that is held above 0 (wcsph_density_after), which no picture and no outcome shows. */
+static void report_thinnest(const Session *session, double least)
+{
+    const WorldDef *def = &session->scene.world;
+    const Method *method = method_find(def->method);
+    if (method && method->carries_density && least < 0.5)
+        fprintf(stderr,
+                "fluid flies apart: its thinnest particle has %.3g %% of the rest density; below 50 %%, %s "
+                "holds density above 0\n",
+                100 * least, def->method);
+}
+
 void session_report(const Session *session, const Args *args, const Summary *summary)
 {
     const WorldInfo *info = &session->info;
@@ -233,6 +246,8 @@ void session_report(const Session *session, const Args *args, const Summary *sum
     if (!args->quiet && summary->compression)
         fprintf(stderr, "snapshots are pressed by %.3g %% in the mean, %.3g %% at the 99.9th percentile\n",
                 100 * summary->compression->mean, 100 * summary->compression->p999);
+    if (!args->quiet && summary->compression)
+        report_thinnest(session, summary->compression->least);
 }
 
 void session_report_steps(const Session *session, const Args *args)
@@ -250,7 +265,8 @@ void session_report_steps(const Session *session, const Args *args)
 
 static json_t *compression_json(const CompressionFigures *pressed)
 {
-    return json_pack("{s:f, s:f, s:f}", "mean", pressed->mean, "p999", pressed->p999, "max", pressed->most);
+    return json_pack("{s:f, s:f, s:f, s:f}", "mean", pressed->mean, "p999", pressed->p999, "max",
+                     pressed->most, "least", pressed->least);
 }
 
 json_t *session_json(const Session *session, const Args *args, const Summary *summary)

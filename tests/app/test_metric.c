@@ -260,6 +260,7 @@ static void compression_has_its_percentile(void **state)
     compression_add(&tally, &cloud, &def);
     near(compression_figures(&tally).p999, 0.1, 1.1e-3);
     near(compression_figures(&tally).most, 0.2, 1e-6);
+    near(compression_figures(&tally).least, 0.9, 1e-6);
     assert_int_equal(tally.states, 2);
 }
 

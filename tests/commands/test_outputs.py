@@ -31,6 +31,23 @@ class Whole(CommandTest):
         self.assertTrue(0 < pressed['mean'] < pressed['p999'] <= pressed['max'] < 1, pressed)
         self.assertRegex(said, r'snapshots are pressed by [0-9.]+ % in the mean, [0-9.]+ % at the 99\.9th percentile\n')
 
+    def test_a_carried_density_that_is_held_above_0_is_told(self):
+        """Of a ball that flies apart; summed densities know no such floor."""
+        self.write('apart.yaml', '''
+box: {size: [2, 2]}
+gravity: [0, 0]
+particles: {spacing: 0.03}
+fluids: [{density: 1000, velocity_formula: {x: 6*x, y: 6*(y-1)}, fill: [{ball: {centre: [0, 1], radius: 0.25}}]}]
+solver: {sound_speed: 20}
+''')
+        for method, least in (('wcsph', 0.5), ('mueller', 1)):
+            code, said = self.slosh('run', 'apart.yaml', '-o', f'{method}.h5part', '--time', '0.25', '--every', '0.05',
+                                    '--method', method, '--json', 'a.json')
+            self.assertEqual(code, 0, said)
+            told = re.findall(r'its thinnest particle has \S+ % of the rest density; below 50 %, wcsph holds density above 0\n', said)
+            self.assertEqual(len(told), method == 'wcsph', said)
+            self.assertTrue(0 < json.loads(self.read('a.json'))['compression']['least'] < least)
+
     def test_emitters_that_wait_are_told_once(self):
         jet = '    emit: [{disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.2}, speed: 2}]\n'
         self.write('jet.yaml', command.SCENE.replace('    fill:', jet + '    fill:', 1))
