@@ -36,8 +36,9 @@ static void step_text(const PanelFacts *facts, char out[64])
         snprintf(out, 64, "steps by cfl");
 }
 
+/* The spacing stands beside a name that says it too: fills may have taken another. */
 static const Figure figures[] = {
-    {"", count_text}, {"particles.spacing", spacing_text}, {"solver.method", method_text}, {"", step_text}};
+    {"", count_text}, {"", spacing_text}, {"solver.method", method_text}, {"", step_text}};
 
 /* Whether a line of them begins with the key. */
 static bool says(const char *lines, const char *key)

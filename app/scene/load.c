@@ -174,6 +174,10 @@ static void advise_views(const Tree *tree, const SceneSettings *settings, const 
 
 static bool choose_spacing(Tree *tree, SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
+    const Node *spacing = tree_at(tree, "particles.spacing");
+    if (settings->particles > 0 && spacing && spacing->said)
+        return error_set(error, "--particles %zu and %.100s: both choose the spacing; leave one of them out",
+                         settings->particles, spacing->said);
     if (settings->particles > 0 && !scene_set_particles(tree, out, settings, notes, error))
         return false;
     fit_spacing(tree, out, notes);

@@ -260,6 +260,8 @@ class Words(CompareTest):
         self.refused("--compare nosuch=1: unknown key 'nosuch'", '--compare', 'nosuch=1,2')
         # A setting that fits alone, and not the rest of the scene.
         self.refused('with box.size [0.5, 1, 1]: ', '--compare', 'box.size=[1, 1, 1],[0.5, 1, 1]')
+        for both in (['--compare', 'particles.spacing=0.1,0.125'], ['--set', 'views=[{}, {set: {particles.spacing: 0.125}}]']):
+            self.refused('both choose the spacing; leave one of them out', '--particles', '400', *both)
         self.refused('with particles 2000000000: ', '--compare', 'particles=1000,2000000000')
 
     def test_too_small_a_picture(self):
