@@ -1,6 +1,8 @@
-/* Solids that fluid may be on the other side of within a step. */
+/* Solids that fluid may be on the other side of within a step; what is in the way of something else. */
 #include "app/scene/advise_parts.h"
 #include "app/scene/check.h"
+#include "sim/body/bodies.h"
+#include "sim/matter/fill.h"
 #include "sim/matter/viscosity.h"
 
 #include <math.h>
@@ -33,6 +35,54 @@ static void advise_floating(const Tree *tree, const WorldDef *def, Notes *notes)
     }
 }
 
+/* On a hinge an overlap stays, and is mostly meant: an axle in its bearing. */
+static void advise_overlap(const Tree *tree, const SolidDef *solid, int k, const BodyOverlap *overlap,
+                           Notes *notes)
+{
+    char path[64], other[32] = "a wall of the box";
+    snprintf(path, sizeof path, "solids[%d].%s", k, solid_name(solid->kind));
+    if (overlap->other != BODY_AT_WALL)
+        snprintf(other, sizeof other, "solids[%d]", overlap->other);
+    if (!overlap->fits)
+        advise(tree, path, notes, "the solid does not fit into the box: it sticks out by %.3g m",
+               overlap->depth);
+    else
+        advise(tree, path, notes,
+               "the solid starts %.3g m deep in %s, and is moved out of it in the first step", overlap->depth,
+               other);
+}
+
+static void advise_overlaps(const Tree *tree, const WorldDef *def, Notes *notes)
+{
+    Walls walls;
+    Bodies *bodies;
+    Error none;
+    walls_place(&walls, def->dimensions, def->box_size, def->periodic, def->spacing);
+    if (!bodies_create(&bodies, &(BodiesIn){.def = def, .walls = &walls}, &none) || !bodies)
+        return;
+    for (int k = 0; k < def->solid_count; k++) {
+        BodyOverlap overlap;
+        const double *axis = def->solids[k].hinge_axis;
+        if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0 && bodies_overlap(bodies, k, &overlap) &&
+            !(overlap.other > k && solid_floats(&def->solids[overlap.other]))) /* which says it */
+            advise_overlap(tree, &def->solids[k], k, &overlap, notes);
+    }
+    bodies_destroy(bodies);
+}
+
+static void advise_emitters(const Tree *tree, const WorldDef *def, Notes *notes)
+{
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++)
+            for (int k = 0; k < def->drain_count; k++)
+                if (fill_holds(&def->drains[k], def->dimensions, def->fluids[f].emits[i].centre, 0)) {
+                    char path[64];
+                    snprintf(path, sizeof path, "fluids[%d].emit[%d]", f, i);
+                    advise(tree, path, notes,
+                           "the emitter stands in drains[%d], which takes its fluid at once", k);
+                }
+}
+
 /* A solid holds what it finds within itself at the end of a step; what a step has carried over it, it does
    not see. The box's walls are the end of the world, and hold whatever comes. */
 void advise_solids(const Tree *tree, const Scene *scene, Notes *notes)
@@ -40,6 +90,8 @@ void advise_solids(const Tree *tree, const Scene *scene, Notes *notes)
     const WorldDef *def = &scene->world;
     const double step = def->dt / def->substeps, way = step * greatest_shaking(def);
     advise_floating(tree, def, notes);
+    advise_overlaps(tree, def, notes);
+    advise_emitters(tree, def, notes);
     for (int k = 0; k < def->solid_count && def->step_mode == STEP_FIXED; k++) {
         const double width = scene_solid_width(&def->solids[k], def->dimensions);
         char path[64];

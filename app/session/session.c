@@ -7,6 +7,7 @@
 #include "app/probe/probe_table.h"
 #include "app/scene/tables.h"
 #include "app/session/solved.h"
+#include "sim/matter/flow.h"
 #include "sim/world/method.h"
 
 #include <math.h>
@@ -137,6 +138,8 @@ static void look(Session *session)
     if (session->info.full && !session->told_full)
         tell(session, session_full_text(&session->info, words));
     session->told_full |= session->info.full;
+    if (session->info.barred & ~session->told_barred)
+        tell(session, session_barred_text(&session->info, &session->told_barred, words));
     if (session->info.lost && !session->told_lost)
         tell(session, session_lost_text(&session->info, words));
     session->told_lost |= session->info.lost > 0;
@@ -161,6 +164,23 @@ const char *session_full_text(const WorldInfo *info, char words[256])
         words, 256,
         "t = %.4g s: there %s %zu particle%s, as many as particles.most allows: no more come until some drain",
         info->time, info->count == 1 ? "is" : "are", info->count, plural(info->count));
+    return words;
+}
+
+const char *session_barred_text(const WorldInfo *info, uint64_t *told, char words[256])
+{
+    char names[160] = "", name[GATE_NAME_SIZE];
+    for (int k = 0; k < EMITTERS_MAX; k++)
+        if (info->barred & ~*told & 1ULL << k) {
+            gate_name(k, name);
+            snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "", name);
+        }
+    snprintf(
+        words, 256,
+        "t = %.4g s: %s: no particle of the last %d layers found room; something stands in the way, or the "
+        "place is full",
+        info->time, names, BARRED_LAYERS);
+    *told |= info->barred;
     return words;
 }
 
@@ -219,7 +239,7 @@ static double wall_seconds(const Session *session)
     return fmax((wall_ms() - session->began_ms) / 1000, 1e-6);
 }
 
-/* A carried density that is held above 0 (wcsph_density_after), which no picture and no outcome shows. */
+/* A carried density that is held above 0, which no picture and no outcome shows. */
 static void report_thinnest(const Session *session, double least)
 {
     const WorldDef *def = &session->scene.world;
@@ -242,6 +262,8 @@ void session_report(const Session *session, const Args *args, const Summary *sum
                 info->count, plural(info->count), info->time, wall, info->time / wall, args->output,
                 summary->products, (int)strlen(summary->product) - (summary->products == 1),
                 summary->product);
+    if (!args->quiet && session->scene.world.drain_count > 0 && info->drained == 0)
+        fprintf(stderr, "the drains took nothing: no fluid came to them\n");
     session_report_steps(session, args);
     if (!args->quiet && summary->compression)
         fprintf(stderr, "snapshots are pressed by %.3g %% in the mean, %.3g %% at the 99.9th percentile\n",

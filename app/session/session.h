@@ -32,8 +32,9 @@ typedef struct Session {
     WorldInfo info;   /* of the present state */
     double began_ms;  /* wall time of the start */
     TroubleTold told_trouble;
-    bool told_full; /* that emitters wait */
-    bool told_lost; /* that particles find no place in the grid */
+    bool told_full;       /* that emitters wait */
+    uint64_t told_barred; /* gates of emitters, that they find no room */
+    bool told_lost;       /* that particles find no place in the grid */
     bool told_unlisted;
     FluidWatch watch;
 } Session;
@@ -75,6 +76,9 @@ const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
 
 /* That emitters wait, in words. */
 const char *session_full_text(const WorldInfo *info, char words[256]);
+
+/* The same of emitters that find no room, but for those of `told`, which gets them. */
+const char *session_barred_text(const WorldInfo *info, uint64_t *told, char words[256]);
 
 /* That particles find no place in the grid, in words. */
 const char *session_lost_text(const WorldInfo *info, char words[256]);

@@ -92,6 +92,7 @@ void simulator_make_world(Simulator *simulator)
     simulator->told_trouble = (TroubleTold){0};
     simulator->watch = (FluidWatch){0};
     simulator->told_full = simulator->told_lost = simulator->told_unlisted = false;
+    simulator->told_barred = 0;
     simulator->world = world_create(&simulator->start.world, &error);
     simulator_past_begin(simulator);
     simulator_gauge_begin(simulator);
@@ -251,6 +252,8 @@ static void tell_news(Simulator *simulator, const WorldInfo *info)
     if (info->full && !simulator->told_full)
         simulator_tell(simulator, false, session_full_text(info, words));
     simulator->told_full |= info->full;
+    if (info->barred & ~simulator->told_barred)
+        simulator_tell(simulator, false, session_barred_text(info, &simulator->told_barred, words));
     if (info->lost && !simulator->told_lost)
         simulator_tell(simulator, false, session_lost_text(info, words));
     simulator->told_lost |= info->lost > 0;

@@ -104,8 +104,9 @@ struct Simulator {
     bool feels;                /* one of them is a force, which the world sums */
     Recording recording;
     TroubleTold told_trouble;
-    bool told_full; /* that its emitters wait */
-    bool told_lost; /* that particles find no place in the grid */
+    bool told_full;       /* that its emitters wait */
+    uint64_t told_barred; /* gates of emitters, that they find no room */
+    bool told_lost;       /* that particles find no place in the grid */
     bool told_unlisted;
     FluidWatch watch;
     Recording script;    /* a session that is done again; its commands are the caller's */

@@ -10,8 +10,9 @@ struct Bodies {
     BodiesIn in;
     Body body[SOLIDS_MAX];
     BodyStates now;
-    Forces felt;  /* since the last kick, or behind it */
-    Forces *told; /* NULL: nobody else asked */
+    double parted; /* by how much overlaps were moved apart in the last step, m */
+    Forces felt;   /* since the last kick, or behind it */
+    Forces *told;  /* NULL: nobody else asked */
     BodiesStep step;
     BoxState fixed[SOLIDS_MAX]; /* the solids that do not float, at the end of the step */
 };
@@ -116,6 +117,18 @@ static BodyWorld surroundings(const Bodies *bodies)
                        .spacing = def->spacing};
 }
 
+bool bodies_overlap(const Bodies *bodies, int solid, BodyOverlap *overlap)
+{
+    const WorldDef *def = bodies->in.def;
+    BoxState fixed[SOLIDS_MAX];
+    BodyWorld around = surroundings(bodies);
+    around.fixed = fixed;
+    for (int k = 0; k < def->solid_count; k++)
+        if (!floats(bodies, k))
+            solid_pose(&def->solids[k], 0, &fixed[k]);
+    return floats(bodies, solid) && body_overlap(&around, &bodies->now, solid, 0.5 * def->spacing, overlap);
+}
+
 static void fly(Bodies *bodies, int half)
 {
     const BodiesStep *step = &bodies->step;
@@ -126,7 +139,7 @@ static void fly(Bodies *bodies, int half)
             body_drift(&bodies->body[k], &step->box[half], &step->box[half + 1], 0.5 * step->dt,
                        &bodies->now.of[k]);
     if (half == 1)
-        body_contacts_part(&around, &bodies->now);
+        bodies->parted = body_contacts_part(&around, &bodies->now);
     for (int k = 0; k < SOLIDS_MAX; k++)
         if (floats(bodies, k))
             step_from(bodies, k, &before.of[k].pose, &step->solids[half][k]);
@@ -189,6 +202,11 @@ void bodies_end(Bodies *bodies)
     for (int k = 0; k < SOLIDS_MAX; k++)
         if (floats(bodies, k))
             push_add(&bodies->now.of[k].left, 1, &push[k]);
+}
+
+double bodies_parted(const Bodies *bodies)
+{
+    return bodies->parted;
 }
 
 double bodies_speed(const Bodies *bodies)

@@ -3,6 +3,7 @@
 #define SLOSH_BODIES_H
 
 #include "sim/base/error.h"
+#include "sim/body/body_contact.h"
 #include "sim/body/body_state.h"
 #include "sim/box/box_step.h"
 #include "sim/box/wall.h"
@@ -33,6 +34,10 @@ typedef struct BodiesStep {
 bool bodies_create(Bodies **bodies, const BodiesIn *in, Error *error);
 void bodies_destroy(Bodies *bodies); /* NULL is allowed */
 
+/* What the body that is solid number `solid` overlaps with most at the start, by more than half a spacing;
+   false: nothing, or it doesn't float. */
+bool bodies_overlap(const Bodies *bodies, int solid, BodyOverlap *overlap);
+
 /* Where a backend sums what they feel (Backend.feel). */
 Forces *bodies_felt(Bodies *bodies);
 
@@ -50,6 +55,9 @@ void bodies_kick(Bodies *bodies);
 
 /* Behind a step. */
 void bodies_end(Bodies *bodies);
+
+/* How far overlaps were moved apart in the last step, m: what is lifted and pressed so is nobody's work. */
+double bodies_parted(const Bodies *bodies);
 
 /* The greatest speed of their matter, m/s; NaN where a number is none. */
 double bodies_speed(const Bodies *bodies);

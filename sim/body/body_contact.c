@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-enum { OF_PAIR = 8, CONTACTS = 1024, ROUNDS = 12, PARTINGS = 4, WALL = -1 };
+enum { OF_PAIR = 8, CONTACTS = 1024, ROUNDS = 12, PARTINGS = 4 };
 
 typedef struct Contact {
-    int body, other;     /* other: a solid, or WALL */
+    int body, other;     /* other: a solid, or BODY_AT_WALL */
     double x[3], n[3];   /* out of the other, to the body */
     double gap;          /* m; less than 0: overlap */
     double wanted;       /* least speed along n, m/s */
@@ -31,7 +31,7 @@ static double dot(const double a[3], const double b[3])
 
 static bool is_free(const BodyWorld *world, int solid)
 {
-    return solid != WALL && world->solids[solid].density > 0;
+    return solid != BODY_AT_WALL && world->solids[solid].density > 0;
 }
 
 static const BoxState *pose_of(const BodyWorld *world, const BodyStates *states, int solid)
@@ -102,7 +102,7 @@ static void find_at_wall(const BodyWorld *world, const BodyStates *states, int b
     if (sign * (pose->position[axis] - at) > reach + within)
         return;
     for (int i = 0; i < hull->count; i++) {
-        Contact contact = {.body = body, .other = WALL};
+        Contact contact = {.body = body, .other = BODY_AT_WALL};
         hull_point(world, pose, body, i, contact.x);
         contact.n[axis] = sign;
         contact.gap = sign * (contact.x[axis] - at) - hull->radius;
@@ -182,7 +182,7 @@ static void approach(const BodyWorld *world, const BodyStates *states, const Con
 {
     double other[3] = {0};
     body_velocity(&states->of[c->body].pose, c->x, v);
-    if (c->other != WALL)
+    if (c->other != BODY_AT_WALL)
         body_velocity(pose_of(world, states, c->other), c->x, other);
     for (int k = 0; k < 3; k++)
         v[k] -= other[k];
@@ -266,6 +266,25 @@ void body_contacts_hit(const BodyWorld *world, double dt, BodyStates *states)
         }
 }
 
+bool body_overlap(const BodyWorld *world, const BodyStates *states, int body, double least,
+                  BodyOverlap *overlap)
+{
+    Contacts contacts;
+    unsigned sides = 0; /* two bits an axis */
+    find(world, states, 0, &contacts);
+    *overlap = (BodyOverlap){.depth = least, .fits = true};
+    for (const Contact *c = contacts.of; c < contacts.of + contacts.count; c++) {
+        if (c->body != body || c->gap > -least)
+            continue;
+        for (int k = 0; k < 3 && c->other == BODY_AT_WALL; k++)
+            sides |= c->n[k] > 0 ? 1u << 2 * k : c->n[k] < 0 ? 2u << 2 * k : 0;
+        if (-c->gap > overlap->depth)
+            *overlap = (BodyOverlap){.other = c->other, .depth = -c->gap, .fits = true};
+    }
+    overlap->fits = !(sides & sides >> 1 & 0x15);
+    return overlap->depth > least;
+}
+
 static void shift(const BodyWorld *world, int solid, const double n[3], double by, BodyStates *states)
 {
     if (is_free(world, solid) && !world->bodies[solid].hinged)
@@ -279,8 +298,9 @@ static double share_of(const BodyWorld *world, int solid)
 }
 
 /* The deepest point of each pair, time after time, since to part one pair may press another. */
-void body_contacts_part(const BodyWorld *world, BodyStates *states)
+double body_contacts_part(const BodyWorld *world, BodyStates *states)
 {
+    double furthest = 0;
     Contacts contacts;
     for (int time = 0; time < PARTINGS; time++) {
         bool any = false;
@@ -297,10 +317,12 @@ void body_contacts_part(const BodyWorld *world, BodyStates *states)
             if (c->gap >= 0 || own + its == 0)
                 continue;
             any = true;
+            furthest = fmax(furthest, -c->gap);
             shift(world, body, c->n, -c->gap * own / (own + its), states);
             shift(world, other, c->n, c->gap * its / (own + its), states);
         }
         if (!any)
-            return;
+            break;
     }
+    return furthest;
 }

@@ -30,7 +30,20 @@ typedef struct BodyWorld {
 /* Blows for a step of dt, s. */
 void body_contacts_hit(const BodyWorld *world, double dt, BodyStates *states);
 
-/* Moves apart what overlaps. */
-void body_contacts_part(const BodyWorld *world, BodyStates *states);
+/* What a body overlaps with most. */
+typedef struct BodyOverlap {
+    int other;    /* a solid, or BODY_AT_WALL */
+    double depth; /* m */
+    bool fits;    /* it does not stick out of the box on two sides */
+} BodyOverlap;
+
+enum { BODY_AT_WALL = -1 };
+
+/* The deepest overlap of one body by more than `least`, m; false: there is none. */
+bool body_overlap(const BodyWorld *world, const BodyStates *states, int body, double least,
+                  BodyOverlap *overlap);
+
+/* Moves apart what overlaps; returns the way of what moved furthest, m. */
+double body_contacts_part(const BodyWorld *world, BodyStates *states);
 
 #endif

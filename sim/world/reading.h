@@ -36,27 +36,32 @@ typedef struct SolveFigures {
     double viscosity_iterations_mean, viscosity_residual_mean; /* of a step; that was left, a fraction */
 } SolveFigures;
 
+/* So many layers of an emitter in a row without room for one particle: something stands in its way. Fluid
+   that leaves as it should makes room for each second one at least. */
+enum { BARRED_LAYERS = 20 };
+
 /* What a world is, apart from its particles. */
 typedef struct WorldInfo {
-    double time;                   /* simulated, s */
-    uint64_t step;                 /* substeps since the start */
-    size_t count, capacity;        /* particles; as many as emitters may fill it up to */
-    uint64_t emitted, drained;     /* of them, since the start */
-    bool full;                     /* what would come waits: the world has as many particles as it may have */
-    int threads;                   /* in use by the backend */
-    const char *simd;              /* the instructions of its pair sums; NULL: it chooses none */
-    double support_radius;         /* h, m */
-    double spacing;                /* m */
-    double box_size[3];            /* m */
-    BoxState box;                  /* of the state that world_read reads */
-    BoxState floating[SOLIDS_MAX]; /* of solids that float, in the box's frame; by the def's solids */
-    BoxTarget hand;                /* the hand's part of its pose, as the filter has it */
-    double gravity[3];             /* in the box's frame, m/s2 */
-    size_t state_bytes;            /* memory that the backend holds for its particles and grid */
-    bool touched;                  /* a finger is in the fluid */
-    bool within_frame;             /* steps of the frame are left */
-    double dt;                     /* of the last step, s */
-    StepLimit limit;               /* what bounded it */
+    double time;               /* simulated, s */
+    uint64_t step;             /* substeps since the start */
+    size_t count, capacity;    /* particles; as many as emitters may fill it up to */
+    uint64_t emitted, drained; /* of them, since the start */
+    bool full;                 /* what would come waits: the world has as many particles as it may have */
+    uint64_t barred;           /* gates of emitters that found no room for BARRED_LAYERS layers in a row */
+    int threads;               /* in use by the backend */
+    const char *simd;          /* the instructions of its pair sums; NULL: it chooses none */
+    double support_radius;     /* h, m */
+    double spacing;            /* m */
+    double box_size[3];        /* m */
+    BoxState box;              /* of the state that world_read reads */
+    BoxState floating[SOLIDS_MAX];      /* of solids that float, in the box's frame; by the def's solids */
+    BoxTarget hand;                     /* the hand's part of its pose, as the filter has it */
+    double gravity[3];                  /* in the box's frame, m/s2 */
+    size_t state_bytes;                 /* memory that the backend holds for its particles and grid */
+    bool touched;                       /* a finger is in the fluid */
+    bool within_frame;                  /* steps of the frame are left */
+    double dt;                          /* of the last step, s */
+    StepLimit limit;                    /* what bounded it */
     uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
     WorldTrouble trouble;
     StepSolve solves[SOLVES_MAX]; /* of the last step; of a method without solvers all 0 */

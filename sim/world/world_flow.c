@@ -40,7 +40,26 @@ static bool layer_reserve(World *world, const Emit *emit)
     return more;
 }
 
-static void let_in(World *world, int fluid, const Emit *emit, double begin, double end)
+/* Counts layers without room for any particle; an emitter that waits for the world's particles is no such. */
+static void look_for_room(unsigned short *barred, size_t came, bool full)
+{
+    if (came > 0 || full)
+        *barred = 0;
+    else if (*barred < BARRED_LAYERS)
+        ++*barred;
+}
+
+uint64_t world_barred(const World *world)
+{
+    uint64_t gates = 0;
+    for (int k = 0; k < EMITTERS_MAX; k++)
+        gates |= (uint64_t)(world->barred[k] == BARRED_LAYERS) << k;
+    return gates;
+}
+
+/* `barred`: of the emitter; NULL: what is poured. */
+static void let_in(World *world, int fluid, const Emit *emit, unsigned short *barred, double begin,
+                   double end)
 {
     const WorldDef *def = &world->def;
     long first;
@@ -54,6 +73,8 @@ static void let_in(World *world, int fluid, const Emit *emit, double begin, doub
         for (size_t i = 0; i < layer.count; i++)
             periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
         const size_t more = world->backend->emit(world->state, &layer, world->capacity - world->count);
+        if (barred && layer.count > 0)
+            look_for_room(barred, more, world->count == world->capacity);
         energy_comes(world, &layer, more);
         if (more > 0)
             births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
@@ -136,11 +157,11 @@ bool world_flow(World *world, Error *error)
     for (int f = 0; f < def->fluid_count; f++)
         for (int i = 0; i < def->fluids[f].emit_count; i++)
             if (!gate_shut(world->shut, gate_of_emitter(f, i)))
-                let_in(world, f, &def->fluids[f].emits[i], begin, end);
+                let_in(world, f, &def->fluids[f].emits[i], &world->barred[gate_of_emitter(f, i)], begin, end);
     Emit poured;
     int fluid;
     if (world_pours(world, &poured, &fluid))
-        let_in(world, fluid, &poured, begin, end);
+        let_in(world, fluid, &poured, NULL, begin, end);
     Fill open[DRAINS_MAX];
     const int count = open_drains(world, open);
     if (count > 0) {

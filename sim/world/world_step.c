@@ -300,11 +300,17 @@ void world_tally_anew(World *world)
     world->tally = (SolveTally){0};
 }
 
+/* Spacings by which overlaps of bodies are moved apart in a step: less is of what rests on something, more
+   lifts bodies and presses them into fluid. */
+static const double PARTED = 0.05;
+
 static void end_of_bodies(World *world)
 {
     if (world->backend->felt)
         world->backend->felt(world->state);
     bodies_end(world->bodies);
+    if (bodies_parted(world->bodies) > PARTED * world->def.spacing)
+        energy_forget(world);
 }
 
 /* Behind a step: what solids and box felt in it, to the watch over energy and to who asked. */
@@ -480,6 +486,7 @@ void world_info(const World *world, WorldInfo *info)
         .emitted = world->emitted,
         .drained = world->drained,
         .full = world->constants.emits && world->count == world->capacity,
+        .barred = world_barred(world),
         .support_radius = world->def.support * world->def.spacing,
         .spacing = world->def.spacing,
         .box = world->box,

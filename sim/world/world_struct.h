@@ -20,6 +20,7 @@ struct World {
     size_t births_most;              /* with more than these it is looked who is gone */
     float *layer;                    /* room for an emitter's layer, */
     size_t layer_room;               /* of so many particles */
+    unsigned short barred[EMITTERS_MAX]; /* by its gate: layers of an emitter in a row that found no room */
     uint64_t step;
     uint64_t since_step; /* when the present step size began, */
     double since_time;   /* at this time, s */
@@ -60,6 +61,9 @@ bool world_pours(const World *world, Emit *emit, int *fluid);
 /* Adds the fluid that emitters and the finger send out in the step ahead, and takes fluid out of the drains.
    False, and nothing done, when memory is short. */
 bool world_flow(World *world, Error *error);
+
+/* As WorldInfo has it. */
+uint64_t world_barred(const World *world);
 
 /* Whether the backend has ids for so many particles that were ever born, or the reason. */
 bool world_names(const World *world, uint64_t born, Error *error);

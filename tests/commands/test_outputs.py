@@ -58,6 +58,42 @@ solver: {sound_speed: 20}
         summary = json.loads(self.read('a.json'))
         self.assertEqual((summary['particles'], summary['emitted'], summary['drained']), (520, 20, 0))
 
+    def test_what_starts_in_the_way_is_told(self):
+        """Once each; and a body that is moved out of a wall has gained no energy that would end the run."""
+        self.write('way.yaml', '''
+box: {size: [1, 1, 1]}
+particles: {spacing: 0.05}
+fluids:
+  - density: 1000
+    fill: [{block: {min: [-0.5, 0, -0.5], max: [0.5, 0.1, 0.5]}}]
+    emit:
+      - {disk: {centre: [0, 0.9, 0], direction: [0, -1, 0], radius: 0.08}, speed: 4}
+      - {disk: {centre: [0.4, 0.9, 0], direction: [-1, 0, 0], radius: 0.05}, speed: 1}
+solids:
+  - {box: {centre: [0, 0.82, 0], size: [0.3, 0.1, 0.3]}}
+  - {sphere: {centre: [0.45, 0.3, 0], radius: 0.15}, density: 500}
+  - {sphere: {centre: [0.3, 0.45, 0], radius: 0.15}, density: 500}
+  - {box: {centre: [0, 0.6, 0.3], size: [1.3, 0.1, 0.1]}, density: 500}
+  - {box: {centre: [0.3, 0.05, -0.4], size: [0.1, 0.1, 0.1]}, density: 500}
+  - {box: {centre: [-0.3, 0.03, -0.4], size: [0.1, 0.1, 0.1]}, density: 500, hinge: {at: [-0.3, 0.1, -0.4], axis: [0, 0, 1]}}
+drains:
+  - {ball: {centre: [0.4, 0.9, 0], radius: 0.1}}
+  - {ball: {centre: [-0.4, 0.95, -0.4], radius: 0.04}}
+solver: {sound_speed: 15}
+''')
+        told = ['the solid starts 0.1 m deep in a wall of the box, and is moved out of it in the first step',
+                'the solid starts 0.0879 m deep in solids[1], and is moved out of it in the first step',
+                'the solid does not fit into the box: it sticks out by 0.15 m',
+                'fluids[0].emit[1]: the emitter stands in drains[0], which takes its fluid at once']
+        code, said = self.slosh('run', 'way.yaml', '-o', 'a.h5part', '--time', '0.5')
+        self.assertEqual(code, 0, said)
+        for words in [*told, 's: fluids[0].emit[0]: no particle of the last 20 layers found room; something stands in the way']:
+            self.assertEqual(said.count(words), 1, said)
+        self.assertEqual(len(re.findall('the solid (?:starts|does)', said)), 3, said)
+        self.assertNotIn('drains took nothing', said)
+        code, said = self.slosh('run', 'way.yaml', '-o', 'a.h5part', '--time', '0.05', '--set', 'drains=[{ball: {centre: [-0.4, 0.95, -0.4], radius: 0.04}}]')
+        self.assertIn('the drains took nothing: no fluid came to them\n', said)
+
     def test_json_on_a_stream(self):
         few = ['run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet', '--json']
         for name in ('-', '/dev/stdout', '/dev/fd/1'):
