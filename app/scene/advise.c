@@ -12,8 +12,9 @@
 
 enum { PATH_SIZE = 256 };
 
-static Advice *const advices[] = {advise_fills, advise_step, advise_places, advise_method, advise_sound,
-                                  advise_borne, advise_slip, advise_probes, advise_solids, NULL};
+static Advice *const advices[] = {advise_fills, advise_step,     advise_places, advise_method, advise_sound,
+                                  advise_borne, advise_cohesion, advise_slip,   advise_probes, advise_solids,
+                                  NULL};
 
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
 {

@@ -12,6 +12,7 @@ void advise_method(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_places(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_borne(const Tree *tree, const Scene *scene, Notes *notes);
+void advise_cohesion(const Tree *tree, const Scene *scene, Notes *notes);
 void advise_slip(const Tree *tree, const Scene *scene, Notes *notes);
 
 void advise_solids(const Tree *tree, const Scene *scene, Notes *notes);

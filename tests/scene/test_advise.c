@@ -39,7 +39,7 @@ static const struct Case {
     {{"solver.step={dt: 0.01, substeps: 1}"}, "too long for sound at 20 m/s"},
     /* tension: half of sqrt(0.1^3 / (2 pi)) = 6.31 ms */
     {{"solver.step={dt: 0.0064, substeps: 1}", "solver.surface_tension=cohesion",
-      "fluids[0].surface_tension=1000", "solver.method=wcsph"},
+      "fluids[0].surface_tension=1000", "solver.method=dfsph"},
      "too long for surface tension, whose shortest waves stand 6.31 ms: drops boil; use 2 substeps or more"},
     {{"solver.step={dt: 0.0055, substeps: 1}", "solver.numerical_viscosity=0"},
      "steps of 0.52 h / sound_speed heat fluid"},
@@ -65,6 +65,11 @@ static const struct Case {
     {{"solver.sound_speed=5", "gravity=[0, 0, 0]"}, NULL},
     {{"solver.sound_speed=6", "gravity=[9.81, 0, 0]"}, "may come to 4.43 m/s"},
     {{"solver.sound_speed=6", "fluids[0].velocity=[3, 0, 0]"}, "may come to 4.34 m/s"},
+    /* 5 sigma / 0.1 m on 7 c^2 */
+    {{"solver.surface_tension=cohesion", "fluids[0].surface_tension=400", "solver.sound_speed=20"},
+     "20 m/s is little for a surface tension of 400 N/m at this spacing: cohesion presses fluids[0] by some 4 "
+     "%; use 45 m/s or more"},
+    {{"solver.surface_tension=cohesion", "fluids[0].surface_tension=200", "solver.sound_speed=20"}, NULL},
     {{"solver.method=wcsph", "particles.support=2.6"}, "cubic lets particles pair at a support of 2.6"},
     {{"solver.method=wcsph", "particles.support=2.5"}, NULL},
     {{"solver.method=wcsph", "particles.support=3", "solver.kernel=wendland_c2"}, NULL},
