@@ -1,3 +1,4 @@
+#include "app/base/standard_streams.h"
 #include "app/command/cmd.h"
 #include "app/command/file_clash.h"
 #include "app/session/args_table.h"
@@ -81,6 +82,7 @@ int main(int argc, char *argv[])
 {
     static Args args;
     Error error = {{0}};
+    standard_streams_open();
     bound_spinning(argv);
     backends_add();
     if (!args_parse(argc, argv, &args, &error) || !file_clash_check(&args, &error)) {
@@ -88,10 +90,5 @@ int main(int argc, char *argv[])
         return EXIT_USAGE;
     }
     shader_source_set_directory(args.shaders);
-    const int code = with_gl_errors(run_command(&args));
-    if (fflush(stdout) != 0 && code == 0) {
-        perror("slosh: standard output");
-        return EXIT_FAILED;
-    }
-    return code;
+    return standard_streams_flush("slosh", with_gl_errors(run_command(&args)));
 }

@@ -1,5 +1,6 @@
 /* slosh-dist: slosh run on MPI ranks. */
 #include "app/base/exit_code.h"
+#include "app/base/standard_streams.h"
 #include "app/dist/cmd.h"
 #include "app/dist/options.h"
 #include "sim/dist/ranks.h"
@@ -62,10 +63,11 @@ static int command(int argc, char *argv[])
 int main(int argc, char *argv[])
 {
     int threads;
+    standard_streams_open();
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     backends_add();
     backend_add(&backend_ranks);
     const int code = command(argc, argv);
     MPI_Finalize();
-    return code;
+    return standard_streams_flush("slosh-dist", code);
 }

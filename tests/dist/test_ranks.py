@@ -160,6 +160,12 @@ class Ranks(RanksCase):
         self.assertEqual(len([line for line in done.stderr.splitlines() if "--device" in line]), 1, done.stderr)
         self.assertFalse(path.exists())
 
+    def test_output_that_nobody_gets(self):
+        for streams, why in (">&-", "Bad file descriptor"), (">/dev/full", "No space left on device"):
+            done = subprocess.run(["sh", "-c", f'exec "$@" {streams}', "sh", DIST, "help"], env=ENVIRONMENT, capture_output=True,
+                                  text=True, timeout=PATIENCE)
+            self.assertEqual((done.returncode, done.stderr), (1, f"slosh-dist: standard output: {why}\n"))
+
 
 if __name__ == "__main__":
     unittest.main()
