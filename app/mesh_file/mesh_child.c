@@ -1,6 +1,13 @@
+#define _GNU_SOURCE /* pipe2 */
 #include "app/mesh_file/mesh_child.h"
 
+#include "app/base/interrupt.h"
+#include "sim/base/stage.h"
+
 #include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { SECONDS_MOST = 60, GIB_MOST = 8 };
+enum { GIB_MOST = 8, LOOK_MS = 20 };
 
 /* A sanitizer's shadow is larger than any memory. */
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
@@ -40,10 +47,29 @@ static bool put(int to, const void *bytes, size_t size)
     return true;
 }
 
-static bool get(int from, void *bytes, size_t size)
+/* How far the parent waits for it. */
+typedef struct Wait {
+    int from;
+    double until_ms; /* wall time */
+    bool late;
+} Wait;
+
+/* Whether there is something to read, or the end. */
+static bool comes(Wait *wait)
+{
+    struct pollfd look = {.fd = wait->from, .events = POLLIN};
+    int ready = 0;
+    while (ready <= 0 && !wait->late && !interrupted()) {
+        ready = poll(&look, 1, LOOK_MS);
+        wait->late = ready <= 0 && wall_ms() > wait->until_ms;
+    }
+    return ready > 0;
+}
+
+static bool get(Wait *wait, void *bytes, size_t size)
 {
     for (char *at = bytes; size > 0;) {
-        const ssize_t done = read(from, at, size);
+        const ssize_t done = comes(wait) ? read(wait->from, at, size) : 0;
         if (done < 0 && errno == EINTR)
             continue;
         if (done <= 0)
@@ -55,13 +81,14 @@ static bool get(int from, void *bytes, size_t size)
 }
 
 /* Signals that the parent takes care of would be left undone here. */
-static void confine(void)
+static void confine(double seconds)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGXCPU, SIGTERM, SIGINT, SIGPIPE};
-    const struct rlimit seconds = {SECONDS_MOST, SECONDS_MOST + 1}, no_core = {0, 0};
+    const rlim_t most = (rlim_t)ceil(seconds);
+    const struct rlimit processor = {most, most + 1}, no_core = {0, 0};
     for (size_t i = 0; i < sizeof fatal / sizeof *fatal; i++)
         signal(fatal[i], SIG_DFL);
-    setrlimit(RLIMIT_CPU, &seconds);
+    setrlimit(RLIMIT_CPU, &processor);
     setrlimit(RLIMIT_CORE, &no_core);
 #ifndef SANITIZED
     const struct rlimit memory = {(rlim_t)GIB_MOST << 30, (rlim_t)GIB_MOST << 30};
@@ -69,11 +96,11 @@ static void confine(void)
 #endif
 }
 
-static void be_child(MeshRead *read, const char *path, int to)
+static void be_child(MeshRead *read, const char *path, double seconds, int to)
 {
     Triangles triangles = {0};
     Head head = {.ok = false};
-    confine();
+    confine(seconds);
     head.ok = read(path, &triangles, &head.error);
     head.vertex_count = triangles.vertex_count;
     head.triangle_count = triangles.triangle_count;
@@ -85,7 +112,7 @@ static void be_child(MeshRead *read, const char *path, int to)
             : 1);
 }
 
-static bool take(int from, Triangles *triangles, Error *error)
+static bool take(Wait *from, Triangles *triangles, Error *error)
 {
     Head head;
     if (!get(from, &head, sizeof head))
@@ -105,41 +132,50 @@ static bool take(int from, Triangles *triangles, Error *error)
            error_set(error, "the process that reads it ended early");
 }
 
-/* What its end says, where a signal was it. */
-static bool ended_well(pid_t child, bool taken, Error *error)
+/* What its end says, where it was ended. */
+static bool ended_well(pid_t child, const Wait *wait, double seconds, bool taken, Error *error)
 {
     int status = 0;
+    const bool stopped = interrupted();
+    if (!taken && (wait->late || stopped))
+        kill(child, SIGKILL);
     while (waitpid(child, &status, 0) < 0 && errno == EINTR)
         continue;
-    if (taken || !WIFSIGNALED(status))
+    if (taken || !WIFSIGNALED(status) || WTERMSIG(status) == SIGPIPE)
         return taken;
-    if (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)
+    if (stopped)
+        return error_set(error, "stopped");
+    if (wait->late || WTERMSIG(status) == SIGXCPU)
         return error_set(error,
-                         "reading it took more than %d s or %d GiB and was stopped; simplify the mesh in a "
-                         "modeller",
-                         SECONDS_MOST, GIB_MOST);
+                         "reading it took more than %g s and was stopped; simplify the mesh in a modeller",
+                         seconds);
+    if (WTERMSIG(status) == SIGKILL)
+        return error_set(error,
+                         "reading it was stopped, for want of memory maybe; simplify the mesh in a modeller");
     return error_set(error, "the library that reads it crashed over it (%s); write it anew with a modeller",
                      strsignal(WTERMSIG(status)));
 }
 
-bool mesh_child_read(MeshRead *read, const char *path, Triangles *triangles, Error *error)
+bool mesh_child_read(MeshRead *read, const char *path, double seconds, Triangles *triangles, Error *error)
 {
     int ends[2];
     *triangles = (Triangles){0};
-    if (pipe(ends) != 0)
+    if (pipe2(ends, O_CLOEXEC) != 0)
         return error_set(error, "no pipe to the process that reads it: %s", strerror(errno));
     const pid_t child = fork();
     if (child == 0) {
         close(ends[0]);
-        be_child(read, path, ends[1]);
+        be_child(read, path, seconds, ends[1]);
     }
     close(ends[1]);
-    bool ok = child > 0 && take(ends[0], triangles, error);
+    if (child < 0) {
+        close(ends[0]);
+        return error_set(error, "no process to read it: %s", strerror(errno));
+    }
+    Wait wait = {.from = ends[0], .until_ms = wall_ms() + 1000 * seconds};
+    const bool taken = take(&wait, triangles, error);
     close(ends[0]);
-    if (child > 0)
-        ok = ended_well(child, ok, error);
-    else
-        error_set(error, "no process to read it: %s", strerror(errno));
+    const bool ok = ended_well(child, &wait, seconds, taken, error);
     if (!ok)
         triangles_free(triangles);
     return ok;

@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* memmem */
 #include "app/mesh_file/mesh_count.h"
 
 #include <stdint.h>
@@ -116,4 +117,21 @@ double mesh_count(MeshFormat format, const char *bytes, size_t size, size_t whol
     default:
         return 0;
     }
+}
+
+bool mesh_has_head(MeshFormat format, const char *bytes, size_t size)
+{
+    static const char line[] = "end_header";
+    const size_t length = sizeof line - 1;
+    const char *end = bytes + size, *at = bytes;
+    if (format != MESH_PLY)
+        return true;
+    while ((at = memmem(at, (size_t)(end - at), line, length))) {
+        const char *behind = at + length;
+        if (at > bytes && (at[-1] == '\n' || at[-1] == '\r') && behind < end &&
+            (*behind == '\n' || *behind == '\r'))
+            return true;
+        at = behind;
+    }
+    return false;
 }

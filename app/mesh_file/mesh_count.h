@@ -2,6 +2,7 @@
 #ifndef SLOSH_MESH_COUNT_H
 #define SLOSH_MESH_COUNT_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef enum MeshFormat { MESH_OBJ, MESH_PLY, MESH_STL, MESH_GLTF, MESH_GLB, MESH_UNKNOWN } MeshFormat;
@@ -13,5 +14,9 @@ MeshFormat mesh_format(const char *path);
    heads, lines of an OBJ and a text STL are counted as far as they are here. 0 where nothing says it. Pure.
  */
 double mesh_count(MeshFormat format, const char *bytes, size_t size, size_t whole);
+
+/* Whether the head of a PLY, all of whose bytes are here, has its last line; of other formats always. assimp
+   looks for it for ever. Pure. */
+bool mesh_has_head(MeshFormat format, const char *bytes, size_t size);
 
 #endif

@@ -10,12 +10,15 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <errno.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { HEAD_SIZE = 1 << 16 };
+enum { HEAD_SIZE = 1 << 16, SECONDS_MOST = 30 };
 
 /* ---- before it is read ---- */
 
@@ -34,14 +37,14 @@ static bool head_fits(const char *path, MeshFormat format, Error *error)
 {
     static char head[HEAD_SIZE];
     struct stat about;
-    FILE *file = fopen(path, "rb");
+    const bool there = stat(path, &about) == 0;
+    if (there && !S_ISREG(about.st_mode)) /* a pipe would be waited for */
+        return error_set(error, "it is no file; name a file that has a mesh");
+    FILE *file = there ? fopen(path, "rb") : NULL;
     if (!file)
         return error_set(error, "%s; name a file that is there", strerror(errno));
-    const bool regular = fstat(fileno(file), &about) == 0 && S_ISREG(about.st_mode);
-    const size_t size = regular ? fread(head, 1, sizeof head, file) : 0;
+    const size_t size = fread(head, 1, sizeof head, file);
     fclose(file);
-    if (!regular)
-        return error_set(error, "it is no file; name a file that has a mesh");
     const double count = mesh_count(format, head, size, (size_t)about.st_size);
     if (count > TRIANGLES_MAX)
         return too_many(count, error);
@@ -136,14 +139,16 @@ typedef struct Kept {
     MeshState state;
 } Kept;
 
-/* Scenes are read on the main thread. */
+static pthread_mutex_t keeping = PTHREAD_MUTEX_INITIALIZER; /* a window that waits for one may draw another */
 static Kept *all_kept;
 
 static const Kept *find_kept(uint64_t of, size_t size)
 {
+    pthread_mutex_lock(&keeping);
     const Kept *kept = all_kept;
     while (kept && (kept->hash != of || kept->size != size))
         kept = kept->next;
+    pthread_mutex_unlock(&keeping);
     return kept;
 }
 
@@ -160,8 +165,12 @@ static const Kept *keep(Triangles *triangles, uint64_t of, size_t size, Error *e
         free(kept);
         return NULL;
     }
-    kept->hash = of, kept->size = size, kept->next = all_kept;
-    return all_kept = kept;
+    kept->hash = of, kept->size = size;
+    pthread_mutex_lock(&keeping);
+    kept->next = all_kept;
+    all_kept = kept;
+    pthread_mutex_unlock(&keeping);
+    return kept;
 }
 
 /* A text of lines is counted before assimp takes many times its size. */
@@ -171,23 +180,36 @@ static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t 
     if (!bytes)
         return false;
     const double count = mesh_count(format, bytes, *size, *size);
+    const bool whole = mesh_has_head(format, bytes, *size);
     *of = hash_add(HASH_NONE, bytes, *size);
     free(bytes);
+    if (!whole)
+        return error_set(error,
+                         "it has no line end_header and was cut, or is still being written; write it anew");
     return count <= TRIANGLES_MAX || too_many(count, error);
 }
 
-/* A glTF in text names further files: it is known by what it makes. */
-static const Kept *look_up(const char *path, MeshFormat format, Error *error)
-{
-    Triangles triangles;
+/* A file that is to be read, of so many bytes with that hash. */
+typedef struct Job {
+    const char *path;
+    MeshFormat format;
     uint64_t of;
     size_t size;
-    if (!bytes_fit(path, format, &of, &size, error))
+    const Kept *kept; /* what came of it; NULL: the error */
+    Error error;
+    atomic_bool done;
+} Job;
+
+/* A glTF in text names further files: it is known by what it makes. */
+static const Kept *read_one(const Job *job, Error *error)
+{
+    Triangles triangles;
+    uint64_t of = job->of;
+    size_t size = job->size;
+    const Kept *kept = NULL;
+    if (!mesh_child_read(mesh_file_read, job->path, SECONDS_MOST, &triangles, error))
         return NULL;
-    const Kept *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
-    if (kept || !mesh_child_read(mesh_file_read, path, &triangles, error))
-        return kept;
-    if (format == MESH_GLTF) {
+    if (job->format == MESH_GLTF) {
         of = hash_add(HASH_NONE, triangles.vertex, triangles.vertex_count * sizeof *triangles.vertex);
         size = triangles.triangle_count;
         kept = find_kept(of, size);
@@ -196,6 +218,70 @@ static const Kept *look_up(const char *path, MeshFormat format, Error *error)
         return keep(&triangles, of, size, error);
     triangles_free(&triangles);
     return kept;
+}
+
+static void *do_job(void *argument)
+{
+    Job *job = argument;
+    job->kept = read_one(job, &job->error);
+    atomic_store(&job->done, true);
+    return NULL;
+}
+
+/* ---- what a window does meanwhile ---- */
+
+static struct {
+    void (*call)(void *user); /* NULL: nothing */
+    void *user;
+    pthread_t thread; /* its own */
+    bool waits;       /* it is being called */
+} meanwhile;
+
+void mesh_file_meanwhile(void (*call)(void *user), void *user)
+{
+    meanwhile.call = call;
+    meanwhile.user = user;
+    meanwhile.thread = pthread_self();
+}
+
+/* Signals are for the thread of the window. */
+static bool start_thread(Job *job, pthread_t *thread)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const bool started = pthread_create(thread, NULL, do_job, job) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started;
+}
+
+static void do_beside(Job *job)
+{
+    pthread_t thread;
+    const bool waits = meanwhile.call && !meanwhile.waits && pthread_equal(pthread_self(), meanwhile.thread);
+    if (!waits || !start_thread(job, &thread)) {
+        do_job(job);
+        return;
+    }
+    meanwhile.waits = true;
+    while (!atomic_load(&job->done))
+        meanwhile.call(meanwhile.user);
+    meanwhile.waits = false;
+    pthread_join(thread, NULL);
+}
+
+static const Kept *look_up(const char *path, MeshFormat format, Error *error)
+{
+    Job job = {.path = path, .format = format};
+    if (!bytes_fit(path, format, &job.of, &job.size, error))
+        return NULL;
+    job.kept = format == MESH_GLTF ? NULL : find_kept(job.of, job.size);
+    if (job.kept)
+        return job.kept;
+    do_beside(&job);
+    if (!job.kept)
+        *error = job.error;
+    return job.kept;
 }
 
 const MeshShape *mesh_file_load(const char *path, MeshState *state, Error *error)

@@ -210,14 +210,12 @@ bool draw_needs_fluid(const Play *play)
            model_fresh(&play->model) || files_due(&play->files);
 }
 
-void draw_picture(Play *play)
+static void draw_now(Play *play)
 {
     Picture *picture = &play->picture;
     const double began = wall_ms();
     const bool whole =
         draw_needs_fluid(play) || !play->model.paused || !play->model.has_particles || play->files.shoot;
-    if (!picture_visible(picture))
-        return;
     if (whole)
         model_take(&play->model);
     picture->dirty = picture->over = false;
@@ -238,4 +236,13 @@ void draw_picture(Play *play)
     window_present(play->window);
     if (whole)
         count_picture(play, began);
+}
+
+void draw_picture(Play *play)
+{
+    if (!picture_visible(&play->picture))
+        return;
+    play->drawing = true;
+    draw_now(play);
+    play->drawing = false;
 }

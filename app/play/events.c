@@ -162,15 +162,25 @@ static void take_moves(Play *play)
     }
 }
 
-void events_follow_hand(Play *play)
+static void follow_hand(Play *play, bool moves)
 {
     const double began = meter_thread_cpu_ms();
     play->looked_ms = wall_ms();
-    if (input_holds_box(&play->input) || input_touches(&play->input))
+    if (moves)
         take_moves(play);
     if (play->model.has_particles)
         hands_look(play);
     meter_events(&play->meter, meter_thread_cpu_ms() - began);
+}
+
+void events_follow_hand(Play *play)
+{
+    follow_hand(play, input_holds_box(&play->input) || input_touches(&play->input));
+}
+
+void events_take_moves(Play *play)
+{
+    follow_hand(play, true);
 }
 
 void events_between_passes(void *of_play)

@@ -60,6 +60,7 @@ typedef struct Play {
     WindowShake shake;
     double looked_ms; /* wall time of the last look in the middle of a picture */
     double asked_ms;  /* wall time at which the user was asked whether to close without saving; 0: never */
+    bool drawing;     /* a picture is being drawn */
     bool quit;
 } Play;
 
@@ -108,6 +109,9 @@ void events_take(Play *play);
    something. */
 void events_follow_hand(Play *play);
 void events_between_passes(void *of_play);
+
+/* While something else is being done, between two pictures: what moves the box or the finger. */
+void events_take_moves(Play *play);
 
 /* hands.c: what the hand does, between two pictures or in the middle of one; there must be a state. */
 void hands_look(Play *play);

@@ -4,6 +4,7 @@
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/device/devices.h"
+#include "app/mesh_file/mesh_file.h"
 #include "app/play/figures.h"
 #include "app/play/parts.h"
 #include "sim/base/stage.h"
@@ -146,9 +147,28 @@ static void tell_figures(Session *session)
         notice_error(&session->play.notice, error.message);
 }
 
+/* While a mesh is read, also in the middle of what was asked for: the fluid is seen, and moves with the hand;
+   what asks for more waits. */
+static void stay_awake(void *of_session)
+{
+    Session *session = of_session;
+    Play *play = &session->play;
+    PlayScene *open = &play->model.open;
+    if (play->drawing) {
+        window_wait(play->window, 1e-3 * WORK_MS);
+        return;
+    }
+    events_take_moves(play);
+    open->source->status(open, &play->model.status); /* no more of model_listen, which changes the scene */
+    if (interrupt_asked())
+        tell_figures(session);
+    pause_or_draw(play);
+}
+
 static bool run(Session *session, Error *error)
 {
     Play *play = &session->play;
+    mesh_file_meanwhile(stay_awake, session);
     while (!play->quit && !interrupted()) {
         events_take(play);
         if (!start_devices(session, error))
@@ -176,6 +196,7 @@ static bool finish(Session *session, Error *error)
     const char *record = session->setup->record;
     if (play->files.shoot) /* asked for in the last moment */
         draw_picture(play);
+    mesh_file_meanwhile(NULL, NULL);
     window_hide(play->window);
     const bool movie = files_end(&play->files, &play->notice);
     return (!record || model_save_now(&play->model, record, error)) &&

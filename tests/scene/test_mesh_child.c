@@ -27,6 +27,15 @@ static bool hang(const char *path, Triangles *triangles, Error *error)
     return true;
 }
 
+/* Without a processor's time. */
+static bool sleep_for_ever(const char *path, Triangles *triangles, Error *error)
+{
+    (void)path, (void)triangles, (void)error;
+    while (true)
+        pause();
+    return true;
+}
+
 static bool leave(const char *path, Triangles *triangles, Error *error)
 {
     (void)path, (void)triangles, (void)error;
@@ -51,11 +60,11 @@ static bool make(const char *path, Triangles *triangles, Error *error)
     return true;
 }
 
-static void expect_error(MeshRead *read, const char *words)
+static void expect_error(MeshRead *read, double seconds, const char *words)
 {
     Triangles triangles;
     Error error = {""};
-    assert_false(mesh_child_read(read, "a.obj", &triangles, &error));
+    assert_false(mesh_child_read(read, "a.obj", seconds, &triangles, &error));
     if (!strstr(error.message, words))
         fail_msg("'%s' has no '%s'", error.message, words);
     assert_null(triangles.vertex);
@@ -64,10 +73,11 @@ static void expect_error(MeshRead *read, const char *words)
 static void ends_are_errors(void **state)
 {
     (void)state;
-    expect_error(crash, "crashed over it (Segmentation fault)");
-    expect_error(hang, "took more than");
-    expect_error(leave, "ended early");
-    expect_error(refuse, "a.obj: no mesh");
+    expect_error(crash, 60, "crashed over it (Segmentation fault)");
+    expect_error(hang, 60, "took more than 60 s and was stopped; simplify");
+    expect_error(sleep_for_ever, 0.05, "took more than 0.05 s and was stopped; simplify");
+    expect_error(leave, 60, "ended early");
+    expect_error(refuse, 60, "a.obj: no mesh");
 }
 
 static void more_than_a_pipe_holds(void **state)
@@ -75,7 +85,7 @@ static void more_than_a_pipe_holds(void **state)
     (void)state;
     Triangles triangles;
     Error error;
-    assert_true(mesh_child_read(make, "a.obj", &triangles, &error));
+    assert_true(mesh_child_read(make, "a.obj", 60, &triangles, &error));
     assert_int_equal(triangles.vertex_count, MANY);
     assert_true(triangles.vertex[MANY - 1][2] == 7 && triangles.triangle[MANY - 1][1] == 9);
     triangles_free(&triangles);

@@ -162,7 +162,7 @@ static void what_cannot_be_had_is_refused(void **state)
     expect_refusal("folder.obj", "folder.obj: it is no file; name a file that has a mesh");
     write_box("open.obj", 11, false);
     expect_refusal("open.obj", "open.obj: the mesh is open: 3 edges lack a triangle; ");
-    write_text("text.ply", "no mesh\n");
+    write_text("text.ply", "no mesh\nend_header\n");
     expect_refusal("text.ply", "text.ply: it cannot be read: ");
     write_text("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
     expect_refusal("points.obj", "points.obj: it ");
@@ -203,6 +203,30 @@ static void counts_before_reading(void **state)
     assert_true(mesh_count(MESH_GLB, "glTF", 4, 4) == 0);
     assert_int_equal(mesh_format("a/b.c.StL"), MESH_STL);
     assert_int_equal(mesh_format("a/b"), MESH_UNKNOWN);
+}
+
+/* assimp would look for the rest for ever. */
+static void a_cut_head_is_refused(void **state)
+{
+    (void)state;
+    static const char head[] =
+        "ply\nformat ascii 1.0\ncomment end_header\nelement vertex 3\nproperty float x\n"
+        "property list uchar int vertex_indices\nend_header";
+    for (size_t size = 1; size < sizeof head; size++) {
+        write_bytes("cut.ply", head, size);
+        expect_refusal("cut.ply", "cut.ply: it has no line end_header and was cut");
+        assert_false(mesh_has_head(MESH_PLY, head, size));
+    }
+    assert_true(mesh_has_head(MESH_PLY, "ply\r\nend_header\r\n", 17));
+    assert_true(mesh_has_head(MESH_PLY, "ply\rend_header\r", 15));
+    assert_true(mesh_has_head(MESH_OBJ, "", 0));
+}
+
+static void a_pipe_is_no_file(void **state)
+{
+    (void)state;
+    assert_int_equal(mkfifo(in_folder("pipe.obj"), 0600), 0);
+    expect_refusal("pipe.obj", "pipe.obj: it is no file");
 }
 
 /* The same ball in each format. */
@@ -287,6 +311,8 @@ int main(void)
         cmocka_unit_test(what_cannot_be_had_is_refused),
         cmocka_unit_test(what_is_too_large_is_refused_unread),
         cmocka_unit_test(counts_before_reading),
+        cmocka_unit_test(a_cut_head_is_refused),
+        cmocka_unit_test(a_pipe_is_no_file),
         cmocka_unit_test(formats_agree),
     };
     return cmocka_run_group_tests(tests, make_folder, NULL);

@@ -1,6 +1,9 @@
 """A scene file that is saved in an editor while the window shows it."""
+import glob
 import os
 import resource
+import signal
+import subprocess
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), '..', 'commands'))
@@ -93,6 +96,27 @@ class Reload(Window):
         self.assertEqual(out['scenes_opened'], 2)
         self.assertEqual(len(self.files('recording')), 1)
 
+    def has_child(self):
+        names = glob.glob(f'/proc/{self.process.pid}/task/*/children')
+        return subprocess.run(['cat', *names], capture_output=True, check=False).stdout != b''
+
+    def test_a_mesh_that_takes_long(self):
+        """The window goes on meanwhile, and its end does not wait for it."""
+        os.mkfifo(self.path('m.mtl'))  # who opens it waits for another one
+        self.write('m.obj', 'mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n')
+        for spacing in (0.1, 0.12):
+            self.save(STILL.replace('0.1', str(spacing)) + 'solids: [{mesh: {file: m.obj, centre: [0, 0.7, 0]}}]\n')
+            self.wait_for(self.has_child, self.process)
+            if spacing == 0.1:
+                self.display.press('Left')
+                self.until(lambda now: now['box_position'][0] < -0.02)
+                self.display.release('Left')
+                self.assertTrue(self.has_child())
+                os.close(os.open(self.path('m.mtl'), os.O_WRONLY | os.O_NONBLOCK))
+                self.wait_said('m.obj: the mesh is open')
+        self.process.send_signal(signal.SIGTERM)
+        self.end()
+
     def test_broken(self):
         """The last good one goes on, until it is mended."""
         self.save(STILL.replace('size: [1, 1, 1]', 'size: [1, 1'), whole=False)
@@ -112,4 +136,4 @@ class Reload(Window):
 
 if __name__ == '__main__':
     command.main('Reload.test_live Reload.test_broken Reload.test_a_session_that_cannot_be_saved_goes_on',
-                 'Reload.test_begins_anew Reload.test_files_that_it_names')
+                 'Reload.test_begins_anew Reload.test_files_that_it_names Reload.test_a_mesh_that_takes_long')
