@@ -87,7 +87,7 @@ APP = {
     "watch": "base",
     "meter": "base session lab",
     "panel": "probe recipe scene term hand held session shelf window",
-    "play": "base yaml recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
+    "play": "base yaml mesh_file recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
     "manual": "base scene session",
     "film": "base scene recording output setting session playback beside",
     "dist": "base probe scene output session scaling lab",
