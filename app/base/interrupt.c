@@ -2,20 +2,27 @@
 
 #include "app/base/output_pending.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stddef.h>
+#include <stdint.h>
+#include <sys/eventfd.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t signals, asked;
+static volatile sig_atomic_t first, asked; /* first: its number; 0: none came */
+static volatile sig_atomic_t bell = -1;    /* a file descriptor, for who waits for it */
 
 static void on_signal(int number)
 {
-    (void)number;
-    if (signals) {
+    const int before = errno;
+    if (first) {
         output_discard_all();
         _exit(EXIT_INTERRUPTED);
     }
-    signals = 1;
+    first = number;
+    if (bell >= 0 && write(bell, &(uint64_t){1}, sizeof(uint64_t)) < 0)
+        bell = -1; /* nobody hears it */
+    errno = before;
 }
 
 static void catch_unless_ignored(int number)
@@ -38,7 +45,19 @@ void interrupt_install(void)
 
 bool interrupted(void)
 {
-    return signals != 0;
+    return first != 0;
+}
+
+int interrupt_signal(void)
+{
+    return first;
+}
+
+int interrupt_bell(void)
+{
+    if (bell < 0)
+        bell = eventfd(first != 0, EFD_CLOEXEC | EFD_NONBLOCK);
+    return bell;
 }
 
 static void on_ask(int number)

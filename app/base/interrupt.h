@@ -14,6 +14,10 @@ void interrupt_install(void);
 
 /* Whether such a signal came: loops poll it and end early, with a whole file. */
 bool interrupted(void);
+int interrupt_signal(void); /* its number; 0: none */
+
+/* A file descriptor that can be read once such a signal came, for a thread that waits; -1: there is none. */
+int interrupt_bell(void);
 
 /* From now on SIGUSR1 asks how it stands, as it asks dd. */
 void interrupt_hear_ask(void);

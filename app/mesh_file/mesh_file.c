@@ -191,7 +191,7 @@ static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t 
 
 /* A file that is to be read, of so many bytes with that hash. */
 typedef struct Job {
-    const char *path;
+    char path[4096];
     MeshFormat format;
     uint64_t of;
     size_t size;
@@ -272,16 +272,25 @@ static void do_beside(Job *job)
 
 static const Kept *look_up(const char *path, MeshFormat format, Error *error)
 {
-    Job job = {.path = path, .format = format};
-    if (!bytes_fit(path, format, &job.of, &job.size, error))
+    uint64_t of;
+    size_t size;
+    if (!bytes_fit(path, format, &of, &size, error))
         return NULL;
-    job.kept = format == MESH_GLTF ? NULL : find_kept(job.of, job.size);
-    if (job.kept)
-        return job.kept;
-    do_beside(&job);
-    if (!job.kept)
-        *error = job.error;
-    return job.kept;
+    const Kept *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
+    Job *job = kept ? NULL : calloc(1, sizeof *job); /* a window may leave it to its thread by longjmp */
+    if (!job) {
+        if (!kept)
+            error_set(error, "no memory to read it");
+        return kept;
+    }
+    *job = (Job){.format = format, .of = of, .size = size};
+    snprintf(job->path, sizeof job->path, "%s", path);
+    do_beside(job);
+    kept = job->kept;
+    if (!kept)
+        *error = job->error;
+    free(job);
+    return kept;
 }
 
 const MeshShape *mesh_file_load(const char *path, MeshState *state, Error *error)

@@ -1,6 +1,8 @@
 #include "app/play/model.h"
 
+#include "app/base/interrupt.h"
 #include "app/output/file_name.h"
+#include "app/play/guard.h"
 #include "app/scene/live.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
@@ -13,7 +15,13 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double LEAVE_MS = 200, SAVE_MS = 5000;
+static const double LEAVE_MS = 200, SAVE_MS = 5000, HASTE_MS = 400;
+
+/* Somebody waits for the end, or nobody sees it. */
+static bool in_haste(const Model *model)
+{
+    return interrupted() || window_gone(model->window);
+}
 
 /* Padding that differs costs advice that is not news. */
 static bool same_bytes(const void *a, const void *b, size_t size)
@@ -202,6 +210,7 @@ static void adopt(Model *model, const PlayScene *opened)
     model->told_fixed = model->asked_acceleration = false;
     model->told_script = SCRIPT_NONE;
     model->scenes_opened++;
+    guard_watch(model->guard, opened->simulator);
     model->seeded =
         opened->source->simulates ? seed_count(&opened->scene.world, opened->scene.world.spacing) : 0;
     model->open.source->set_speed(&model->open, model->speed);
@@ -217,9 +226,18 @@ static void share_processors(WorldDef *def)
         *threads = world_processors() > 1 ? world_processors() / 2 : 1;
 }
 
+/* Its simulation does not answer. */
+static bool save_cut(Model *model, const char *path, Error *error)
+{
+    const bool ok = simulator_save_cut(model->open.simulator, path, error);
+    if (ok)
+        notice_tell(model->notice, "%s: the session, without its last frame, which lasts still", path);
+    return ok;
+}
+
 bool model_save_now(Model *model, const char *path, Error *error)
 {
-    const double until = wall_ms() + SAVE_MS;
+    const double until = wall_ms() + (in_haste(model) ? HASTE_MS : SAVE_MS);
     if (!model->open.source->simulates)
         return error_set(error, "%s: not written, since a recorded run is open, which has no session", path);
     for (bool asked = false;; window_wait(model->window, 0.01)) {
@@ -227,7 +245,7 @@ bool model_save_now(Model *model, const char *path, Error *error)
         if (asked && !model->status.saving)
             return model->status.saved || error_set(error, "%s", model->status.save_message);
         if (model->status.ended || wall_ms() > until)
-            return error_set(error, "%s: the session cannot be saved, its simulation does not answer", path);
+            return save_cut(model, path, error);
         asked = asked || simulator_save(model->open.simulator, path);
         simulator_work(model->open.simulator, 0);
     }
@@ -270,6 +288,7 @@ static void leave(Model *model)
         model->open.source->work(&model->open, 0);
         model_listen(model);
     }
+    guard_watch(model->guard, NULL);
     model->simulated_s += model->status.simulated_s;
     model->status = (SimulatorStatus){.time = 0};
     if (play_scene_close(&model->open, LEAVE_MS))
@@ -380,6 +399,7 @@ bool model_open_neighbour(Model *model, int by)
 
 bool model_close(Model *model, double patience_ms)
 {
+    guard_watch(model->guard, NULL);
     return play_scene_close(&model->open, patience_ms) && model_leave(model, patience_ms);
 }
 

@@ -13,14 +13,15 @@
 
 /* To be zeroed but for what is given. */
 typedef struct Model {
-    Window *window;     /* given: waits take its events, a new state wakes it */
-    GlTimer *timer;     /* given: as of SimulatorSetup */
-    HandPost *post;     /* given: sends the box where the hand wants it */
-    Notice *notice;     /* given */
-    const char *record; /* given: no session goes without a trace; or NULL */
-    bool kept;          /* with it the session that is left next is saved already */
-    size_t past_bytes;  /* given: as of SimulatorSetup */
-    double speed;       /* given: simulated seconds in a second */
+    Window *window;      /* given: waits take its events, a new state wakes it */
+    GlTimer *timer;      /* given: as of SimulatorSetup */
+    HandPost *post;      /* given: sends the box where the hand wants it */
+    Notice *notice;      /* given */
+    struct Guard *guard; /* given: watches the session of what is open; NULL: nothing does */
+    const char *record;  /* given: no session goes without a trace; or NULL */
+    bool kept;           /* with it the session that is left next is saved already */
+    size_t past_bytes;   /* given: as of SimulatorSetup */
+    double speed;        /* given: simulated seconds in a second */
 
     PlayScene open;
     PlayScene left;            /* the one before, whose solver has not ended yet; or zero */

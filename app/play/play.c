@@ -6,11 +6,13 @@
 #include "app/device/devices.h"
 #include "app/mesh_file/mesh_file.h"
 #include "app/play/figures.h"
+#include "app/play/guard.h"
 #include "app/play/parts.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
 
 #include <math.h>
+#include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -24,6 +26,7 @@ typedef struct Session {
     Play play;
     const PlaySetup *setup;
     Devices *devices; /* NULL: not started yet, or left alone */
+    jmp_buf back;     /* to the end, from functions of a window whose display is gone */
 } Session;
 
 /* A HandPost whose devices the window leaves to it. */
@@ -64,6 +67,7 @@ static bool start(Session *session, Error *error)
     if (!make_window(session, error) || !make_post(session, error))
         return false;
     play->model = (Model){.window = play->window,
+                          .guard = guard_create(setup->record, window_connection(play->window)),
                           .timer = play->picture.timer,
                           .post = play->post,
                           .notice = &play->notice,
@@ -165,11 +169,15 @@ static void stay_awake(void *of_session)
     pause_or_draw(play);
 }
 
+static const char GONE[] = "the display is gone";
+
 static bool run(Session *session, Error *error)
 {
     Play *play = &session->play;
     mesh_file_meanwhile(stay_awake, session);
     while (!play->quit && !interrupted()) {
+        if (window_gone(play->window))
+            return error_set(error, GONE);
         events_take(play);
         if (!start_devices(session, error))
             return false;
@@ -189,18 +197,46 @@ static bool run(Session *session, Error *error)
     return true;
 }
 
+static void jump_back(void *of_session)
+{
+    Session *session = of_session;
+    longjmp(session->back, 1);
+}
+
+static bool run_while_there(Session *session, Error *error)
+{
+    Window *window = session->play.window;
+    const bool again = setjmp(session->back) != 0;
+    window_when_gone(window, again ? NULL : jump_back, session);
+    const bool ok = again ? error_set(error, GONE) : run(session, error);
+    window_when_gone(window, NULL, NULL);
+    return ok;
+}
+
+static bool save_session(Session *session, Error *error)
+{
+    Model *model = &session->play.model;
+    const char *record = session->setup->record;
+    const bool asked = !interrupted() && !window_gone(session->play.window); /* by who could have saved it */
+    char path[1024];
+    if (!record && (asked || !model->open.source->simulates))
+        return true;
+    return !guard_path(record, model->status.unsaved, path) || model_save_now(model, path, error);
+}
+
 /* The window goes at once; what is being written is finished behind it. */
 static bool finish(Session *session, Error *error)
 {
     Play *play = &session->play;
-    const char *record = session->setup->record;
-    if (play->files.shoot) /* asked for in the last moment */
+    if (play->files.shoot && !window_gone(play->window)) /* asked for in the last moment */
         draw_picture(play);
     mesh_file_meanwhile(NULL, NULL);
     window_hide(play->window);
+    const bool saved = save_session(session, error);
+    guard_destroy(play->model.guard);
+    play->model.guard = NULL;
     const bool movie = files_end(&play->files, &play->notice);
-    return (!record || model_save_now(&play->model, record, error)) &&
-           (movie || error_set(error, "the video was not written"));
+    return saved && (movie || error_set(error, "the video was not written"));
 }
 
 /* Behind all that is written, before libraries end what the solver's thread still uses. */
@@ -211,14 +247,17 @@ static void end_at_once(int status, void *nothing)
     _exit(status);
 }
 
-/* False: the solver is in a frame that lasts seconds; the end of the process ends it. */
+/* False: the solver is in a frame that lasts seconds, or the driver would wait for a display that is gone;
+   the end of the process ends it. */
 static bool close_all(Session *session)
 {
     Play *play = &session->play;
     devices_stop(session->devices);
     if (play->post)
         hand_post_close(play->post);
-    if (!model_close(&play->model, PATIENCE_MS))
+    guard_destroy(play->model.guard);
+    play->model.guard = NULL;
+    if ((play->window && window_gone(play->window)) || !model_close(&play->model, PATIENCE_MS))
         return false;
     hand_post_destroy(play->post);
     overlay_end(&play->overlay);
@@ -240,7 +279,7 @@ static bool play_session(Session *session, PlayFigures *figures)
     Play *play = &session->play;
     Error error = {{0}};
     const bool started = start(session, &error);
-    const bool ran = started && run(session, &error);
+    const bool ran = started && run_while_there(session, &error);
     if (started) {
         model_listen(&play->model);
         figures_of(play, figures);

@@ -68,6 +68,9 @@ bool recording_add(Recording *recording, const SimCommand *command);
 bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
                      Error *error);
 
+/* The same where the end is not known: the file has no last line, as one that was cut behind its commands. */
+bool recording_write_cut(const Recording *recording, const char *path, Error *error);
+
 /* Reads the bytes of a file; pure. False, and nothing to destroy, with "path:line: what is wrong; what would
    be right". A recording that ends before its last line is read as far as it is whole, with `cut`. */
 bool recording_parse(const char *path, const char *bytes, size_t size, Recording *out, Error *error);

@@ -118,25 +118,31 @@ static void put_command(FILE *file, const SimCommand *command)
             command->kind == SIM_CARRY ? "carry" : "target", x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
 }
 
-static bool put_all(FILE *file, const Recording *recording, uint64_t steps, uint64_t hash)
+/* Of the world at the end. */
+typedef struct End {
+    uint64_t steps, hash;
+} End;
+
+/* `end` NULL: it is not known. */
+static bool put_all(FILE *file, const Recording *recording, const End *end)
 {
     put_head(file, recording);
     fputs("commands\n", file);
     for (size_t i = 0; i < recording->count; i++)
         put_command(file, &recording->commands[i]);
-    fprintf(file, "end %" PRIu64 " %016" PRIx64 "\n", steps, hash);
+    if (end)
+        fprintf(file, "end %" PRIu64 " %016" PRIx64 "\n", end->steps, end->hash);
     return fflush(file) == 0 && !ferror(file);
 }
 
-bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
-                     Error *error)
+static bool write_whole(const Recording *recording, const End *end, const char *path, Error *error)
 {
     Output output = {0};
     if (!output_begin(&output, path, error))
         return false;
     errno = 0;
     FILE *file = fopen(output.temp, "wb");
-    bool ok = file && put_all(file, recording, steps, hash);
+    bool ok = file && put_all(file, recording, end);
     const int reason = errno;
     if (file && fclose(file) != 0)
         ok = false;
@@ -145,4 +151,15 @@ bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, 
     output_discard(&output);
     return error_set(error, "%s: cannot be written: %s; free some space, or choose another folder", path,
                      strerror(reason ? reason : errno));
+}
+
+bool recording_write(const Recording *recording, uint64_t steps, uint64_t hash, const char *path,
+                     Error *error)
+{
+    return write_whole(recording, &(End){steps, hash}, path, error);
+}
+
+bool recording_write_cut(const Recording *recording, const char *path, Error *error)
+{
+    return write_whole(recording, NULL, path, error);
 }

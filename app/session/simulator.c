@@ -1,6 +1,9 @@
 #include "app/session/simulator_state.h"
 
+#include "sim/base/stage.h"
+
 #include <math.h>
+#include <poll.h>
 #include <stdio.h>
 
 bool simulator_on_gpu(const Simulator *simulator)
@@ -131,6 +134,63 @@ bool simulator_save(Simulator *simulator, const char *path)
     }
     change_end(simulator);
     return taken;
+}
+
+static const double LOOK_MS = 5, LOCK_MS = 300;
+
+static bool lock_soon(Simulator *simulator)
+{
+    const double until = wall_ms() + LOCK_MS;
+    while (pthread_mutex_trylock(&simulator->lock) != 0) {
+        if (wall_ms() > until)
+            return false;
+        poll(NULL, 0, (int)LOOK_MS);
+    }
+    return true;
+}
+
+bool simulator_save_cut(Simulator *simulator, const char *path, Error *error)
+{
+    if (!lock_soon(simulator))
+        return error_set(error, "%s: the session cannot be saved, its simulation has stopped", path);
+    const bool ok = simulator->recording_lost
+                        ? error_set(error, "%s: the session was too long to be kept", path)
+                        : recording_write_cut(&simulator->recording, path, error);
+    pthread_mutex_unlock(&simulator->lock);
+    return ok;
+}
+
+bool simulator_save_last(Simulator *simulator, const char *path, double patience_ms, char words[1200])
+{
+    const double until = wall_ms() + patience_ms;
+    Error error = {{0}};
+    bool asked = false, done = false, saved = false;
+    while (!simulator->here && !done && wall_ms() < until && lock_soon(simulator)) {
+        if (!asked && !simulator->saving && !simulator->ended) {
+            simulator->save = simulator->saving = asked = true;
+            snprintf(simulator->save_path, sizeof simulator->save_path, "%s", path);
+            pthread_cond_broadcast(&simulator->changed);
+        }
+        done = asked && !simulator->saving;
+        saved = done && simulator->status.saved;
+        snprintf(words, 1200, "%s", simulator->status.save_message);
+        pthread_mutex_unlock(&simulator->lock);
+        poll(NULL, 0, (int)LOOK_MS);
+    }
+    if (done)
+        return saved;
+    saved = simulator_save_cut(simulator, path, &error);
+    snprintf(words, 1200, saved ? "%s: the session, without its last frame" : "%s",
+             saved ? path : error.message);
+    return saved;
+}
+
+bool simulator_unsaved(Simulator *simulator)
+{
+    const bool locked = lock_soon(simulator), unsaved = simulator->status.unsaved;
+    if (locked)
+        pthread_mutex_unlock(&simulator->lock);
+    return unsaved;
 }
 
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command)

@@ -126,6 +126,17 @@ uint64_t simulator_obeyed(Simulator *simulator, uint64_t step);
    what is done. False while an earlier one is not. */
 bool simulator_save(Simulator *simulator, const char *path);
 
+/* The same at once, from any thread and whatever the solver's does: as far as it is recorded, without its end
+   (recording_write_cut). False with the reason, also where a thread that has stopped holds it. */
+bool simulator_save_cut(Simulator *simulator, const char *path, Error *error);
+
+/* From a thread beside, at the end of the program: whole where the solver's thread does it in that time, else
+   cut. `words` say what came of it. */
+bool simulator_save_last(Simulator *simulator, const char *path, double patience_ms, char words[1200]);
+
+/* SimulatorStatus.unsaved. */
+bool simulator_unsaved(Simulator *simulator);
+
 /* Whether somebody looks at the gauges, and at what probes read: then one is taken every 50 ms at most, else
    none. On a GPU probes wait for all particles. */
 void simulator_watch(Simulator *simulator, bool gauges, bool probes);

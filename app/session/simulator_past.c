@@ -170,7 +170,9 @@ void simulator_cut(Simulator *simulator)
              "t = %.4g s: the session goes on from here; the %.3g s that came after are cut off", info.time,
              simulator->newest.time - info.time);
     simulator->behind = false;
+    pthread_mutex_lock(&simulator->lock);
     simulator->recording.count = simulator->next;
+    pthread_mutex_unlock(&simulator->lock);
     past_cut(simulator->past, simulator->at);
     simulator_lift_finger(simulator);
     if (!simulator->follows)

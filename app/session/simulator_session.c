@@ -112,6 +112,15 @@ static void set_unsaved(Simulator *simulator, bool unsaved)
     pthread_mutex_unlock(&simulator->lock);
 }
 
+/* Another thread may want to save it meanwhile: simulator_save_cut. */
+static bool record(Simulator *simulator, const SimCommand *command)
+{
+    pthread_mutex_lock(&simulator->lock);
+    const bool added = recording_add(&simulator->recording, command);
+    pthread_mutex_unlock(&simulator->lock);
+    return added;
+}
+
 void simulator_obey(Simulator *simulator, const SimCommand *command)
 {
     Error error = {{0}};
@@ -119,7 +128,7 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
         simulator_tell(simulator, false, error.message);
     } else if (simulator->behind) { /* simulator_cut_for: what comes after stays, and so its commands */
         return;
-    } else if (!simulator->recording_lost && !recording_add(&simulator->recording, command)) {
+    } else if (!simulator->recording_lost && !record(simulator, command)) {
         simulator->recording_lost = true;
         simulator_past_begin(simulator);
         simulator_tell(simulator, false,
@@ -141,8 +150,10 @@ void simulator_restart(Simulator *simulator, Work *work)
     simulator->status.solved_ms = 0;
     pthread_mutex_unlock(&simulator->lock);
     simulator_make_world(simulator);
+    pthread_mutex_lock(&simulator->lock);
     simulator->recording_lost = !recording_create(&simulator->recording, before.path, before.text,
                                                   before.size, &before.settings, &error);
+    pthread_mutex_unlock(&simulator->lock);
     static const CommandQueue none;
     work->commands = none;
     for (size_t i = 0; i < obeyed && !simulator->scripted; i++) /* a session that begins anew has its own */

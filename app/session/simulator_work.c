@@ -300,9 +300,11 @@ double simulator_work(Simulator *simulator, double budget_ms)
 static void start_with(Simulator *simulator, const char *setting, Error *error)
 {
     simulator->status.failed = false;
-    if (scene_set_live(&simulator->scene, setting, NULL, error) &&
-        !recording_set(&simulator->recording, setting))
+    const bool set = scene_set_live(&simulator->scene, setting, NULL, error);
+    pthread_mutex_lock(&simulator->lock);
+    if (set && !recording_set(&simulator->recording, setting))
         simulator->recording_lost = true;
+    pthread_mutex_unlock(&simulator->lock);
 }
 
 bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upload, char backend[NAME_SIZE],

@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* POLLRDHUP, RTLD_DEFAULT */
 #include "app/window/window.h"
 
 #include "sim/base/stage.h"
@@ -7,7 +8,10 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <dlfcn.h>
 #include <math.h>
+#include <poll.h>
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +29,11 @@ struct Window {
     WindowClaimed *claimed; /* NULL: none is */
     void *claimer;
     char renderer[256];
+    int connection; /* to the display; -1: not known */
+    bool gone;      /* it is */
+    void (*when_gone)(void *user);
+    void *of_gone;
+    pthread_t thread; /* the main one */
 };
 
 static char last_reason[256];
@@ -178,6 +187,66 @@ static GLFWwindow *open_with(int api, const char *title, int width, int height)
     return glfwCreateWindow(width, height, title, NULL, NULL);
 }
 
+/* ---- the line to the display ---- */
+
+/* By name, since GLFW is built for X11 or for Wayland. */
+typedef void *GetDisplay(void);
+typedef int GetNumber(void *display);
+typedef int OnError(void *display);
+typedef void OnExit(void *display, void *user);
+
+/* Instead of a message of its own. */
+static int say_nothing(void *display)
+{
+    (void)display;
+    return 0;
+}
+
+/* In place of exit(1). */
+static void on_gone(void *display, void *of_window)
+{
+    Window *window = of_window;
+    (void)display;
+    window->gone = true;
+    if (window->when_gone && pthread_equal(pthread_self(), window->thread))
+        window->when_gone(window->of_gone);
+}
+
+static void find_connection(Window *window)
+{
+    GetDisplay *x11 = (GetDisplay *)dlsym(RTLD_DEFAULT, "glfwGetX11Display");
+    GetDisplay *wayland = (GetDisplay *)dlsym(RTLD_DEFAULT, "glfwGetWaylandDisplay");
+    void *display = x11 ? x11() : wayland ? wayland() : NULL;
+    GetNumber *number = (GetNumber *)dlsym(RTLD_DEFAULT, x11 ? "XConnectionNumber" : "wl_display_get_fd");
+    void (*set_error)(OnError *) = (void (*)(OnError *))dlsym(RTLD_DEFAULT, "XSetIOErrorHandler");
+    void (*set_exit)(void *, OnExit *, void *) =
+        (void (*)(void *, OnExit *, void *))dlsym(RTLD_DEFAULT, "XSetIOErrorExitHandler");
+    window->thread = pthread_self();
+    window->connection = display && number ? number(display) : -1;
+    if (x11 && display && set_error && set_exit) {
+        set_error(say_nothing);
+        set_exit(display, on_gone, window);
+    }
+}
+
+bool window_gone(Window *window)
+{
+    struct pollfd on = {.fd = window->connection, .events = POLLRDHUP};
+    window->gone |= poll(&on, 1, 0) > 0;
+    return window->gone;
+}
+
+int window_connection(const Window *window)
+{
+    return window->connection;
+}
+
+void window_when_gone(Window *window, void (*gone)(void *user), void *user)
+{
+    window->when_gone = gone;
+    window->of_gone = user;
+}
+
 static bool open_window(Window *window, const char *title, int width, int height, Error *error)
 {
     window->glfw = open_with(GLFW_EGL_CONTEXT_API, title, width, height);
@@ -188,6 +257,7 @@ static bool open_window(Window *window, const char *title, int width, int height
             error, "no window with OpenGL 4.5: %s; `slosh render SCENE -o OUT.mp4` draws without a window",
             last_reason);
     listen(window);
+    find_connection(window);
     glfwMakeContextCurrent(window->glfw);
     glfwSwapInterval(1);
     snprintf(window->renderer, sizeof window->renderer, "%s", (const char *)glGetString(GL_RENDERER));
@@ -201,6 +271,7 @@ Window *window_create(const char *title, int width, int height, Error *error)
         error_set(error, "no memory for the window");
         return NULL;
     }
+    window->connection = -1;
     glfwSetErrorCallback(on_error);
     if (!glfwInit())
         error_set(error, "no display for a window: %s; `slosh render SCENE -o OUT.mp4` needs none",
@@ -240,14 +311,16 @@ bool window_next(Window *window, WindowEvent *event)
 
 void window_poll(Window *window)
 {
-    (void)window;
-    glfwPollEvents();
+    if (!window_gone(window))
+        glfwPollEvents();
 }
 
 void window_wait(Window *window, double seconds)
 {
-    (void)window;
-    glfwWaitEventsTimeout(seconds);
+    if (!window_gone(window))
+        glfwWaitEventsTimeout(seconds);
+    else
+        poll(NULL, 0, (int)(1000 * seconds));
 }
 
 void window_wake(void)
@@ -257,17 +330,22 @@ void window_wake(void)
 
 void window_present(Window *window)
 {
-    glfwSwapBuffers(window->glfw);
+    if (!window_gone(window)) /* a software driver would try for ever */
+        glfwSwapBuffers(window->glfw);
 }
 
 void window_hide(Window *window)
 {
+    if (window_gone(window))
+        return;
     glfwHideWindow(window->glfw);
     glfwPollEvents();
 }
 
 void window_title(Window *window, const char *title)
 {
+    if (window_gone(window))
+        return;
     glfwSetWindowTitle(window->glfw, title);
 }
 
@@ -298,7 +376,7 @@ void window_fullscreen(Window *window, bool full)
     GLFWmonitor *display = display_of(window);
     const GLFWvidmode *mode = display ? glfwGetVideoMode(display) : NULL;
     int *place = window->place;
-    if (full == window->full || !mode)
+    if (full == window->full || !mode || window_gone(window))
         return;
     if (full) {
         glfwGetWindowPos(window->glfw, &place[0], &place[1]);

@@ -49,7 +49,16 @@ void window_wait(Window *window, double seconds); /* returns early for an event 
 void window_wake(void);                           /* from any thread */
 
 void window_present(Window *window); /* shows what was drawn */
-void window_hide(Window *window);    /* at once; for the end */
+
+/* Whether the display is gone: its server has ended, or the line to it. From then on no function waits for
+   it, but for those of OpenGL, and some may call `gone` of window_when_gone, which does not return. */
+bool window_gone(Window *window);
+int window_connection(const Window *window); /* its file descriptor; -1: not known */
+
+/* What the display's library is to do where it notices first, in the midst of a function of the window, on
+   the main thread; else it ends the program. NULL: nothing. */
+void window_when_gone(Window *window, void (*gone)(void *user), void *user);
+void window_hide(Window *window); /* at once; for the end */
 void window_title(Window *window, const char *title);
 void window_fullscreen(Window *window, bool full); /* on the display where most of it is, and back */
 bool window_is_fullscreen(const Window *window);

@@ -1,0 +1,120 @@
+#define _GNU_SOURCE /* POLLRDHUP */
+#include "app/play/guard.h"
+
+#include "app/base/exit_code.h"
+#include "app/base/interrupt.h"
+#include "app/base/output_pending.h"
+#include "app/output/file_name.h"
+
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+/* Until the window has seen that the display is gone, or a signal: with a software driver a picture lasts;
+   and until the solver has saved the session. */
+enum { GONE_MS = 400, SIGNAL_MS = 2000, SAVE_MS = 400 };
+
+struct Guard {
+    pthread_t thread;
+    pthread_mutex_t lock;
+    Simulator *simulator;
+    const char *record;
+    int connection, stop; /* file descriptors */
+};
+
+bool guard_path(const char *record, bool unsaved, char path[1024])
+{
+    if (record)
+        snprintf(path, 1024, "%s", record);
+    else if (unsaved && interrupt_signal() != SIGINT)
+        file_name_new(path, "recording");
+    else
+        return false;
+    return true;
+}
+
+/* The window's thread is in a call that does not return, and is left there. */
+_Noreturn static void end(Guard *guard, bool lost)
+{
+    char path[1024], words[1200];
+    bool ok = !lost;
+    pthread_mutex_lock(&guard->lock);
+    if (guard->simulator && guard_path(guard->record, simulator_unsaved(guard->simulator), path)) {
+        ok &= simulator_save_last(guard->simulator, path, SAVE_MS, words);
+        fprintf(stderr, "%s\n", words);
+    }
+    if (lost)
+        fprintf(stderr, "the display is gone\n");
+    output_discard_all();
+    _exit(ok ? 0 : EXIT_FAILED);
+}
+
+static void *look_after(void *of_guard)
+{
+    Guard *guard = of_guard;
+    struct pollfd on[] = {{.fd = guard->stop, .events = POLLIN},
+                          {.fd = guard->connection, .events = POLLRDHUP},
+                          {.fd = interrupt_bell(), .events = POLLIN}};
+    while (poll(on, 3, -1) <= 0)
+        continue;
+    const bool lost = on[1].revents != 0;
+    if (on[0].revents == 0 && poll(on, 1, lost ? GONE_MS : SIGNAL_MS) == 0)
+        end(guard, lost);
+    return NULL;
+}
+
+/* Signals are for the thread of the window. */
+static bool start_thread(Guard *guard)
+{
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const bool started = pthread_create(&guard->thread, NULL, look_after, guard) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started;
+}
+
+static void release(Guard *guard)
+{
+    if (guard->stop >= 0)
+        close(guard->stop);
+    pthread_mutex_destroy(&guard->lock);
+    free(guard);
+}
+
+Guard *guard_create(const char *record, int connection)
+{
+    Guard *guard = calloc(1, sizeof *guard);
+    if (!guard)
+        return NULL;
+    pthread_mutex_init(&guard->lock, NULL);
+    guard->record = record;
+    guard->connection = connection;
+    guard->stop = eventfd(0, EFD_CLOEXEC);
+    if (guard->stop >= 0 && start_thread(guard))
+        return guard;
+    release(guard);
+    return NULL;
+}
+
+void guard_watch(Guard *guard, Simulator *simulator)
+{
+    if (!guard)
+        return;
+    pthread_mutex_lock(&guard->lock);
+    guard->simulator = simulator;
+    pthread_mutex_unlock(&guard->lock);
+}
+
+void guard_destroy(Guard *guard)
+{
+    if (!guard)
+        return;
+    eventfd_write(guard->stop, 1);
+    pthread_join(guard->thread, NULL);
+    release(guard);
+}
