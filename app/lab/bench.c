@@ -10,8 +10,8 @@
 
 enum { WARM_UP_FRAMES = 3 };
 
-/* Rows of stage times, one a frame, and each frame's wall time. GL stages come later than the others when
-   their clock is a query. */
+/* Stage times, one row per frame, and each frame's wall time. GL rows come later than CPU rows if their
+   clock is a query. */
 typedef struct Samples {
     StageTimes *cpu, *gl;
     double *frame_ms;
@@ -45,7 +45,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts `values`; the value below which that fraction of them lies. */
+/* Sorts `values` and returns the quantile `fraction` (0 to 1). */
 static double quantile(double *values, int count, double fraction)
 {
     if (count == 0)
@@ -57,7 +57,7 @@ static double quantile(double *values, int count, double fraction)
     return values[low] + (values[high] - values[low]) * (at - low);
 }
 
-/* Whether the stage runs on the GPU. */
+/* True if the stage runs on the GPU. */
 static bool on_gpu(const Samples *samples, Stage stage)
 {
     return stage_part(stage) == PART_RENDER || (stage_part(stage) == PART_SIM && samples->sim_on_gpu);
@@ -121,14 +121,14 @@ static bool figures(const Samples *samples, const char *gl_clock, BenchResult *r
         wall += samples->frame_ms[f];
     result->frame_ms = quantile(samples->frame_ms, samples->frames, 0.5);
     result->frames = samples->frames;
-    if (sim > 0) /* a method may have no stage */
+    if (sim > 0) /* a method may have no sim stage */
         result->particle_steps_per_second = (double)result->particles * (double)samples->steps / (1e-3 * sim);
     result->real_time_factor = samples->simulated / (1e-3 * wall);
     free(work);
     return true;
 }
 
-/* What a frame works on. */
+/* The objects of a measurement. */
 typedef struct Stand {
     World *world;
     HandReplay *hand; /* or NULL */
@@ -169,7 +169,7 @@ static void stand_close(Stand *stand)
     world_destroy(stand->world);
 }
 
-/* One frame: the stages that ran on the CPU go into `clock`. */
+/* Runs one frame. Times of CPU stages go into `clock`. */
 static bool frame(Stand *stand, StageClock *clock, Error *error)
 {
     *clock = stand->sim_on_gpu ? gl_timer_stage_clock(stand->timer) : (StageClock){0};
@@ -250,7 +250,7 @@ static bool measure(Stand *stand, const BenchSetup *setup, Progress *progress, d
     return samples->frames > 0 ? look(stand, error) : error_set(error, "stopped before a frame was measured");
 }
 
-/* What the scene says. */
+/* Fills in the scene's names. */
 static void name(const BenchSetup *setup, BenchResult *result)
 {
     const WorldDef *def = &setup->scene->world;
@@ -264,7 +264,7 @@ static void name(const BenchSetup *setup, BenchResult *result)
         snprintf(result->renderer, sizeof result->renderer, "%s", headless_renderer(setup->context));
 }
 
-/* What the world is, as it begins or ends. */
+/* Fills in the world's counts and step at the start or end. */
 static void describe(const Stand *stand, BenchResult *result)
 {
     WorldInfo info;
@@ -283,7 +283,7 @@ static void describe(const Stand *stand, BenchResult *result)
     result->solved = info.solved;
 }
 
-/* All that a result says of frames that are measured. */
+/* Fills in all figures of the measured frames. */
 static bool conclude(Stand *stand, const Samples *samples, BenchResult *result, Error *error)
 {
     describe(stand, result);
@@ -295,7 +295,7 @@ static bool conclude(Stand *stand, const Samples *samples, BenchResult *result, 
            (!stand->draws || studio_count(&stand->studio, stand->world, &result->counts, error));
 }
 
-/* How it went, and why it failed where it did. */
+/* Fills in the outcome, and the reason of a failure. */
 static void judge(Stand *stand, bool ok, const Error *error, BenchResult *result)
 {
     if (stand->world)

@@ -7,7 +7,7 @@
 
 enum { WIDTH = 820, HEIGHT = 460, LINES_MAX = 32, BAR = 72, MARGINS = 230 }; /* px; bars have names below */
 
-/* Whether an earlier result is of the same view and backend. */
+/* True if an earlier result has the same view and backend. */
 static bool seen_before(const BenchResult *results, size_t at)
 {
     for (size_t i = 0; i < at; i++)
@@ -32,7 +32,7 @@ static void label(FILE *gnuplot, const char *name, const char *words)
     chart_quote(gnuplot, text);
 }
 
-/* A data block for each line; returns how many. */
+/* Writes one data block per line of the chart; returns the count of lines. */
 static int share_data(const Table *table, const BenchResult *results, size_t count, FILE *gnuplot)
 {
     int lines = 0;
@@ -88,7 +88,7 @@ static void draw_shares(const Table *table, const BenchResult *results, size_t c
     fputc('\n', gnuplot);
 }
 
-/* Bars, the columns on top of each other. */
+/* Draws stacked bars, one per result. */
 static void draw_times(const Table *table, const BenchResult *results, size_t count, FILE *gnuplot)
 {
     fputs("$bars << EOD\n", gnuplot);

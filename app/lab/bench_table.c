@@ -8,7 +8,7 @@
 
 #define BIT(stage) (1U << (stage))
 
-/* All of the solver's. */
+/* Bits of all solver stages. */
 #define X(NAME, name, part) | ((part) == PART_SIM ? BIT(STAGE_##NAME) : 0U)
 enum { SIM = 0U STAGE_LIST(X) };
 #undef X
@@ -169,7 +169,7 @@ const char *table_row_name(const Table *table, const BenchResult *result)
     return value ? value + 1 : result->backend;
 }
 
-/* Values in ms, or published as shares: then without times. */
+/* Prints values in ms with their shares. `times` false: published shares only, without times. */
 static void print_values(const double *values, int columns, bool times, FILE *file)
 {
     double all = 0;
@@ -196,7 +196,7 @@ static int column_count(const Table *table)
     return columns;
 }
 
-/* Coverage, and fragments a covered pixel of the columns that are one counted stage. */
+/* Prints coverage, and fragments per covered pixel of each column with a single counted stage. */
 static void print_counts(const Table *table, const BenchResult *r, FILE *file)
 {
     fprintf(file, " %8.1f %%", 100 * r->counts.coverage);
@@ -206,7 +206,7 @@ static void print_counts(const Table *table, const BenchResult *r, FILE *file)
                 fprintf(file, " %6.1f", r->counts.fragments[s]);
 }
 
-/* Frames, and millions of particles, a second. */
+/* Prints frames per second, and millions of particles per second. */
 static void print_rate(double rate, size_t particles, FILE *file)
 {
     fprintf(file, " %9.1f %9.2f", rate, 1e-6 * rate * (double)particles);
@@ -233,7 +233,7 @@ static void print_result(const Table *table, const BenchResult *r, FILE *file)
     fputc('\n', file);
 }
 
-/* What was published of as many particles; the paper's steps are one a frame. */
+/* Prints the published rows with the same particle count. The paper has one step per frame. */
 static void print_published(const Table *table, const Reference *reference, size_t particles, FILE *file)
 {
     double values[TABLE_COLUMNS];
@@ -266,7 +266,7 @@ static size_t asked_for(const Table *table, int group)
     return strtoul(table->particles[group], NULL, 10);
 }
 
-/* The first that has figures; else the first. */
+/* Returns the first result with figures, else the first result. */
 static const BenchResult *any_measured(const BenchResult *results, size_t count)
 {
     for (size_t i = 0; i < count; i++)

@@ -2,7 +2,7 @@
 
 #include "app/outcome/outcome_watch.h"
 
-enum { LOOKS = 10 }; /* a look takes some steps' time */
+enum { LOOKS = 10 }; /* one look costs as much as a few steps */
 
 CaseWatch case_watch_begin(const Case *of)
 {

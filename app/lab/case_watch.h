@@ -1,4 +1,4 @@
-/* Watches a case while it runs, for its outcome (app/outcome/outcome.h). */
+/* Watches a case during its run to judge the outcome (app/outcome/outcome.h). */
 #ifndef SLOSH_CASE_WATCH_H
 #define SLOSH_CASE_WATCH_H
 
@@ -14,10 +14,10 @@ typedef struct CaseWatch {
 
 CaseWatch case_watch_begin(const Case *of);
 
-/* CaseSetup.watch of a CaseWatch: looks at some of the case's states. */
+/* CaseSetup.watch callback; watcher is a CaseWatch. Looks at some of the case's states. */
 void case_watch(void *watcher, const WorldDef *def, World *world);
 
-/* How it went; of a run that broke, why. */
+/* Fills in the outcome; after a broken run, with the reason. */
 void case_watch_outcome(CaseWatch *watch, const CaseResult *result, Outcome *outcome);
 
 #endif

@@ -69,7 +69,7 @@ bool chart_begin(Chart *chart, const char *path, int width, int height, Error *e
     return true;
 }
 
-/* gnuplot says nothing of a full disk: whether the file ends as one of its kind does. */
+/* gnuplot reports no full disk: returns true if the file has the ending bytes of its format. */
 static bool is_whole(const Chart *chart)
 {
     static const char svg[] = "</svg>", png[] = "IEND\xae\x42\x60\x82";
@@ -89,7 +89,7 @@ static bool is_whole(const Chart *chart)
 
 bool chart_end(Chart *chart, Error *error)
 {
-    enum { NOT_FOUND = 127 }; /* says the shell */
+    enum { NOT_FOUND = 127 }; /* the shell's exit code of a missing command */
     fputs("set output\n", chart->gnuplot);
     const int code = pclose(chart->gnuplot);
     const char *path = chart->output.path;

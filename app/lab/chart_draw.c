@@ -8,7 +8,7 @@
 
 enum { WIDTH = 1100, LINE_HEIGHT = 14, LINES_MAX = CHART_ROWS_MAX, LEGEND_MOST = 84 }; /* px; letters */
 
-/* Of the two panels, which are alike: edges, and where their legends begin, px. */
+/* Layout of the two panels, which have the same size; LEGEND is the top of the legends; px. */
 enum {
     PANEL_LEFT = 78,
     PANEL_WIDTH = 450,
@@ -20,7 +20,7 @@ enum {
 
 static const double LABEL_FONT = 8, LABEL_HEIGHT = 11;
 
-/* The data's least and greatest values, as logarithms to the base 10. */
+/* Least and greatest value of the data, as logarithms to base 10. */
 typedef struct Extent {
     double low, high;
 } Extent;
@@ -31,7 +31,7 @@ static void extend(Extent *extent, double value)
     extent->high = fmax(extent->high, log10(value));
 }
 
-/* Of what is drawn: computing time, error, spacing. */
+/* Extents of the drawn rows: computing time, error, spacing. */
 typedef struct Extents {
     Extent time, error, spacing;
 } Extents;
@@ -51,13 +51,13 @@ static Extents extents_of(const ChartRows *rows)
     return all;
 }
 
-/* An axis a little longer than its data, by `before` and `behind` in powers of ten. */
+/* Returns the data's extent, extended by `before` and `behind` powers of ten. */
 static Extent axis_of(Extent data, double before, double behind)
 {
     return (Extent){data.low - before, data.high + behind};
 }
 
-/* Less than two decades have numbers at 1, 2 and 5 of each. */
+/* Axes of less than two decades get tics at 1, 2 and 5 of each. */
 static void put_axis(const char *name, Extent axis, FILE *gnuplot)
 {
     static const double few[] = {1, 2, 5}, many[] = {1, 1.5, 2, 3, 4, 5, 7};
@@ -79,7 +79,8 @@ static void put_axis(const char *name, Extent axis, FILE *gnuplot)
     fputs(")\n", gnuplot);
 }
 
-/* A data block a line: seconds, error, spacing; how many lines, and the row that opens each. */
+/* Writes one data block per line: seconds, error, spacing. Returns the count of lines; opener[] gets each
+   line's first row. */
 static int put_lines(const ChartRows *rows, FILE *gnuplot, int opener[LINES_MAX])
 {
     int lines = 0;
@@ -97,7 +98,7 @@ static int put_lines(const ChartRows *rows, FILE *gnuplot, int opener[LINES_MAX]
     return lines;
 }
 
-/* The panel of the cost, as its labels are placed. */
+/* The panel of the cost, as needed to place labels. */
 typedef struct CostPanel {
     Extent time, error;
     int height; /* of the picture, px */
@@ -116,7 +117,7 @@ static double y_of(const CostPanel *panel, const ChartRow *row)
     return PANEL_TOP + PANEL_HEIGHT * (error->high - log10(row->error)) / (error->high - error->low);
 }
 
-/* What is best for its time, in the order of time; how many. */
+/* Collects the rows of the front in the order of time; returns their count. */
 static int front_of(const ChartRows *rows, const ChartRow *front[CHART_ROWS_MAX])
 {
     int count = 0;
@@ -142,13 +143,13 @@ static void put_label(int number, const CostPanel *panel, const ChartRow *row, c
     fprintf(gnuplot, " at screen %.5f,%.5f center noenhanced font ',%g'\n",
             0.5 * (place->left + place->right) / WIDTH,
             1 - 0.5 * (place->top + place->bottom) / panel->height, LABEL_FONT);
-    if (hypot(to_x - x, to_y - y) > 2 * LABEL_HEIGHT) /* far: a line says whose it is */
+    if (hypot(to_x - x, to_y - y) > 2 * LABEL_HEIGHT) /* a distant label gets a line to its point */
         fprintf(gnuplot,
                 "set arrow %d from screen %.5f,%.5f to screen %.5f,%.5f nohead lw 0.5 lc '#8795a3'\n", number,
                 x / WIDTH, 1 - y / panel->height, to_x / WIDTH, 1 - to_y / panel->height);
 }
 
-/* Names keep off all points, and off the line of what is best where they can. */
+/* Keeps labels off all points and, where possible, off the line of the front. */
 static void fill_field(const ChartRows *rows, CostPanel *panel, const ChartRow *const front[], int count)
 {
     for (int i = 0; i < rows->count; i++)
@@ -159,7 +160,7 @@ static void fill_field(const ChartRows *rows, CostPanel *panel, const ChartRow *
                          x_of(panel, front[i + 1]), y_of(panel, front[i + 1]));
 }
 
-/* The names of what is best for its time; how many find no room. */
+/* Labels the rows of the front; returns the count of labels without room. */
 static int put_labels(CostPanel *panel, const ChartRow *const front[], int count, FILE *gnuplot)
 {
     int left_out = 0;
@@ -178,7 +179,7 @@ static int put_labels(CostPanel *panel, const ChartRow *const front[], int count
     return left_out;
 }
 
-/* A line of the legend, cut where it would leave the frame. */
+/* Writes one line of the legend, cut at the frame. */
 static void put_legend(const char *text, FILE *gnuplot)
 {
     char cut[LEGEND_MOST + 1];
@@ -187,7 +188,7 @@ static void put_legend(const char *text, FILE *gnuplot)
     chart_quote(gnuplot, cut);
 }
 
-/* The first line of the same method, backend and swept values. */
+/* Returns the first line with the same method, backend and swept values. */
 static int first_of(const ChartRows *rows, const int opener[], int line)
 {
     const ChartRow *own = &rows->row[opener[line]];
@@ -199,7 +200,8 @@ static int first_of(const ChartRows *rows, const int opener[], int line)
     return l;
 }
 
-/* One a method, backend and swept values: its lines of other steps have the same, and other points. */
+/* One colour for each method, backend and swept values: lines of different steps share the colour and
+   differ in points. */
 static int colour_of(const ChartRows *rows, const int opener[], int line)
 {
     const int first = first_of(rows, opener, line);
@@ -209,7 +211,7 @@ static int colour_of(const ChartRows *rows, const int opener[], int line)
     return colour;
 }
 
-/* Behind the points; nothing without one that is best: gnuplot has no plot of nothing. */
+/* Draws the front under the points; nothing if the front is empty, as gnuplot has no empty plots. */
 static void plot_front(int count, int left_out, FILE *gnuplot)
 {
     if (count == 0)
@@ -260,7 +262,8 @@ static void plot_order(const ChartRows *rows, const int opener[], int lines, dou
     }
 }
 
-/* The last of a plot: below it nothing is known. Where it is far below all errors, the words alone. */
+/* Draws the floor as the last entry of the plot: errors below the floor are unknown. If the floor is far
+   below all errors, only the words appear. */
 static void plot_floor(double floor, FILE *gnuplot)
 {
     if (floor > 0)
@@ -270,7 +273,7 @@ static void plot_floor(double floor, FILE *gnuplot)
     fputc('\n', gnuplot);
 }
 
-/* The title, and below it smaller what the error is of and what is to be noted. */
+/* Writes the title and, in smaller letters below, the meaning of the error and a note. */
 static void put_title(const ChartWords *words, int height, FILE *gnuplot)
 {
     const char *const lines[] = {words->title, words->error, words->note};
@@ -283,7 +286,7 @@ static void put_title(const ChartWords *words, int height, FILE *gnuplot)
     fputs("set ylabel 'error'\nset xlabel offset 0,0.4\n", gnuplot);
 }
 
-/* The place of panel 0 or 1, and of its legend. */
+/* Places panel 0 or 1 and its legend. */
 static void put_panel(int panel, int height, FILE *gnuplot)
 {
     const double left = PANEL_LEFT + panel * PANEL_PITCH;
@@ -328,7 +331,7 @@ static void plot_both(const ChartRows *rows, const int opener[], int lines, doub
 bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error)
 {
     Chart chart = {.gnuplot = NULL};
-    int opener[LINES_MAX], height = LEGEND + 3 * LINE_HEIGHT; /* the front and the floor, too */
+    int opener[LINES_MAX], height = LEGEND + 3 * LINE_HEIGHT; /* two more legend lines: front and floor */
     for (int i = 0; i < rows->count; i++)
         height += chart_opens_line(rows, i) ? LINE_HEIGHT : 0;
     if (!chart_begin(&chart, path, WIDTH, height, error))

@@ -5,7 +5,7 @@
 
 static const double POINT = 5;     /* half the side of a point's box, px */
 static const double LINE_STEP = 6; /* between the boxes along a line, px */
-static const double WIDE = 0.7;    /* of a letter, over the font: DejaVu Sans has 0.6 in the mean */
+static const double WIDE = 0.7;    /* of a letter, over the font size: DejaVu Sans has 0.6 in the mean */
 
 bool boxes_overlap(const Box *a, const Box *b)
 {
@@ -48,8 +48,8 @@ static bool is_free(const LabelField *field, const Box *place, bool lines)
     return true;
 }
 
-/* Of the ring of that distance around the point: where the label's edge or corner that looks at the point
-   touches the ring; to the right first. */
+/* Tries places on the ring of radius `far` around the point, to the right first. The label's edge or
+   corner next to the point touches the ring. */
 static bool place_around(const LabelField *field, double x, double y, double far, bool lines, double width,
                          double height, Box *place)
 {

@@ -8,10 +8,10 @@
 #include <string.h>
 
 static const double coarsenings[] = {2, 1.5, 1}; /* fills that are whole numbers of spacings often stay so */
-static const double FINEST = 0.5;                /* of a scene's reference, times the finest of these */
+static const double FINEST = 0.5;                /* spacing of the reference, times the finest of these */
 static const double jitters[] = {1e-6, 2e-6, 3e-6};
 
-/* Those of the case, or all that there are. */
+/* Returns the count of methods: those of the case, or all. */
 static int methods_of(const ChartPlan *plan, const char *methods[CHART_NAMES_MAX])
 {
     int count = sweep_names(plan->args, "solver.method", methods);
@@ -29,7 +29,7 @@ static int methods_of(const ChartPlan *plan, const char *methods[CHART_NAMES_MAX
     return count;
 }
 
-/* Whether there is a GPU; asked once. */
+/* Returns true if there is a GPU; creates the context on the first call. */
 static bool has_gpu(ChartPlan *plan)
 {
     Error error = {{0}};
@@ -38,7 +38,7 @@ static bool has_gpu(ChartPlan *plan)
     return plan->context && !gl_renderer_is_software();
 }
 
-/* One sentence for all of them. */
+/* Writes one note about all left out backends. */
 static void note_left_out(ChartPlan *plan, const char *const left[], int count)
 {
     char names[128] = "";
@@ -50,7 +50,7 @@ static void note_left_out(ChartPlan *plan, const char *const left[], int count)
                  plan->context ? "no GPU here, only a software renderer" : "no OpenGL 4.5 here");
 }
 
-/* The scene's own first: the reference is of it. */
+/* The scene's own backend is first: the reference runs with it. */
 static int backends_of(ChartPlan *plan, const char *backends[CHART_NAMES_MAX])
 {
     const char *left[CHART_NAMES_MAX];
@@ -73,7 +73,7 @@ static int backends_of(ChartPlan *plan, const char *backends[CHART_NAMES_MAX])
     return count;
 }
 
-/* A reason that holds for several jobs is said once. */
+/* Prints a reason once, even if several jobs share it. */
 static void say_left_out(const char *why)
 {
     static char last[sizeof(Error)];
@@ -82,7 +82,7 @@ static void say_left_out(const char *why)
     snprintf(last, sizeof last, "%s", why);
 }
 
-/* False with the reason where it cannot be made. */
+/* Adds a job to the plan. Returns false with the reason if the job's scene cannot be made. */
 static bool try_job(ChartPlan *plan, ChartJob job, Error *why)
 {
     static Scene scene;
@@ -105,8 +105,8 @@ static void add_job(ChartPlan *plan, ChartJob job)
         say_left_out(why.message);
 }
 
-/* A scene has no reference of its own: the finest run with its own method is one, and three runs that differ
-   by next to nothing say below which distance nothing is known. */
+/* A scene has no reference of its own: the finest run with the scene's method serves as reference. Three
+   runs with jitters about 1e-6 spacings apart give the floor: smaller errors are unknown. */
 static bool add_reference(ChartPlan *plan, const char *backend, Error *error)
 {
     const double least = plan->coarsenings[plan->coarsening_count - 1];
@@ -131,7 +131,7 @@ static bool add_reference(ChartPlan *plan, const char *backend, Error *error)
     return true;
 }
 
-/* The scene or case, with one more setting. */
+/* Loads the scene or case with one more setting. */
 static bool load_with(const ChartPlan *plan, const char *method, const char *text, Scene *scene, Error *error)
 {
     const ChartSubject *subject = &plan->subject;
@@ -146,7 +146,7 @@ static bool load_with(const ChartPlan *plan, const char *method, const char *tex
                        : scene_load(subject->scene, &settings, scene, NULL, error);
 }
 
-/* Which swept keys a method reads; of the others one run is enough. */
+/* Finds the swept keys with an effect on a method; for the remaining keys one run is enough. */
 static void find_effects(ChartPlan *plan, const char *method, bool effect[CHART_SWEEPS])
 {
     static Scene scene;
@@ -189,7 +189,7 @@ static bool plan_jobs(ChartPlan *plan, Error *error)
     return plan->subject.of || add_reference(plan, backends[0], error);
 }
 
-/* Whether the scene can be read with each of the values, by its own method. */
+/* Returns true if the scene can be read with each of the values, by its own method. */
 static bool sweep_check(const ChartPlan *plan, const Sweep *sweep, Error *error)
 {
     static Scene scene;
@@ -220,7 +220,7 @@ static bool plan_sweeps(ChartPlan *plan, Error *error)
     return plan->coarsening_count > 0;
 }
 
-/* What is said of settings without effect is said where they have none in each run. */
+/* Keeps notes on settings without effect only if they apply to each run. */
 static void keep_common(Notes *notes, const Notes *other)
 {
     int kept = 0;
@@ -274,7 +274,8 @@ void chart_plan_end(ChartPlan *plan)
     plan->context = NULL;
 }
 
-/* How much a row's method and backend say of the job's: 3, both; 2, the backend; 1, a row that ran at all. */
+/* Likeness of a row and a job: 3, same method and backend; 2, same backend; 1, any row with a time; 0,
+   none. */
 static int likeness(const ChartRow *row, const ChartJob *job)
 {
     if (!(row->seconds > 0))
@@ -293,7 +294,7 @@ double chart_plan_seconds(const ChartPlan *plan, int i, const ChartRows *rows)
             pow(row->spacing / def->spacing, -def->dimensions - 1) * (row->fineness > 0 ? 2 : 1);
         if (like < best || like == 0)
             continue;
-        best = like; /* the last of the best: later rows are finer, as a rule */
+        best = like; /* the last of the best rows: later rows are usually finer */
         factor = row->seconds / work;
     }
     return plan->work[i] * factor;

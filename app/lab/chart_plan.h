@@ -1,5 +1,5 @@
-/* What `slosh chart` runs: methods x backends x what is swept x steps x spacings; of a scene the reference
-   and the floor too. */
+/* Plan of `slosh chart`: methods x backends x swept values x steps x spacings; for a scene also the
+   reference and the floor. */
 #ifndef SLOSH_CHART_PLAN_H
 #define SLOSH_CHART_PLAN_H
 
@@ -12,28 +12,29 @@ enum { CHART_JOBS_MAX = 200, CHART_NAMES_MAX = SWEEP_NAMES_MAX };
 typedef struct ChartPlan {
     const Args *args;
     ChartSubject subject;
-    Scene scene;    /* as the command line has it: of a case with its first method */
-    char csv[1024]; /* where the runs are kept */
+    Scene scene;    /* as set by the command line; for a case with its first method */
+    char csv[1024]; /* file of the runs */
     Notes notes;    /* of the scene */
     ChartSweeps sweeps;
     int coarsening_count;
-    double coarsenings[CHART_SPACINGS]; /* times the scene's spacing, the coarsest first */
-    char note[256];                     /* backends that were left out, and why; or "" */
-    Headless *context;                  /* NULL as long as nobody needed one */
+    double coarsenings[CHART_SPACINGS]; /* times the scene's spacing, coarsest first */
+    char note[256];                     /* the left out backends and the reason; or "" */
+    Headless *context;                  /* NULL until first needed */
     bool wants_context;
     int count;
     ChartJob jobs[CHART_JOBS_MAX];
-    double work[CHART_JOBS_MAX]; /* about how long each takes, up to a factor of its method and backend */
+    double work[CHART_JOBS_MAX]; /* estimated time of each job, up to a factor of its method and backend */
 } ChartPlan;
 
-/* False with what is wrong with the command line or the scene. Backends are those that the command line
-   names; else the scene's own, `cpu`, and those on a GPU where there is one: a software renderer would take
-   ten times as long and more, and say nothing of a GPU. chart_plan_end in either case. */
+/* Makes the plan. Returns false with the reason if the command line or the scene is wrong. Backends: those
+   of the command line; else the scene's own, `cpu`, and the GPU backends if there is a GPU. A software
+   renderer would take ten times as long or more, and not represent a GPU. Call chart_plan_end in either
+   case. */
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error);
 void chart_plan_end(ChartPlan *plan);
 
-/* About how long job `i` takes, s, after the runs of `rows` with its method and backend, or else of others;
-   in a unit of its own where there are none. */
+/* Estimates the time of job `i`, s, from the runs in `rows` with the same method and backend, else from
+   other runs. Without such runs the unit is arbitrary. */
 double chart_plan_seconds(const ChartPlan *plan, int i, const ChartRows *rows);
 
 #endif

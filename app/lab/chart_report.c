@@ -66,7 +66,7 @@ static json_t *row_json(const ChartRows *rows, int i)
     return json;
 }
 
-/* One a line of the convergence. */
+/* Returns one entry per line of the convergence. */
 static json_t *orders_json(const ChartRows *rows, double floor)
 {
     json_t *orders = json_array();

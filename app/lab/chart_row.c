@@ -14,10 +14,10 @@ static const char HEAD[] =
     "outcome,outcome_s,outcome_words,backs,swept,series\n";
 static const char *const roles[] = {"point", "reference", "floor", "long"};
 
-/* What every chart's file begins with, whatever else its rows hold. */
+/* Start of the head line of every chart's file, in all versions. */
 static const char OURS[] = "key,role,method,backend,";
 
-/* "1 2 3": how many, or -1. */
+/* Parses "1 2 3"; returns the count of numbers, or -1. */
 static int parse_numbers(char *text, double numbers[CHART_QUANTITIES])
 {
     int read = 0;
@@ -27,7 +27,7 @@ static int parse_numbers(char *text, double numbers[CHART_QUANTITIES])
     return read;
 }
 
-/* "1 2 3;1.1 2 3;...": as many times as there are, with as many numbers each; or nothing, of a case. */
+/* Parses "1 2 3;1.1 2 3;...": CHART_TIMES times with equal counts of numbers; or nothing, for a case. */
 static bool parse_series(char *text, ChartRow *row)
 {
     int times = 0;
@@ -57,7 +57,8 @@ static bool copy_name(char name[NAME_SIZE], const char *cell)
     return snprintf(name, NAME_SIZE, "%s", cell) < NAME_SIZE && *cell;
 }
 
-/* What no run has, or NULL. Of one that broke the seconds are NaN, of one without a reference the error. */
+/* Returns the name of a column with an impossible value, or NULL. Valid: NaN seconds of a broken run, NaN
+   error without a reference. */
 static const char *impossible(const ChartRow *row, double fineness, double particles, double backs)
 {
     if (!(fineness >= 0 && fineness < 100))
@@ -73,7 +74,7 @@ static const char *impossible(const ChartRow *row, double fineness, double parti
     return row->error < 0 || isinf(row->error) ? "error" : NULL;
 }
 
-/* NULL, or what is wrong: the run is made again. */
+/* Parses a row. Returns NULL, or the name of the faulty column: such a run is repeated. */
 static const char *parse_row(char *line, ChartRow *row)
 {
     enum { CELLS = 15 };
@@ -179,7 +180,7 @@ void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan)
             chart_rows_add(rows, &others.row[i], plan);
 }
 
-/* The series to the last bit: the errors of a chart that goes on are the same. */
+/* Prints the series with all bits: a resumed chart has the same errors. */
 static void print_row(const ChartRow *row, FILE *file)
 {
     const Outcome *outcome = &row->outcome;
@@ -225,8 +226,8 @@ const ChartRow *chart_rows_reference(const ChartRows *rows)
     return NULL;
 }
 
-/* Of the numbers of one metric: rms distance over the greatest range of one of them. False without a range:
-   what does not change in the reference has no scale. */
+/* Distance over the numbers of one metric: rms distance over the greatest range of a single number.
+   Returns false without a range: a constant in the reference has no scale. */
 static bool distance_of(const ChartRow *row, const ChartRow *reference, int first, int count,
                         double *distance)
 {
@@ -238,7 +239,7 @@ static bool distance_of(const ChartRow *row, const ChartRow *reference, int firs
             const double off = row->series[t][q] - reference->series[t][q];
             sum2 += isfinite(off) ? off * off : 0;
             times += isfinite(off);
-            low = fmin(low, reference->series[t][q]); /* which passes over NaN */
+            low = fmin(low, reference->series[t][q]); /* fmin skips NaN */
             high = fmax(high, reference->series[t][q]);
         }
         range = fmax(range, high - low);
@@ -247,7 +248,7 @@ static bool distance_of(const ChartRow *row, const ChartRow *reference, int firs
     return times == 0 || range > 0;
 }
 
-/* Of one metric of `numbers` numbers, or, `apart`, the mean over those that have a range. */
+/* Distance of one metric of `numbers` numbers; if `apart`, the mean over the numbers with a range. */
 static bool metric_distance(const ChartRow *row, const ChartRow *reference, int first, int numbers,
                             bool apart, double *distance)
 {
@@ -301,7 +302,7 @@ double chart_rows_compare(ChartRows *rows)
         if (reference)
             row->error = isfinite(row->seconds) ? chart_distance(rows, row, reference) : (double)NAN;
         for (int k = 0; k < i && is_floor(row); k++)
-            if (is_floor(&rows->row[k])) /* fmax takes the number of a NaN's two */
+            if (is_floor(&rows->row[k])) /* fmax skips NaN */
                 floor = fmax(floor, chart_distance(rows, row, &rows->row[k]));
     }
     return floor;
@@ -346,7 +347,7 @@ void chart_line_name(const ChartRow *row, char name[CHART_NAME])
              row->swept, row->fineness ? "fine" : "long");
 }
 
-/* Whether each finer run of the line is nearer than each coarser one. */
+/* True if each finer run of the line is more accurate than each coarser run. */
 static bool falls(const ChartRows *rows, int first)
 {
     const ChartRow *opener = &rows->row[first];

@@ -1,6 +1,6 @@
-/* One run of `slosh chart`: with which settings, how long it took, how far off it was. Rows are kept in a CSV
-   file, so that a run already there is not repeated; its last column has, of a scene, the numbers of the
-   metrics at CHART_TIMES even times: numbers parted by blanks, times by semicolons. */
+/* One run of `slosh chart`: its settings, its computing time, its error. Rows are kept in a CSV file, so
+   that no run is repeated. The last column, for a scene, has the numbers of the metrics at CHART_TIMES
+   even times: numbers separated by blanks, times by semicolons. */
 #ifndef SLOSH_CHART_ROW_H
 #define SLOSH_CHART_ROW_H
 
@@ -17,101 +17,101 @@ enum {
     CHART_SWEPT = 128
 };
 
-/* Why a run is made. */
+/* Purpose of a run. */
 typedef enum ChartRole {
     CHART_POINT,     /* a point of the chart */
-    CHART_REFERENCE, /* the finest run of a scene that has no other reference */
-    CHART_FLOOR,     /* one of three that differ by a millionth of a spacing */
-    CHART_LONG       /* three times as long, to see whether it holds: slosh fit */
+    CHART_REFERENCE, /* the finest run of a scene, as reference */
+    CHART_FLOOR,     /* one of three runs with jitters about a millionth of a spacing apart */
+    CHART_LONG       /* CHART_LONGER times as long, to test stability: slosh fit */
 } ChartRole;
 
 typedef struct ChartRow {
-    uint64_t key; /* of all that the run depends on */
+    uint64_t key; /* hash of all inputs of the run */
     ChartRole role;
     char method[NAME_SIZE], backend[NAME_SIZE];
     char step[NAME_SIZE];    /* "number 0.3" or "substeps 20" */
     char swept[CHART_SWEPT]; /* "support=2.6 kernel=cubic"; "" */
-    int fineness;            /* of the step: rows of the same one are one line of the convergence */
+    int fineness;            /* of the step: rows of equal fineness form one line of the convergence */
     double spacing;          /* m */
     size_t particles;
-    double seconds;  /* of computing, a simulated second; NaN: it broke */
-    double error;    /* NaN: not known */
-    uint64_t steps;  /* of a scene, in all; the file does not keep it: 0 then */
-    Outcome outcome; /* how it went; of OUTCOME_NONE that it has not been run */
-    unsigned backs;  /* times that the sentinel went back */
-    int quantities;  /* of a scene: the numbers of its metrics, one after the other, at even times; else 0 */
+    double seconds;  /* computing time per simulated second; NaN: the run broke */
+    double error;    /* NaN: unknown */
+    uint64_t steps;  /* of a scene, in total; not kept in the file: 0 after reading */
+    Outcome outcome; /* OUTCOME_NONE: not run */
+    unsigned backs;  /* returns of the sentinel to an earlier state */
+    int quantities;  /* of a scene: count of metric numbers per time; of a case 0 */
     double series[CHART_TIMES][CHART_QUANTITIES];
 } ChartRow;
 
 typedef struct ChartRows {
-    int metric_count, metrics[SCENE_METRICS_MAX]; /* that a scene's runs are compared by, as Scene has them */
+    int metric_count, metrics[SCENE_METRICS_MAX]; /* metrics to compare a scene's runs by, as in Scene */
     int probe_count;                              /* of the scene */
     int count;
     ChartRow row[CHART_ROWS_MAX];
 } ChartRows;
 
-/* The sound rows of an older run; none where there is no such file, or it is empty. Each other row, or
-   that the file is of another version, is told to `warnings` (NULL: to nobody). False with the reason where
-   the file is no chart's, or cannot be read: it is not to be replaced.
- */
+/* Reads the sound rows of an older run; zero rows if the file is missing or empty. Each unsound row, or a
+   file of another version, is reported to `warnings` (may be NULL). Returns false with the reason if the
+   file cannot be read or is no chart's; such a file must not be replaced. */
 bool chart_rows_read(ChartRows *rows, const char *path, FILE *warnings, Error *error);
 
-/* Adds a row, in place of the one with its key; where there is no room, of the oldest that is none of `plan`.
- */
+/* Adds a row, replacing the row with the same key. If there is no room, replaces the oldest row outside
+   `plan`. */
 void chart_rows_add(ChartRows *rows, const ChartRow *row, const ChartRows *plan);
 
-/* Adds the rows that the file has got since it was read, from another chart under the same name. */
+/* Adds the rows written to the file since it was read, by another chart under the same name. */
 void chart_rows_merge(ChartRows *rows, const char *path, const ChartRows *plan);
 
-/* Writes all rows, whole or not at all. */
+/* Writes all rows; the file is complete or not written at all. */
 bool chart_rows_write(const ChartRows *rows, const char *path, Error *error);
 
-/* NULL where there is none. */
+/* Returns the row with the key, or NULL. */
 const ChartRow *chart_rows_find(const ChartRows *rows, uint64_t key);
 
-/* The reference among them, or NULL: none, or it broke. */
+/* Returns the reference among the rows, or NULL: missing, or its run broke. */
 const ChartRow *chart_rows_reference(const ChartRows *rows);
 
-/* How far a row is from the reference: the mean over the metrics of rms over time over the metric's range in
-   `reference`; times at which either has none are left out, and a metric that does not change in the
-   reference. NaN where no metric changes in the reference, a metric was at no time in both, or a row has not
-   the numbers of these metrics. */
+/* Returns the distance of a row from the reference: mean over the metrics of (rms over time / range of the
+   metric in `reference`). Skips times at which either row has no value, and metrics without change in the
+   reference. NaN if no metric changes in the reference, a metric has no common time, or a row lacks the
+   numbers of these metrics. */
 double chart_distance(const ChartRows *rows, const ChartRow *row, const ChartRow *reference);
 
-/* Whether distances from that row are known: a metric changes in it. What to say where none does. */
+/* chart_changes: true if a metric changes in the row, so that distances from the row are known.
+   CHART_NO_CHANGE: the message if no metric changes. */
 #define CHART_NO_CHANGE                                                                                      \
     "no metric changes in the run that all are compared with: no error is known; name others (metrics: of "  \
     "the scene)"
 bool chart_changes(const ChartRows *rows, const ChartRow *row);
 
-/* Fills the errors of the points from the one reference among them; the spread of the floor's, the greatest
-   distance of two of them, or NaN. */
+/* Fills in the errors of the points from the one reference among the rows. Returns the floor's spread, the
+   greatest distance between two floor rows, or NaN. */
 double chart_rows_compare(ChartRows *rows);
 
-/* Whether no other point is both cheaper and nearer. */
+/* True if no other point is both cheaper and more accurate. */
 bool chart_on_front(const ChartRows *rows, int row);
 
-/* Whether the row is a point that can be drawn, and the first of its line: rows of one line differ in nothing
-   but the spacing. */
+/* chart_drawn: true if the row is a point with finite values. chart_opens_line: true if the row is the
+   first of its line. Rows of one line differ only in spacing. */
 bool chart_drawn(const ChartRow *row);
 bool chart_same_line(const ChartRow *a, const ChartRow *b);
 bool chart_opens_line(const ChartRows *rows, int row);
 
-/* method, backend, what is swept and "long steps" */
+/* method, backend, swept values and "long steps" */
 enum { CHART_NAME = CHART_SWEPT + 128 };
 void chart_line_name(const ChartRow *row, char name[CHART_NAME]);
 
-/* The order of the line that the row `first` opens: the slope of log error over log spacing. NaN where there
-   is none to be seen, and *why says it. `floor` as of chart_draw. */
+/* Returns the order of the line opened by row `first`: the slope of log error over log spacing. NaN if no
+   order can be found; *why has the reason. `floor` as in chart_draw. */
 double chart_order(const ChartRows *rows, int first, double floor, const char **why);
 
 typedef struct ChartWords {
-    const char *title, *error; /* what the error is of */
+    const char *title, *error; /* meaning of the error */
     const char *note;          /* below the title; "" */
 } ChartWords;
 
-/* The two charts: error over cost with the front, error over spacing with the order. `floor`: the spread
-   (NaN: none). */
+/* Draws the two charts: error over cost with the front, error over spacing with the order. `floor`: the
+   spread (NaN: none). */
 bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error);
 
 #endif

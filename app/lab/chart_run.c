@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOK_EVERY = 4 }; /* looks take some steps' time */
+enum { LOOK_EVERY = 4 }; /* samples; a look costs as much as a few steps */
 
 __attribute__((format(printf, 3, 4))) static bool add(ChartSettings *job, Error *error, const char *format,
                                                       ...)
@@ -28,7 +28,7 @@ __attribute__((format(printf, 3, 4))) static bool add(ChartSettings *job, Error 
     return true;
 }
 
-/* The job's own values of swept keys, and what the row calls them: the last parts of their names. */
+/* Adds the job's swept settings; row's swept text gets the last parts of the keys. */
 static bool add_swept(ChartSettings *job, const ChartJob *of, ChartRow *row, Error *error)
 {
     size_t used = 0;
@@ -64,7 +64,7 @@ static bool load(const ChartSubject *subject, const ChartJob *job, ChartSettings
     return case_scene(&setup, scene, error);
 }
 
-/* The spacing of the job, or what is taken in its place so that the fills have whole layers. */
+/* Adds the job's spacing, adjusted to whole layers in the fills. */
 static bool add_spacing(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings,
                         Scene *scene, ChartRow *row, Error *error)
 {
@@ -76,8 +76,8 @@ static bool add_spacing(const ChartSubject *subject, const ChartJob *job, ChartS
     return true;
 }
 
-/* First as the scene has it, to know its spacing and step; then with those of the job. A step of mode fixed
-   shrinks with the spacing. */
+/* Loads the scene twice: first unchanged, to know its spacing and step; then with the job's spacing and
+   step. A step of mode fixed shrinks with the spacing. */
 bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
                     ChartRow *row, Error *error)
 {
@@ -89,13 +89,13 @@ bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSetti
         return false;
     const WorldDef *def = &scene->world;
     row->spacing = def->spacing * job->coarsening;
-    const bool follows = settings->all.particles > 0; /* the step went with the spacing, in this load alone */
+    const bool follows = settings->all.particles > 0; /* the step followed the spacing, in this load only */
     settings->all.particles = 0;
     if (def->step_mode == STEP_CFL) {
         const double number = def->cfl_number / (1 << job->fineness);
         snprintf(row->step, NAME_SIZE, "number %.3g", number);
         ok = ok && add(settings, error, "solver.step.number=%.9g", number);
-        if (method_find(def->method)->incompressible) /* max_dt is what bounds a fluid that is slow */
+        if (method_find(def->method)->incompressible) /* max_dt bounds the step of a slow fluid */
             ok = ok && add(settings, error, "solver.step.max_dt=%.9g",
                            def->max_dt * sqrt(job->coarsening) / (1 << job->fineness));
     } else {
@@ -130,24 +130,24 @@ bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scen
     return run_key_scene(scene, false, &row->key, error);
 }
 
-/* A scene on its way through time. */
+/* The run of a scene over time. */
 typedef struct SceneRun {
     const Scene *scene;
     World *world;
     MetricState state;
-    Probes *probes; /* NULL: no metric asks for them */
-    float *read;    /* a number a column */
-    bool feels;     /* one of them is a force: */
+    Probes *probes; /* NULL: no metric needs probes */
+    float *read;    /* one number per column */
+    bool feels;     /* true: a probe measures force; uses `felt` */
     Forces felt;    /* summed since the last sample */
     WorldInfo info;
-    double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at the present, s */
+    double before[CHART_QUANTITIES], now[CHART_QUANTITIES]; /* at `before_time` and at present, s */
     double before_time;
-    double spent;  /* s of computing */
-    Error failure; /* why it broke */
+    double spent;  /* computing time, s */
+    Error failure; /* why the run broke */
     OutcomeHistory history;
 } SceneRun;
 
-/* The first number of each probe. */
+/* Reads the first number of each probe. */
 static void read_probes(SceneRun *run)
 {
     const ProbeList *list = &run->scene->probes;
@@ -167,7 +167,7 @@ static void read_probes(SceneRun *run)
         run->state.probe[k] = (double)*at;
 }
 
-/* False without memory; `failure` where the backend sums no forces. */
+/* Returns false if memory is short. `failure` is set if the backend cannot sum forces. */
 static bool start_probes(SceneRun *run)
 {
     const Scene *scene = run->scene;
@@ -183,7 +183,8 @@ static bool start_probes(SceneRun *run)
     return run->read != NULL;
 }
 
-/* The metrics of the present state, one after the other; how many numbers, or -1 without memory. */
+/* Writes the metrics of the present state, one after the other. Returns the count of numbers, or -1 if
+   memory is short. */
 static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
 {
     const Scene *scene = run->scene;
@@ -198,9 +199,9 @@ static int note_state(SceneRun *run, double at[CHART_QUANTITIES])
     return used;
 }
 
-/* Steps until a sound state at or after `due` (on a GPU trouble is found behind the step, and the next one
-   goes back), and leaves the one before it in `before`: all of them need not be measured, only what comes
-   within a step and a half of it. False when it broke or a signal came. */
+/* Steps until a sound state at or after `due`. On a GPU trouble is found after the step, and the next step
+   goes back. Leaves the metrics of the state before in `before`; only states within 1.5 steps of `due` are
+   measured. Returns false if the run broke or a signal came. */
 static bool advance_to(SceneRun *run, double due, double until, Progress *progress, double done, double part)
 {
     double length = 0;
@@ -214,7 +215,7 @@ static bool advance_to(SceneRun *run, double due, double until, Progress *progre
         }
         const double begin = wall_ms();
         const bool ok = world_step(run->world, NULL, &run->failure);
-        sound = world_sound(run->world); /* waits for a GPU, which is what is timed */
+        sound = world_sound(run->world); /* waits for the GPU, so that the time includes its work */
         run->spent += (wall_ms() - begin) / 1000;
         world_info(run->world, &run->info);
         length = run->info.time - from;
@@ -225,7 +226,7 @@ static bool advance_to(SceneRun *run, double due, double until, Progress *progre
     return true;
 }
 
-/* Samples at k time / (CHART_TIMES - 1), on straight lines between the states around them. */
+/* Samples at k time / (CHART_TIMES - 1), by linear interpolation between the two states around. */
 static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *progress, double done,
                        double part, Error *error)
 {
@@ -250,7 +251,7 @@ static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *pro
     return true;
 }
 
-/* How it went; a run that broke says at once why, and what to do. */
+/* Fills in the outcome. For a broken run, prints the reason and advice at once. */
 static void judge(OutcomeHistory *history, const WorldTrouble *trouble, const char *failure, ChartRow *row)
 {
     history->trouble = *trouble;

@@ -8,43 +8,43 @@
 
 enum { CHART_SWEEPS = 8 };
 
-/* What differs from run to run. */
+/* The variable part of a run. */
 typedef struct ChartJob {
     ChartRole role;
     const char *method, *backend;
     double coarsening; /* times the scene's spacing */
-    int fineness;      /* 0: steps as long as the scene's, or as its number says; 1: half of it */
-    double jitter;     /* spacings, besides the scene's own */
+    int fineness;      /* 0: steps as long as the scene's, or by its CFL number; 1: half as long */
+    double jitter;     /* spacings, added to the scene's own jitter */
     int set_count;
-    const char *set[CHART_SWEEPS]; /* "--sweep key=value" of other keys */
-    bool step_unnamed;             /* row's swept leaves out what row's step says after the job's scaling */
+    const char *set[CHART_SWEEPS]; /* "--sweep key=value" of remaining keys */
+    bool step_unnamed;             /* ChartRow.swept leaves out keys already in ChartRow.step */
 } ChartJob;
 
-/* CHART_LONG runs so many times the subject's time. */
+/* A CHART_LONG run takes CHART_LONGER times the subject's time. */
 enum { CHART_LONGER = 3 };
 
 enum { CHART_TEXTS = 6, CHART_TEXT_SIZE = 96 };
 
-/* The settings of a run: those of the command line, and behind them those that the job adds. It points into
-   itself: it isn't to be copied. */
+/* The settings of a run: settings of the command line, then settings of the job. Contains pointers into
+   itself: do not copy. */
 typedef struct ChartSettings {
     SceneSettings all;
     char texts[CHART_TEXTS][CHART_TEXT_SIZE];
     int used;
 } ChartSettings;
 
-/* Fills in row's step, what is swept, and its spacing: the one at which the fills have whole layers, which is
-   set. `scene` is for scratch. A case adds its own before them. */
+/* Fills in settings, and row's step, swept values and spacing. The spacing is set to a value with whole
+   layers in the fills. `scene` is scratch space. A case puts its own settings first. */
 bool chart_settings(const ChartSubject *subject, const ChartJob *job, ChartSettings *settings, Scene *scene,
                     ChartRow *row, Error *error);
 
-/* The scene of that job (its lines go to `notes`, unless it is NULL or a case), with row's key, method,
- * backend, step and spacing. */
+/* Loads the scene of a job, and fills in row's key, method, backend, step and spacing. The scene's notes
+   go to `notes`, unless NULL or a case. */
 bool chart_prepare(const ChartSubject *subject, const ChartJob *job, Scene *scene, ChartRow *row,
                    Notes *notes, Error *error);
 
-/* Runs it into `row`, which chart_prepare has filled. A simulation that breaks leaves seconds and error NaN,
-   and its reason; false where something else fails, or a signal came. */
+/* Runs the job into `row`, filled in by chart_prepare before. A broken simulation leaves seconds and error
+   NaN, with the reason in the outcome. Returns false on any other failure or a signal. */
 bool chart_run(const ChartSubject *subject, const ChartJob *job, ChartRow *row, Progress *progress,
                double done, double part, Error *error);
 

@@ -35,7 +35,7 @@ bool chart_subject_find(const Args *args, ChartSubject *subject, Scene *scene, N
     const char *near = case_near(args->scenes[0]);
     char *hint = strstr(no_scene.message, "; did you mean '");
     if (near && hint)
-        *hint = 0; /* one is enough */
+        *hint = 0; /* one hint is enough */
     return near ? error_set(error, "%.700s; did you mean the case '%s'?", no_scene.message, near)
                 : error_set(error, "%s", no_scene.message);
 }

@@ -25,7 +25,7 @@ int sweep_names(const Args *args, const char *key, const char *names[SWEEP_NAMES
     return count;
 }
 
-/* Whether the plan has it as methods, backends or spacings. */
+/* True if the plan sweeps the key as methods, backends or spacings. */
 static bool has_own_place(const char *key)
 {
     return strcmp(key, "solver.method") == 0 || strcmp(key, "solver.backend") == 0 ||

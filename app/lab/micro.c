@@ -19,7 +19,7 @@ double micro_copy(const Ceilings *ceilings, double bytes)
     return best;
 }
 
-/* Seconds that each limit asks for. */
+/* Lower bound of the time by each limit, s. */
 static void least_times(const MicroPart *part, double particles, double pairs, const Ceilings *ceilings,
                         double seconds[MICRO_LIMIT_COUNT])
 {
@@ -54,7 +54,7 @@ static MicroFigure figure_of(const MicroPart *part, double particles, double pai
     return figure;
 }
 
-/* All parts in their order, as a substep has them; the least time of each. */
+/* Runs all parts in the order of a substep; keeps the least time of each. */
 static void run_round(World *world, const MicroPart *parts, int count, double ms[MICRO_PARTS_MAX])
 {
     for (int k = 0; k < count; k++) {
@@ -109,7 +109,7 @@ static bool measure_state(const MicroSetup *setup, World *world, double asked, c
     return true;
 }
 
-/* False when the simulation failed; where the limit comes first, so far. */
+/* Steps until `from`, or until the wall time limit. Returns false if the simulation failed. */
 static bool advance(World *world, double from, double until_ms, Error *error)
 {
     WorldInfo info;

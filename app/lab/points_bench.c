@@ -16,7 +16,7 @@ enum { SIDE = 64, ALONG = 20 };
 
 static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5}, origin[3] = {0, 0, 0};
 
-/* Its points are made once unmeasured and few, so that memory and threads are there. */
+/* Times one sampler. A first, small sampling is not measured: memory and threads exist after it. */
 static bool time_sampler(const char *name, const LevelField *field, double level, SurfaceSampler sampler,
                          double density, PointsFigures *figures, Error *error)
 {
@@ -36,7 +36,7 @@ static bool time_sampler(const char *name, const LevelField *field, double level
     return ok;
 }
 
-/* Both samplers; `area` of the surface, about, m2. */
+/* Times both samplers; `area`: approximate area of the surface, m2. */
 static bool time_field(const char *name, const LevelField *field, double level, double area, double points,
                        PointsFigures *figures, Error *error)
 {
@@ -54,7 +54,7 @@ static bool time_formulas(double points, PointsFigures *figures, Error *error)
            time_field("wave", &wave, 0, 1.5, points, figures, error);
 }
 
-/* A gyroid as values on a grid. */
+/* Fills a grid with values of a gyroid. */
 static void fill_volume(float *value, double cell)
 {
     const LevelField gyroid = level_gyroid(low, high, 0.5);
@@ -87,7 +87,7 @@ static bool time_volumes(double points, PointsFigures *figures, Error *error)
     return ok;
 }
 
-/* A ball of them, in their lattice. */
+/* Fills a ball with particles on a lattice; returns their count. */
 static size_t fill_ball(float *position)
 {
     size_t count = 0;

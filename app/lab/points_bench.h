@@ -1,6 +1,6 @@
-/* Points a second: how fast surfaces are sampled, and how fast the view pbsr shows points. Beside the figures
-   of: S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces and its application to
-   fused visualization", 2012, section 5. */
+/* Points per second: sampling of surfaces, and rendering by the view pbsr. Compared with: S. Tanaka et
+   al., "Particle-based transparent rendering of implicit surfaces and its application to fused
+   visualization", 2012, section 5. */
 #ifndef SLOSH_POINTS_BENCH_H
 #define SLOSH_POINTS_BENCH_H
 
@@ -17,19 +17,20 @@ typedef struct PointsRate {
 typedef struct PointsFigures {
     int threads, count;
     PointsRate rates[POINTS_RATES_MAX];
-    BenchResult rendering; /* its counts have the points of a picture */
+    BenchResult rendering; /* counts has the points of a picture */
 } PointsFigures;
 
-/* Times each sampler on each kind of field, on all processors: about so many points of formulas and volumes,
-   a tenth of them of particles. False, with the reason, when memory is short or a signal came. */
+/* Times each sampler on each kind of field, on all processors: about `points` points of formulas and
+   volumes, a tenth as many of particles. Returns false with the reason if memory is short or a signal
+   came. */
 bool points_sampling(double points, PointsFigures *figures, Error *error);
 
-/* Points of the picture that was measured. */
+/* Returns the count of points in the measured picture. */
 double points_shown(const BenchResult *result);
 
 void points_print(const PointsFigures *figures, const Reference *published, FILE *file);
 
-/* "sampling" and "rendering"; false with the reason when it cannot be written. */
+/* Writes "sampling" and "rendering". Returns false with the reason if the file cannot be written. */
 bool points_write_json(const PointsFigures *figures, const char *path, Error *error);
 
 #endif

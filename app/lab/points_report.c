@@ -25,8 +25,8 @@ static void print_sampling(const PointsFigures *figures, const Reference *publis
     }
 }
 
-/* Step 2 is the stage blend, step 3 the stage shade; the rest, as edges and what is behind, is no part of
-   either. */
+/* The paper's step 2 is the stage blend, step 3 the stage shade; the remaining stages, such as edges and
+   background, belong to neither. */
 static void print_rendering(const PointsFigures *figures, const Reference *published, FILE *file)
 {
     const BenchResult *r = &figures->rendering;

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Pixels; a curve's points; names in a panel's key, and panels. */
+/* Pixels; points of a curve; names in a panel's key; panels. */
 enum { WIDTH = 900, PANEL_HEIGHT = 280, TITLE_HEIGHT = 40, POINTS = 900, NAMES_MAX = 12, PLOTS_MAX = 6 };
 
 typedef struct Line {
@@ -22,7 +22,7 @@ typedef struct Line {
 
 typedef struct Table {
     int count;
-    Line *line; /* without the time */
+    Line *line; /* without the time column */
 } Table;
 
 static bool is_table(const char *path)
@@ -77,11 +77,11 @@ static bool read_head(Table *table, char *text)
     return table->line != NULL;
 }
 
-/* The least and the greatest of the rows since, in the order of their times. */
+/* Ends a point: adds least and greatest value of the rows since the last point, in the order of time. */
 static void end_point(Line *line)
 {
     const double *first = line->least, *then = line->most;
-    if (line->rows == 0) { /* a gap */
+    if (line->rows == 0) { /* gap */
         if (line->curve.count > 0 && isfinite(line->curve.at[line->curve.count - 1][1]))
             curve_add(&line->curve, 0, (double)NAN);
         return;
@@ -145,7 +145,7 @@ static bool read_table(Table *table, const char *path, Error *error)
     return ok || error_set(error, "%.300s: cannot be read again", path);
 }
 
-/* The first line of each unit. */
+/* Finds the first line of each unit; returns the count of panels. */
 static int panels_of(const Table *table, int first[PLOTS_MAX])
 {
     int panels = 0;
@@ -173,7 +173,7 @@ static void put_curves(const Table *table, FILE *gnuplot)
     }
 }
 
-/* The first time and the last, for all panels. */
+/* Sets the time range of all panels. */
 static void put_times(const Table *table, FILE *gnuplot)
 {
     double from = INFINITY, to = -INFINITY;
@@ -186,7 +186,7 @@ static void put_times(const Table *table, FILE *gnuplot)
     fprintf(gnuplot, "set xrange [%.9g:%.9g]\n", from, to > from ? to : from + 1e-3);
 }
 
-/* gnuplot warns of a range of nothing. */
+/* Sets the value range; gnuplot warns about empty ranges. */
 static void put_range(const Table *table, const char *unit, FILE *gnuplot)
 {
     double low = INFINITY, high = -INFINITY;

@@ -13,7 +13,7 @@ bool row_number(const char *text, double *number)
     return end != text && !*end;
 }
 
-/* Commas part the cells: those of a text stand in the file as this. */
+/* Cells are separated by commas: a comma in a text is written as this character. */
 static const char COMMA = '|';
 
 void row_put_text(const char *text, FILE *file)
@@ -31,7 +31,6 @@ bool row_text(char *text, size_t size, const char *cell)
     return whole;
 }
 
-/* Of three cells: kind, time, words. */
 bool row_outcome(char *const cells[3], Outcome *outcome)
 {
     outcome->kind = outcome_of_word(cells[0]);

@@ -21,7 +21,7 @@ static uint64_t hash_numbers(uint64_t h, const double numbers[], size_t count)
     return hash(h, (const char *)numbers, count * sizeof *numbers);
 }
 
-/* What a table holds: its file keeps its name. */
+/* Hashes the contents of a table, as the file may change under the same name. */
 static uint64_t hash_table(uint64_t h, const FieldTable *table)
 {
     size_t places = 1;
@@ -37,7 +37,7 @@ static uint64_t hash_table(uint64_t h, const FieldTable *table)
     return h;
 }
 
-/* A mesh too. */
+/* Hashes the contents of a mesh, for the same reason. */
 static uint64_t hash_mesh(uint64_t h, const MeshUse *mesh)
 {
     return mesh->shape ? hash(h, (const char *)&mesh->shape->hash, sizeof mesh->shape->hash) : h;
@@ -55,10 +55,9 @@ static uint64_t hash_tables(uint64_t h, const WorldDef *def)
     return h;
 }
 
-/* The program's own build id (elf(5): the note NT_GNU_BUILD_ID), which the linker makes of all that it links.
- */
+/* The program's own build id (elf(5): the note NT_GNU_BUILD_ID), made by the linker from all linked code. */
 typedef struct BuildId {
-    const char *bytes; /* NULL: it has none */
+    const char *bytes; /* NULL: no build id */
     size_t size;
 } BuildId;
 
@@ -83,7 +82,7 @@ static void find_in_notes(const char *at, size_t left, BuildId *id)
     }
 }
 
-/* Of the first object, which is the program. */
+/* Looks in the first object, which is the program. */
 static int find_build_id(struct dl_phdr_info *object, size_t size, void *id)
 {
     (void)size;

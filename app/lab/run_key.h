@@ -1,4 +1,4 @@
-/* A number of all that a run depends on, by which tables of runs know what they have already. */
+/* Hash of all inputs of a run; tables of runs use the hash to recognise finished runs. */
 #ifndef SLOSH_RUN_KEY_H
 #define SLOSH_RUN_KEY_H
 
@@ -7,15 +7,15 @@
 
 #include <stdint.h>
 
-/* Of nothing. */
+/* Initial value. */
 #define RUN_KEY HASH_NONE
 
-/* `key` with a text. */
+/* Adds a text to `key`. */
 uint64_t run_key_text(uint64_t key, const char *text);
 
-/* With the build of the program, all settings of the scene as they were resolved, by whatever file or option,
-   those of how it looks only with `looks`, and what its tables hold. False without memory or a build id: then
-   the key is of no use. */
+/* Adds the build of the program, all resolved settings of the scene (view settings only with `looks`), and
+   the contents of its tables. Returns false, with a useless key, if memory is short or the program has no
+   build id. */
 bool run_key_scene(const Scene *scene, bool looks, uint64_t *key, Error *error);
 
 #endif

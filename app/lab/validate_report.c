@@ -13,7 +13,7 @@ void validate_print_head(FILE *file)
             "value", "reference", "error", "tolerance", "seconds");
 }
 
-/* A number in the given form with its unit, or a dash where there is none. */
+/* Formats a number with its unit, or a dash if not finite. */
 static const char *cell(char out[32], const char *form, double number)
 {
     if (!isfinite(number))
@@ -22,14 +22,14 @@ static const char *cell(char out[32], const char *form, double number)
     return out;
 }
 
-/* What a miss comes of, where that is known; NULL. */
+/* Returns the known cause of a miss, or NULL. */
 static const char *why_of(const CaseResult *result, int m)
 {
     const CaseMethod *method = case_method(result->of, result->scene.world.method);
     return method && !case_passed(result, m) ? method->why[m] : NULL;
 }
 
-/* Why a figure did not pass, and how its run went, as the line's end. */
+/* Prints the end of the line: why a figure did not pass, and the outcome of the run. */
 static void print_miss(const CaseResult *result, const Outcome *outcome, int m, FILE *file)
 {
     const char *why = why_of(result, m);
@@ -109,7 +109,7 @@ static void put_curve(FILE *gnuplot, const char *name, size_t i, int c, const Cu
     fputs("EOD\n", gnuplot);
 }
 
-/* gnuplot has no plot of nothing. */
+/* True if the curve has a finite point: gnuplot cannot plot an empty curve. */
 static bool has_points(const Curve *curve)
 {
     for (size_t k = 0; k < curve->count; k++)
@@ -136,7 +136,7 @@ static int plot_found(const CaseResult *results, size_t count, FILE *gnuplot)
     return lines;
 }
 
-/* gnuplot warns of a range of nothing: one around what does not change. */
+/* Widens the range around constant data: gnuplot warns about empty ranges. */
 static void put_range(const CaseResult *results, size_t count, FILE *gnuplot)
 {
     double low = INFINITY, high = -INFINITY;

@@ -1,4 +1,4 @@
-/* What `slosh validate` says of its results: a table, JSON, a plot a case. */
+/* Reports of `slosh validate`: a table, JSON, one plot per case. */
 #ifndef SLOSH_VALIDATE_REPORT_H
 #define SLOSH_VALIDATE_REPORT_H
 
@@ -7,20 +7,21 @@
 
 #include <stdio.h>
 
-/* The line above the rows. */
+/* Prints the head line of the table. */
 void validate_print_head(FILE *file);
 
-/* A row a metric: value, reference, error, tolerance, seconds; why it misses; how the run went but where it
-   holds, whose words follow in a line. */
+/* Prints one row per metric: value, reference, error, tolerance, seconds; the reason of a miss. If the
+   outcome is not OUTCOME_HOLDS, its word and a line with its details follow. */
 void validate_print(const CaseResult *result, const Outcome *outcome, FILE *file);
 
-/* {"cases": [...], "error": failure}, one entry a case, metric, method and backend; what was not measured is
-   null, "failure" says why a run broke, "why" what a miss comes of where that is known, "outcome" how the run
-   went (outcome_json). `outcomes`: one a result. `failure`: why there are not all of them, or NULL. */
+/* Writes {"cases": [...], "error": failure}, one entry per case, metric, method and backend. Unmeasured
+   values are null; "failure" says why a run broke, "why" gives the known cause of a miss, "outcome" the
+   outcome (outcome_json). `outcomes`: one per result. `failure`: why results are missing, or NULL. */
 bool validate_write_json(const CaseResult *results, const Outcome *outcomes, size_t count,
                          const char *failure, const char *path, Error *error);
 
-/* What was found and the reference, all methods of a case together: `results` are those of one case. */
+/* Plots the measured and reference curves of one case, all methods together. All `results` must be of one
+   case. */
 bool validate_plot(const CaseResult *results, size_t count, const char *path, Error *error);
 
 #endif
