@@ -18,7 +18,7 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* The points between both ends, as a scene has them; whole numbers once each. */
+/* Fills in the points between both ends, with their texts as in a scene file; whole numbers appear once. */
 static void fill(StableAxis *axis, double from, double to, int points)
 {
     axis->logarithmic = from > 0 && to >= 10 * from;
@@ -50,7 +50,7 @@ static bool unknown(const char *name, Error *error)
     return error_set(error, "slosh stability: --axis %.60s: no such key; `slosh help keys` lists them", name);
 }
 
-/* Whether a key can be an axis. */
+/* Returns true if the key can be an axis. */
 static bool check_key(const Key *key, const char *name, Error *error)
 {
     if (!key)
@@ -131,7 +131,7 @@ static double rounded(double number)
     return strtod(text, NULL);
 }
 
-/* The first that has sound, or the first. */
+/* Returns the first method with sound, or the first method. */
 static const char *leading(const char *const methods[], int count)
 {
     int m = 0;
@@ -149,7 +149,7 @@ int stable_axes_choose(const Scene *scene, const char *const methods[], int coun
     int used = 0;
     snprintf(def.method, sizeof def.method, "%s", leading(methods, count));
     def.viscosity_solver = VISCOSITY_EXPLICIT;
-    for (int f = 0; f < def.fluid_count; f++) { /* what friction does is looked for from none on */
+    for (int f = 0; f < def.fluid_count; f++) { /* search from zero viscosity */
         def.fluids[f].viscosity = 0;
         def.fluids[f].viscosity_table.rows = 0;
     }

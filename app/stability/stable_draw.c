@@ -1,5 +1,5 @@
-/* The map of `slosh stability`: cells by the largest step that holds, with what fails above it; over one axis
-   the steps themselves with the limits of theory. */
+/* Draws the map of `slosh stability`: each cell's largest stable step, and the failures above. Over one
+   axis: the steps, with the limits of theory. */
 #include "app/lab/chart.h"
 #include "app/lab/chart_labels.h"
 #include "app/stability/stable_map.h"
@@ -13,7 +13,7 @@ enum {
     PANEL_PITCH = 560,
     PANEL_TOP = 84,
     PANEL_HEIGHT = 370,
-    LEGEND = 512, /* from a row of panels' top */
+    LEGEND = 512, /* from the top of a row of panels */
     LINE_HEIGHT = 14,
     WIDTH_OF_ONE = 640
 };
@@ -29,7 +29,7 @@ typedef struct Drawing {
     const StableMap *map;
     FILE *gnuplot;
     int width, height;  /* px */
-    int row;            /* of a row of panels with their legends, px */
+    int row;            /* height of a row of panels with legends, px */
     double least, most; /* of the steps that hold, s */
 } Drawing;
 
@@ -49,7 +49,7 @@ static void find_range(Drawing *d)
     }
 }
 
-/* From pale to blue by the logarithm of the step. */
+/* Colour from pale to blue by the logarithm of the step. */
 static void colour_of(const Drawing *d, double step, char colour[8])
 {
     static const int pale[3] = {0xf6, 0xf3, 0xe4}, deep[3] = {0x5f, 0xa3, 0xc9};
@@ -85,7 +85,7 @@ static void put_place(const Drawing *d, const Place *place)
             1 - (top + LEGEND - PANEL_TOP) / h);
 }
 
-/* The method, in words above its panel, and how far theory is off. */
+/* Writes the method above its panel, and the ratios of measured to theoretical steps. */
 static void put_heading(const Drawing *d, const Place *place)
 {
     const StableSeries *series = &d->map->plan->series[place->series];
@@ -101,7 +101,7 @@ static void put_heading(const Drawing *d, const Place *place)
             place->left / d->width, 1 - (place->top - 12) / d->height);
 }
 
-/* ---- the kinds above what holds ---- */
+/* ---- kinds of outcome above the largest stable step ---- */
 
 static bool has_marks(const Drawing *d, int series, OutcomeKind kind, bool silent)
 {
@@ -115,7 +115,7 @@ static bool has_marks(const Drawing *d, int series, OutcomeKind kind, bool silen
     return any;
 }
 
-/* Where the kinds that a panel has are plotted from blocks of that name, silent ones as open squares. */
+/* Plots the kinds present in a panel from data blocks `block`N, silent failures as open squares. */
 static void plot_kinds(const Drawing *d, int series, const char *block)
 {
     for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
@@ -132,7 +132,7 @@ static void plot_kinds(const Drawing *d, int series, const char *block)
 
 /* ---- two axes ---- */
 
-/* Tics in the middle of cells, as many as there is room for. */
+/* Tics in the middle of cells, as many as fit. */
 static void put_cell_tics(const Drawing *d, const char *which, const StableAxis *axis, double room)
 {
     double widest = 0;
@@ -145,7 +145,7 @@ static void put_cell_tics(const Drawing *d, const char *which, const StableAxis 
     fputs(")\n", d->gnuplot);
 }
 
-/* What stands in a cell: the ratio to theory, or, of methods that theory says nothing of, the step in ms. */
+/* Text of a cell: the ratio to theory, or the step in ms for methods without a theoretical limit. */
 static void cell_text(const StableCellFound *found, char text[16])
 {
     const double step = stable_largest(found);
@@ -187,7 +187,7 @@ static void put_cells(const Drawing *d, const Place *place)
     }
 }
 
-/* Where the mark of a sample stands: in a row along the foot of its cell, the shortest step to the left. */
+/* Writes the marks of the samples: in a row at the foot of the cell, the shortest step on the left. */
 static void put_marks(const Drawing *d, const Place *place, OutcomeKind kind, bool silent)
 {
     fprintf(d->gnuplot, "$marks%d%s << EOD\n", (int)kind, silent ? "s" : "");
@@ -260,7 +260,7 @@ static const struct LimitLine {
 };
 enum { LIMIT_LINES = sizeof limit_lines / sizeof *limit_lines };
 
-/* A cell's samples of that kind, in ms. */
+/* Writes the steps of all samples of a kind, ms. */
 static void put_steps(const Drawing *d, int series, OutcomeKind kind, bool silent)
 {
     fprintf(d->gnuplot, "$steps%d%s << EOD\n", (int)kind, silent ? "s" : "");
@@ -278,7 +278,7 @@ static void put_steps(const Drawing *d, int series, OutcomeKind kind, bool silen
     fputs("EOD\n", d->gnuplot);
 }
 
-/* How many of its places lie in the frame. */
+/* Writes one limit's line; returns the count of its points inside the frame. */
 static int put_limit(const Drawing *d, int series, int limit, double highest)
 {
     int lines = 0;
@@ -311,7 +311,7 @@ static int put_largest(const Drawing *d, int series)
     return lines;
 }
 
-/* Of the trials and a factor of two around; theory may lie beyond. */
+/* Range: the trials and a factor of two around; theory may lie outside. */
 static double put_line_ranges(const Drawing *d, int series)
 {
     const StableAxis *axis = &d->map->plan->axis[0];
@@ -365,7 +365,7 @@ static void plot_line(const Drawing *d, const Place *place)
     fputc('\n', d->gnuplot);
 }
 
-/* ---- the whole ---- */
+/* ---- the whole picture ---- */
 
 static void put_titles(const Drawing *d)
 {
@@ -406,7 +406,7 @@ static void draw_series(const Drawing *d, int series)
     fputs("unset label\nunset object\nunset logscale\nset yrange [*:*]\n", d->gnuplot);
 }
 
-/* As many lines as the longest legend has. */
+/* Line count of the longest legend. */
 static int legend_lines(const Drawing *d)
 {
     int most = 0;

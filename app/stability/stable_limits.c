@@ -19,13 +19,13 @@ static double stiffest(const WorldDef *def)
 
 static double together(double sound, double friction)
 {
-    const double omega = 2 / sound, gamma = 2 / friction; /* 0 of what is infinite */
+    const double omega = 2 / sound, gamma = 2 / friction; /* 0 if the limit is infinite */
     if (omega == 0)
         return friction;
     return (sqrt(gamma * gamma + 4 * omega * omega) - gamma) / (omega * omega);
 }
 
-/* m2/s; of fluids without a viscosity the artificial one. */
+/* Greatest kinematic viscosity, m2/s; for fluids without viscosity the artificial viscosity. */
 static double viscosity(const WorldDef *def, const StepFriction *friction)
 {
     double most = 0;

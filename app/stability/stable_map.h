@@ -1,4 +1,5 @@
-/* What was found: of each cell where it holds, what is above, and what theory says. */
+/* Results of `slosh stability`: of each cell the largest stable step, the outcomes above, and the
+   theoretical limits. */
 #ifndef SLOSH_STABLE_MAP_H
 #define SLOSH_STABLE_MAP_H
 
@@ -9,52 +10,53 @@
 
 typedef struct StableCellFound {
     StableCell cell;
-    bool searched; /* else `why` not */
+    bool searched; /* false: `why` has the reason */
     char why[256];
     StableSearch search;
-    StableLimits limits; /* of its scene */
-    double ratio; /* the largest step that holds over limits.lattice; NaN without sound, or without a step */
+    StableLimits limits; /* of the cell's scene */
+    double ratio;        /* largest stable step over limits.lattice; NaN without sound, or if no step holds */
 } StableCellFound;
 
 typedef struct StableMap {
     const StablePlan *plan;
     int count;
-    StableCellFound *found; /* by the numbers of cells */
+    StableCellFound *found; /* indexed by cell number */
 } StableMap;
 
-/* From the trials alone, so that the map is the same however they were made. False without memory. */
+/* Makes the map from the trials alone: the map does not depend on the order of the trials. Returns false
+   if memory is short. */
 bool stable_map_make(const StablePlan *plan, const StableRows *rows, StableMap *map, Error *error);
 void stable_map_free(StableMap *map);
 
-/* The largest step that holds, s; NaN where none does. */
+/* Returns the largest stable step, s; NaN if none holds. */
 double stable_largest(const StableCellFound *found);
 
-/* Whether a sample above what fails holds again, or one below what holds fails: halving may have missed
-   another limit. */
+/* True if a sample above a failing step holds, or a sample below a holding step fails: halving may have
+   missed another limit. */
 bool stable_uneven(const StableCellFound *found);
 
-/* How many of the samples above what holds fail and are not found by the sentinel. */
+/* Returns the count of failing samples above the largest step, undetected by the sentinel. */
 int stable_silent(const StableCellFound *found);
 
-/* The axis along which all cells that were searched are alike, -1 without one. */
+/* Returns an axis without effect on any searched cell, or -1. */
 int stable_idle_axis(const StableMap *map);
 
 typedef struct StableSpread {
-    int cells, never, always, uneven, silent, ratios; /* of cells; `silent`: with a sample that is */
+    int cells, never, always, uneven, silent, ratios; /* cell counts; `silent`: cells with a silent sample */
     double least, median, most;                       /* of the ratios */
 } StableSpread;
 
-/* Of one series. */
+/* Returns the spread of one series. */
 StableSpread stable_spread(const StableMap *map, int series);
 
-/* The map: a panel a series; over one axis, steps with the limits of theory. */
+/* Draws the map, one panel per series; over one axis, the steps with the limits of theory. */
 bool stable_draw(const StableMap *map, const char *path, Error *error);
 
-/* A row a cell, and of each series the spread of its ratios. */
+/* Prints one row per cell, and for each series the spread of its ratios. */
 void stable_print(const StableMap *map, FILE *file);
 
-/* {"stability": SCENE, "time", "step", "axes": [...], "maps": [{"method", "backend", "cells": [...]}],
-   "error"}; what is not known is null. `failure`: why there is no map, or NULL. */
+/* Writes {"stability": SCENE, "time", "step", "axes": [...], "maps": [{"method", "backend", "cells":
+   [...]}], "error"}; unknown values are null. `failure`: why there is no map, or NULL. */
 bool stable_write_json(const StableMap *map, const char *failure, const char *path, Error *error);
 
 #endif

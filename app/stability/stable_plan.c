@@ -50,7 +50,7 @@ void stable_at(const StablePlan *plan, StableCell cell, char *text, size_t size)
                                      plan->axis[a].text[cell.at[a]]);
 }
 
-/* The settings that a cell adds to those of the command line. */
+/* The settings of the command line, with those of a cell added. */
 typedef struct CellSettings {
     SceneSettings all;
     char texts[16][STABLE_KEY + STABLE_VALUE + 16];
@@ -70,7 +70,7 @@ __attribute__((format(printf, 2, 3))) static void add(CellSettings *cell, const 
     cell->all.set[cell->all.count++] = axis ? text + sizeof OPTION - 1 : text;
 }
 
-/* Of the series alone, without an axis. */
+/* Adds the settings of the series, without the axes. */
 static void add_series(const StableSeries *series, CellSettings *cell)
 {
     add(cell, "solver.method=%s", series->method);
@@ -111,7 +111,7 @@ bool stable_scene(const StablePlan *plan, StableCell cell, const int *rung, Scen
 
 void stable_range(const StablePlan *plan, const Scene *scene, int *first, int *most)
 {
-    enum { STEPS_LEAST = 8 }; /* of a trial */
+    enum { STEPS_LEAST = 8 }; /* per trial */
     StableLimits limits;
     stable_limits(&scene->world, &limits);
     *most = (int)floor(STABLE_RUNGS * log2(fmin(plan->time / STEPS_LEAST, 1)));
@@ -119,7 +119,7 @@ void stable_range(const StablePlan *plan, const Scene *scene, int *first, int *m
     *first = *first < *most ? *first : *most;
 }
 
-/* Whether a series before it is of the same. */
+/* True if an earlier series has the same method and backend. */
 static bool is_there(const StablePlan *plan, const StableSeries *series)
 {
     for (const StableSeries *other = plan->series; other < series; other++)
@@ -128,7 +128,7 @@ static bool is_there(const StablePlan *plan, const StableSeries *series)
     return false;
 }
 
-/* Methods times backends; what cannot be is left out. */
+/* Makes a series of each method and backend; skips impossible combinations. */
 static bool find_series(StablePlan *plan, Error *error)
 {
     const char *methods[SWEEP_NAMES_MAX], *backends[SWEEP_NAMES_MAX];
@@ -160,7 +160,7 @@ static bool find_series(StablePlan *plan, Error *error)
     return plan->series_count > 0;
 }
 
-/* Whether each method reads the axis, and some does. */
+/* Finds the methods that read the axis; fails if none does. */
 static bool find_effect(StablePlan *plan, int a, Error *error)
 {
     static Scene scene;
@@ -187,7 +187,7 @@ static bool find_effect(StablePlan *plan, int a, Error *error)
                             axis->key);
 }
 
-/* Both ends of an axis must be scenes. */
+/* Checks that the scene can be loaded at both ends of an axis. */
 static bool check_ends(const StablePlan *plan, int a, Error *error)
 {
     static Scene scene;
@@ -237,7 +237,8 @@ static bool find_axes(StablePlan *plan, Error *error)
     return true;
 }
 
-/* What falls from the top has come down, run along the floor and come back: four times its fall. */
+/* Default time of a trial, s: four times the fall from the top, enough for the fluid to fall, run along
+   the floor and return. */
 static double usual_time(const WorldDef *def)
 {
     const double *g = def->gravity, pull = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -252,7 +253,7 @@ static bool find_scene(StablePlan *plan, Error *error)
     if (!begin(plan, &settings, error) ||
         !scene_load(plan->scene_name, &settings.all, &plan->scene, &plan->notes, error))
         return false;
-    plan->notes.count = plan->notes.lasting; /* the others are of a step that is not used */
+    plan->notes.count = plan->notes.lasting; /* the dropped notes are about an unused step */
     plan->time = args->time_given ? args->time : usual_time(&plan->scene.world);
     const int threads = *world_threads(&plan->scene.world);
     plan->threads = threads > 0 ? threads : world_processors();

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* "blown up", "squeezed, in silence": what the sentinel did not find. */
+/* Fills in words such as "blown up", or "squeezed (silent)" for a failure undetected by the sentinel. */
 static const char *found_word(const StableFound *found, char word[64])
 {
     if (found->kind == OUTCOME_NONE)
@@ -74,7 +74,7 @@ static void print_spread(const StableMap *map, int series, FILE *file)
                 spread.cells);
 }
 
-/* "viscosity" of "fluids[0].viscosity" */
+/* Returns "viscosity" of "fluids[0].viscosity". */
 static const char *last_part(const char *key)
 {
     const char *dot = strrchr(key, '.');

@@ -11,7 +11,7 @@
 static const char HEAD[] =
     "key,method,backend,rung,step_s,steps,found_by,outcome,outcome_s,outcome_words,at\n";
 
-/* What every such file begins with, whatever else its rows hold. */
+/* Start of the head line of every such file, in all versions. */
 static const char OURS[] = "key,method,backend,rung,";
 
 static const char *const finders[STABLE_FINDER_COUNT] = {
@@ -34,7 +34,7 @@ void stable_rows_free(StableRows *rows)
     *rows = (StableRows){.count = 0};
 }
 
-/* Where the key is, or would be. */
+/* Returns the index of the key, or its place of insertion. */
 static size_t place_of(const StableRows *rows, uint64_t key)
 {
     size_t low = 0, high = rows->count;
@@ -85,7 +85,7 @@ static bool whole(const char *cell, double least, double most, double *number)
     return row_number(cell, number) && *number >= least && *number <= most;
 }
 
-/* Whether the line is one that is written below. */
+/* Parses a line in the format of print_row; returns false if the line is unsound. */
 static bool parse_row(char *line, StableRow *row)
 {
     enum { CELLS = 11 };

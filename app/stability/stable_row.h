@@ -1,4 +1,4 @@
-/* The trials of `slosh stability`, kept in a CSV file, so that none that is there is made again. */
+/* Trials of `slosh stability`, kept in a CSV file, so that no trial is repeated. */
 #ifndef SLOSH_STABLE_ROW_H
 #define SLOSH_STABLE_ROW_H
 
@@ -10,12 +10,12 @@
 
 enum { STABLE_AT = 192 };
 
-/* Who found that it does not hold. X(ENUM, word) */
+/* Finder of the failure. X(ENUM, word) */
 #define STABLE_FINDERS(X)                                                                                    \
-    X(NOBODY, "nobody")     /* it holds */                                                                   \
-    X(SENTINEL, "sentinel") /* which ended it */                                                             \
-    X(LOOK, "look")         /* which ended it */                                                             \
-    X(LOOKS, "looks")       /* alone, and the trial went on to its end */
+    X(NOBODY, "nobody")     /* the trial holds */                                                            \
+    X(SENTINEL, "sentinel") /* ended the trial */                                                            \
+    X(LOOK, "look")         /* ended the trial */                                                            \
+    X(LOOKS, "looks")       /* only looks; the trial went on to its end */
 
 typedef enum StableFinder {
 #define X(NAME, word) FOUND_BY_##NAME,
@@ -24,18 +24,18 @@ typedef enum StableFinder {
         STABLE_FINDER_COUNT
 } StableFinder;
 
-/* A scene at one step: how it went. */
+/* The outcome of a scene at one step. */
 typedef struct StableRow {
-    uint64_t key; /* of all that the trial depends on: app/lab/run_key.h */
+    uint64_t key; /* hash of all inputs of the trial: app/lab/run_key.h */
     char method[NAME_SIZE], backend[NAME_SIZE];
     int rung;           /* of the step: app/stability/stable_search.h */
     char at[STABLE_AT]; /* "solver.sound_speed=14 fluids[0].viscosity=2" */
-    uint64_t steps;     /* that were made */
+    uint64_t steps;     /* made */
     StableFinder finder;
     Outcome outcome;
 } StableRow;
 
-/* Ordered by key. Zero-initialise it. */
+/* Ordered by key. Zero-initialise before use. */
 typedef struct StableRows {
     size_t count, room;
     StableRow *row;
@@ -43,23 +43,24 @@ typedef struct StableRows {
 
 void stable_rows_free(StableRows *rows);
 
-/* NULL where there is none. */
+/* Returns the row with the key, or NULL. */
 const StableRow *stable_rows_find(const StableRows *rows, uint64_t key);
 
-/* In place of the one with its key. False without memory. */
+/* Adds a row, replacing the row with the same key. Returns false if memory is short. */
 bool stable_rows_add(StableRows *rows, const StableRow *row);
 
-/* The sound rows of the file; none where there is no such file, or it is empty. Each other row, or that the
-   file is of another version, is told to `warnings` (NULL: to nobody). False with the reason where the file
-   is no such table, or cannot be read: it is not to be replaced. */
+/* Reads the sound rows of the file; zero rows if the file is missing or empty. Each unsound row, or a file
+   of another version, is reported to `warnings` (may be NULL). Returns false with the reason if the file
+   cannot be read or is no such table; such a file must not be replaced. */
 bool stable_rows_read(StableRows *rows, const char *path, FILE *warnings, Error *error);
 
-/* Adds the rows that the file has got since it was read, from another map under the same name; of one trial
-   that a look ended and another that went on, the other. False as stable_rows_read. */
+/* Adds the rows written to the file since it was read, by another map under the same name. Of two rows of
+   a trial, one ended by a look and one complete, the complete row stays. Returns false as
+   stable_rows_read. */
 bool stable_rows_merge(StableRows *rows, const char *path, Error *error);
 
-/* Writes all rows, whole or not at all, in the order of method, backend, place and step: the same rows are
-   the same file. */
+/* Writes all rows, ordered by method, backend, cell and step: the same rows give the same file. The file
+   is complete or not written at all. */
 bool stable_rows_write(const StableRows *rows, const char *path, Error *error);
 
 #endif

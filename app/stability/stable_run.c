@@ -21,17 +21,17 @@
 
 typedef struct Seeker {
     const StablePlan *plan;
-    const StableRows *rows; /* that are there */
+    const StableRows *rows; /* known trials */
     int number;
     StableCell cell;
-    StableRows *made; /* what is not there is made, told and added here, which is `rows`; NULL: it is not */
+    StableRows *made; /* new trials are made, sent and added here (equal to `rows`); NULL: no new trials */
     int pipe;
     Headless **context;
-    int threads; /* of a trial */
+    int threads; /* per trial */
     Error *error;
 } Seeker;
 
-/* What a process says, one message a write: shorter than PIPE_BUF, so that none is torn. */
+/* Message of a process, one per write: shorter than PIPE_BUF, so that writes are atomic. */
 typedef enum Said { SAID_TRIAL, SAID_CELL, SAID_FAILURE } Said;
 
 typedef struct Message {
@@ -62,8 +62,7 @@ static bool make_trial(const Seeker *seeker, Scene *scene, bool whole, StableRow
     return tell(seeker, &message) || error_set(seeker->error, "a trial cannot be told (%s)", strerror(errno));
 }
 
-/* Starts differ by so many spacings along each axis at most: what the fluid does at rest or in motion is the
-   same, but for chance. */
+/* Difference of jitter between successive starts, spacings: physically the same start, apart from chance. */
 static const double START = 1e-3;
 
 static bool try_rung(void *context, int rung, int start, bool whole, StableFound *found)
@@ -120,7 +119,7 @@ bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, Sta
 
 /* ---- the processes ---- */
 
-/* Takes cells until there are none; its exit code is of no use, its messages are. */
+/* Takes cells until none is left. Results go through the pipe; the exit code is unused. */
 static void work(const StablePlan *plan, StableRows *rows, int pipe, int *next, int threads)
 {
     Headless *context = NULL;
@@ -150,10 +149,10 @@ typedef struct Crew {
     int count, pipe, *next;
     pid_t *pid;
     int done;    /* cells */
-    int *trials; /* of each cell */
-    bool dirty;  /* rows that the file has not */
+    int *trials; /* count per cell */
+    bool dirty;  /* true: some rows are not in the file yet */
     double wrote_ms;
-    char told[1024]; /* the last failure: once */
+    char told[1024]; /* the last failure, to report each once */
 } Crew;
 
 static bool start(Crew *crew, Error *error)
@@ -174,7 +173,7 @@ static bool start(Crew *crew, Error *error)
         if (pid < 0)
             break;
         if (pid == 0) {
-            prctl(PR_SET_PDEATHSIG, SIGKILL); /* a killed command leaves no trials behind */
+            prctl(PR_SET_PDEATHSIG, SIGKILL); /* a killed command leaves no processes */
             close(ends[0]);
             if (getppid() == parent)
                 work(crew->plan, crew->rows, ends[1], crew->next, most / workers);
@@ -214,7 +213,7 @@ static bool take(Crew *crew, const Message *message, Error *error)
     return true;
 }
 
-/* A search takes some twenty trials. */
+/* A search takes about twenty trials. */
 static double share(const Crew *crew)
 {
     const int cells = stable_cells(crew->plan);
@@ -224,7 +223,8 @@ static double share(const Crew *crew)
     return done / cells;
 }
 
-/* Until all have closed the pipe. False where a trial cannot be kept, or after a signal. */
+/* Reads messages until all processes have closed the pipe. Returns false if a trial cannot be kept, or
+   after a signal. */
 static bool listen_to(Crew *crew, Progress *progress, Error *error)
 {
     struct pollfd ready = {.fd = crew->pipe, .events = POLLIN};
@@ -245,7 +245,7 @@ static bool listen_to(Crew *crew, Progress *progress, Error *error)
     return ok && !interrupted();
 }
 
-/* What is still on its way is kept, too. */
+/* Ends the processes. Messages still in the pipe are kept, too. */
 static bool end(Crew *crew, bool ok, Error *error)
 {
     Message message;

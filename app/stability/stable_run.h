@@ -1,4 +1,4 @@
-/* Makes the trials that are not there yet, on several processes. */
+/* Makes the missing trials, on several processes. */
 #ifndef SLOSH_STABLE_RUN_H
 #define SLOSH_STABLE_RUN_H
 
@@ -6,14 +6,14 @@
 #include "app/stability/stable_row.h"
 #include "app/stability/stable_search.h"
 
-/* Searches all cells, with trials of `rows` where they are there; what is made is added to them and written
-   into the plan's file, from time to time and at the end. As many processes as the plan has threads take the
-   cells one by one, and die with this one. False with the reason, or after a signal: the same command goes
-   on. Before any world is made in this process: a fork keeps no threads. */
+/* Searches all cells, reusing the trials in `rows`. New trials are added to `rows` and written to the
+   plan's file, regularly and at the end. As many processes as the plan has threads take the cells one by
+   one; the processes die with the caller. Returns false with the reason, or after a signal: the same
+   command resumes. Call before making any world in the calling process: fork copies no threads. */
 bool stable_run(const StablePlan *plan, StableRows *rows, Error *error);
 
-/* The search of a cell by trials that are there; false where one is missing, or the cell is no scene that can
-   be simulated, with the reason. */
+/* Repeats the search of a cell from the trials in `rows`. Returns false with the reason if a trial is
+   missing, or the cell's scene cannot be simulated. */
 bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, StableSearch *search,
                    Error *error);
 

@@ -14,16 +14,17 @@ int stable_rung(double step)
     return (int)lround(STABLE_RUNGS * log2(step));
 }
 
-/* What is known on the way. */
+/* State of a search. */
 typedef struct Bracket {
     StableTry *attempt;
     void *context;
-    int holds, fails;  /* rungs; */
-    bool held, failed; /* whether there is one */
-    int highest;       /* rung that has held from some start */
+    int holds, fails;  /* rungs */
+    bool held, failed; /* true if the rung is known */
+    int highest;       /* rung that held from some start */
 } Bracket;
 
-/* From so many starts, until one does not hold: its outcome, else that of the last. */
+/* Tries a rung from `starts` starts, until one fails. Returns the failure's outcome, else the last
+   outcome. */
 static bool ask(Bracket *b, int rung, int starts, bool whole, StableFound *found)
 {
     for (int start = 0; start < starts; start++) {
@@ -51,7 +52,7 @@ static bool try_rung(Bracket *b, int rung)
     return true;
 }
 
-/* By factors of two, until a rung holds and one does not, or there is no further one. */
+/* Moves by factors of two until one rung holds and one fails, or the ends are reached. */
 static bool enclose(Bracket *b, int first, int most, int lowest)
 {
     bool ok = try_rung(b, first);
@@ -62,7 +63,7 @@ static bool enclose(Bracket *b, int first, int most, int lowest)
     return ok;
 }
 
-/* Down to where chance decides no more: what fails is no step to name, nor is what is longer. */
+/* Moves down until chance decides no more: a rung with a failure at or below it is not accepted. */
 static bool settle(Bracket *b, int lowest)
 {
     static const int below[] = {0, 1, STABLE_BELOW}, starts[] = {STABLE_STARTS, STABLE_STARTS, 1};
@@ -90,7 +91,7 @@ int stable_sample(const StableSearch *search, int sample)
     return search->rung + (search->end == STABLE_NEVER ? sample * STABLE_RUNGS : stable_above[sample]);
 }
 
-/* Whether what is longer fails. */
+/* Samples the outcomes above the largest step. */
 static bool look_above(Bracket *b, int most, StableSearch *search)
 {
     for (int i = 0; i < STABLE_ABOVE; i++) {

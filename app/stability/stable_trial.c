@@ -8,11 +8,11 @@ typedef struct Trial {
     World *world;
     WorldInfo info;
     OutcomeHistory history;
-    double next; /* look, s */
+    double next; /* time of the next look, s */
     bool whole;
 } Trial;
 
-/* Where it is time, or `now`; of a state that is sound. False without memory. */
+/* Looks at a sound state, if a look is due or `now`. Returns false if memory is short. */
 static bool look(Trial *trial, double until, bool now, Error *error)
 {
     if ((!now && trial->info.time < trial->next) || !world_sound(trial->world))
@@ -22,7 +22,7 @@ static bool look(Trial *trial, double until, bool now, Error *error)
            error_set(error, "no memory to read the particles; use a larger spacing");
 }
 
-/* The sentinel's first trouble: what it would do about it does not matter. */
+/* True at the sentinel's first trouble; the sentinel's reaction does not matter. */
 static bool in_trouble(Trial *trial)
 {
     const bool found = trial->info.trouble.count > 0 || trial->info.trouble.ended;
@@ -31,7 +31,7 @@ static bool in_trouble(Trial *trial)
     return found;
 }
 
-/* What a look found, where that ends the trial. */
+/* True if a look has found trouble that ends the trial. */
 static bool seen_enough(const Trial *trial)
 {
     Outcome outcome;
