@@ -11,19 +11,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Times the scene's; the finest is still well above the reference's half. */
+/* Times the scene's spacing. The finest stays well above the reference's 0.5. */
 static const double spacings[] = {4, 3, 2.5, 2, 1.75, 1.5, 1.25, 1, 0.75};
 
-/* Times the scene's. */
+/* Times the scene's step. */
 static const double steps[] = {0.25, 0.5, 0.7, 1, 1.4, 2, 2.8, 4};
 
-/* 2.1: as many neighbours as play has; 2.6, 3, 3.5: of what is measured, in three dimensions and in two. */
+/* 2.1: as many neighbours as methods for play have; 2.6, 3, 3.5: supports of the measurements in three and
+   in two dimensions. */
 static const char *const supports[] = {NULL, "2.1", "2.6", "3", "3.5"};
 
-/* Terms of a method, and kernels: what changes the error and the cost, but not the flow. */
+/* Terms of a method, and kernels: they change error and cost, but not the flow. */
 static const struct {
-    const char *path, *value[4]; /* the first: the scene's own */
-    bool inviscid;               /* for fluids without a viscosity alone */
+    const char *path, *value[4]; /* the first: NULL, the scene's own */
+    bool inviscid;               /* only for scenes with inviscid fluid */
 } terms[FIT_TERMS] = {
     {"solver.kernel", {NULL, "wendland_c2", "cubic"}, false},
     {"solver.delta_sph", {NULL, "0", "0.1"}, false},
@@ -45,7 +46,7 @@ __attribute__((format(printf, 2, 3))) static void add(FitJob *job, const char *f
     job->job.set[job->job.set_count++] = text;
 }
 
-/* With the scene's own spacing and step. */
+/* Starts a job with the scene's own spacing and step. */
 static void start_job(const FitAxes *axes, const char *method, const char *preset, FitJob *job)
 {
     *job = (FitJob){.job = {.role = CHART_POINT,
@@ -63,7 +64,7 @@ static bool load(const FitAxes *axes, const FitJob *job, Scene *scene, ChartRow 
     return chart_prepare(&axes->subject, &job->job, scene, row, NULL, &none);
 }
 
-/* "0.1" and 0.10 are the same. */
+/* True if equal as texts or as numbers: "0.1" equals "0.10". */
 static bool same_value(const char *a, const char *b)
 {
     char *end_a, *end_b;
@@ -71,7 +72,7 @@ static bool same_value(const char *a, const char *b)
     return strcmp(a, b) == 0 || (end_a != a && end_b != b && !*end_a && !*end_b && x == y);
 }
 
-/* The scene has that value already. */
+/* True if the scene has the value already. */
 static bool is_own(const Scene *scene, const char *path, const char *value)
 {
     char now[128];
@@ -79,8 +80,8 @@ static bool is_own(const Scene *scene, const char *path, const char *value)
     return same_value(now, value);
 }
 
-/* Steps `factor` times as long as those of `scene`, as it was read without this. Substeps of a frame are
-   whole numbers; a single one is longer with its frame. */
+/* Adds steps `factor` times as long as the steps of `scene`, loaded without this setting. Substeps per
+   frame are whole numbers; with a single substep the frame itself gets longer. */
 static void add_step(FitJob *job, const Scene *scene, double factor)
 {
     const WorldDef *def = &scene->world;
@@ -88,7 +89,7 @@ static void add_step(FitJob *job, const Scene *scene, double factor)
         return;
     if (def->step_mode == STEP_CFL) {
         add(job, "solver.step.number=%.4g", def->cfl_number * factor);
-        if (method_find(def->method)->incompressible) /* max_dt is what bounds a fluid that is slow */
+        if (method_find(def->method)->incompressible) /* max_dt bounds the step of a slow fluid */
             add(job, "solver.step.max_dt=%.4g", def->max_dt * factor);
         return;
     }
@@ -106,7 +107,7 @@ bool fit_axes_job(const FitAxes *axes, const FitPoint *point, FitJob *job)
     const int *at = point->at, method = at[FIT_METHOD];
     start_job(axes, axes->method[method], axes->preset[at[FIT_PRESET]], job);
     if (!load(axes, job, &scene, &row))
-        return true; /* chart_prepare says why */
+        return true; /* chart_prepare reports the reason */
     if (at[FIT_SUPPORT] > 0) {
         if (is_own(&scene, "particles.support", supports[at[FIT_SUPPORT]]))
             return false;
@@ -134,14 +135,14 @@ double fit_axes_work(const FitAxes *axes, const FitPoint *point)
            pow(reach, def->dimensions);
 }
 
-/* ---- which there are ---- */
+/* ---- values of the axes ---- */
 
 static bool is_named(const Scene *scene, const char *method)
 {
     return strcmp(scene->world.method, method) == 0;
 }
 
-/* Those that can run it, its own first. */
+/* Finds the methods able to run the scene, the scene's own first. */
 static void find_methods(FitAxes *axes, Notes *notes)
 {
     static Scene scene;
@@ -173,7 +174,8 @@ static void find_methods(FitAxes *axes, Notes *notes)
         }
 }
 
-/* The scene's own, and those with other settings than the first, which fills in next to nothing. */
+/* Finds the presets: the scene's own, and presets with other settings. The first preset of the list sets
+   almost nothing. */
 static void find_presets(FitAxes *axes)
 {
     int *found = &axes->axis[FIT_PRESET].values;
@@ -193,7 +195,7 @@ static bool has_inviscid(const WorldDef *def)
     return false;
 }
 
-/* Which terms each method reads. */
+/* Finds the terms read by each method. */
 static void find_effects(FitAxes *axes)
 {
     static Scene scene;

@@ -11,7 +11,7 @@ static bool take_goal(const Args *args, FitPlan *plan, Error *error)
         return error_set(error, args->error > 0
                                     ? "slosh fit: --error and --frame-ms exclude each other; name one of them"
                                     : "slosh fit: say what is asked for, --error PERCENT or --frame-ms MS");
-    /* what is slower than real time falls behind, however long a frame may take */
+    /* slower than real time never keeps up, so a cost above 1 is not allowed */
     plan->goal = args->error > 0
                      ? (FitGoal){.error = args->error / 100, .cost = INFINITY}
                      : (FitGoal){.error = INFINITY, .cost = fmin(args->frame_ms / 1000 / FIT_FRAME, 1)};
@@ -28,7 +28,7 @@ void fit_default_output(const char *scene, char output[1024])
     snprintf(output, 1024, "%.*s_fit.yaml", dot && dot > name ? (int)(dot - name) : (int)strlen(name), name);
 }
 
-/* NAME.yaml, and NAME.csv beside it. */
+/* Sets NAME.yaml, and NAME.csv beside it. */
 static bool name_outputs(const Args *args, FitPlan *plan, Error *error)
 {
     if (args->output && strlen(args->output) >= sizeof plan->output)

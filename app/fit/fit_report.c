@@ -10,7 +10,7 @@ static const char *const fates[] = {
     [FIT_BEST] = "best", [FIT_WITHIN] = "within", [FIT_BEYOND] = "beyond", [FIT_BROKE] = "broke",
     [FIT_LUCK] = "luck", [FIT_REPEAT] = "repeat", [FIT_PRUNED] = "pruned"};
 
-/* Why it was kept or left. */
+/* Prints why a try was chosen or rejected. */
 static void print_why(const FitPlan *plan, const FitTry *try, FILE *file)
 {
     const bool cheap = isinf(plan->goal.cost);
@@ -56,7 +56,8 @@ static bool same_line(const FitPoint *a, const FitPoint *b)
     return a->at[FIT_METHOD] == b->at[FIT_METHOD] && a->at[FIT_PRESET] == b->at[FIT_PRESET];
 }
 
-/* Of one line: how many, and the least that one of them was predicted to cost. */
+/* Prints the pruned tries of one line: count and least predicted cost. Does nothing if `first` is not the
+   first of its line. */
 static void print_pruned_line(const FitPlan *plan, int first, FILE *file)
 {
     const FitTry *tries = plan->ladder.tries;

@@ -9,11 +9,11 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Spacings by which repeats of a run differ. */
+/* Jitters of the repeats of a run, spacings. */
 static const double jitters[] = {1e-6, 2e-6, 3e-6};
 enum { REPEATS = sizeof jitters / sizeof *jitters };
 
-/* Of the reference: half the scene's spacing, and half its step. */
+/* Of the reference: times the scene's spacing, and times its step. */
 static const double FINEST = 0.5;
 
 static FitPoint own_point(const FitAxes *axes)
@@ -33,7 +33,7 @@ static void reference_job(const FitAxes *axes, FitJob *job)
     job->job.fineness = 1;
 }
 
-/* Before anything runs. */
+/* Checks, before any run, that the reference can be loaded. */
 static bool check_reference(const FitAxes *axes, Error *error)
 {
     static Scene scene;
@@ -47,7 +47,7 @@ static bool check_reference(const FitAxes *axes, Error *error)
                      why.message);
 }
 
-/* What is said of the scene as it is. */
+/* Collects the notes on the unchanged scene. */
 static bool note_own(FitRuns *runs, Error *error)
 {
     static Scene scene;
@@ -69,12 +69,12 @@ bool fit_runs_begin(const FitAxes *axes, const char *csv, bool quiet, FitRuns *r
            note_own(runs, error);
 }
 
-/* What takes so short a time, s, is timed again, so many times in all, and the least time counts: another
-   program, or the threads' start, would decide. */
+/* Runs shorter than SHORT, s, are timed TIMINGS times in total, and the least time counts: otherwise
+   another program or the start of threads would distort the time. */
 static const double SHORT = 0.3;
 enum { TIMINGS = 3 };
 
-/* A bar on a terminal alone: elsewhere the lines of the runs say how far it is. */
+/* Makes a run. Shows a progress bar only on a terminal; elsewhere the lines of the runs show the progress. */
 static bool run(FitRuns *runs, const ChartJob *job, ChartRow *row)
 {
     Progress progress;
@@ -88,7 +88,7 @@ static bool run(FitRuns *runs, const ChartJob *job, ChartRow *row)
         ok = chart_run(&runs->axes->subject, job, row, &progress, (double)i / TIMINGS, 1.0 / TIMINGS,
                        &runs->error) &&
              !interrupted();
-        again = job->role == CHART_POINT && row->seconds * time < SHORT; /* not of what broke */
+        again = job->role == CHART_POINT && row->seconds * time < SHORT; /* false for a broken run (NaN) */
         least = fmin(least, row->seconds);
     }
     progress_end(&progress);
@@ -102,7 +102,7 @@ int fit_threads(const Scene *scene)
     return asked > 0 ? asked : world_processors();
 }
 
-/* What one machine took for a run is none of another's business. */
+/* Prepares a row. Its key includes the machine: times of another machine are not reused. */
 static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Notes *notes, Error *error)
 {
     static Scene scene;
@@ -114,13 +114,13 @@ static bool prepare(const FitRuns *runs, const ChartJob *job, ChartRow *row, Not
     return true;
 }
 
-/* The row of the job, by an older run where there is one. */
+/* Fills in the row of a job, from the file if there is an older run. */
 static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
 {
     if (!prepare(runs, job, row, NULL, &runs->error))
         return false;
     const ChartRow *old = chart_rows_find(&runs->kept, row->key);
-    const bool there = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */
+    const bool there = old && old->outcome.kind != OUTCOME_NONE; /* no fault of the fluid: run again */
     if (there)
         *row = *old;
     else if (!run(runs, job, row))
@@ -140,7 +140,7 @@ static bool row_of(FitRuns *runs, const ChartJob *job, ChartRow *row)
     return chart_rows_write(&runs->kept, runs->csv, &runs->error);
 }
 
-/* Of a scene over its reference; of a case its own. */
+/* Error of a row: for a scene the distance from the reference, for a case its own. */
 static double error_of(const FitRuns *runs, const ChartRow *row)
 {
     if (runs->axes->subject.of || !isfinite(row->seconds))
@@ -148,7 +148,7 @@ static double error_of(const FitRuns *runs, const ChartRow *row)
     return chart_distance(&runs->used, row, &runs->reference);
 }
 
-/* How far two runs are apart: of a case their errors. NaN: one broke. */
+/* Distance between two runs; for a case the difference of errors. NaN: a run broke. */
 static double apart(const FitRuns *runs, const ChartRow *a, const ChartRow *b)
 {
     if (!isfinite(a->seconds) || !isfinite(b->seconds))
@@ -156,7 +156,7 @@ static double apart(const FitRuns *runs, const ChartRow *a, const ChartRow *b)
     return runs->axes->subject.of ? fabs(a->error - b->error) : chart_distance(&runs->used, a, b);
 }
 
-/* Of a run that did not break. */
+/* Fails if no metric changes in the row; a broken run passes. */
 static bool check_changes(FitRuns *runs, const ChartRow *row)
 {
     return runs->axes->subject.of || !isfinite(row->seconds) || chart_changes(&runs->used, row) ||
@@ -175,7 +175,7 @@ bool fit_runs_floor(FitRuns *runs)
         if (!row_of(runs, &job.job, &row[i]))
             return false;
         for (int k = 0; k < i; k++)
-            runs->floor = fmax(runs->floor, apart(runs, &row[i], &row[k])); /* fmax passes over NaN */
+            runs->floor = fmax(runs->floor, apart(runs, &row[i], &row[k])); /* fmax skips NaN */
     }
     return check_changes(runs, &row[0]);
 }
@@ -196,14 +196,14 @@ bool fit_runs_reference(FitRuns *runs)
     return check_changes(runs, &runs->reference);
 }
 
-/* ---- what the search asks for ---- */
+/* ---- callbacks of the search ---- */
 
 static double work(void *of, const FitPoint *point)
 {
     return fit_axes_work(((const FitRuns *)of)->axes, point);
 }
 
-/* Each reason once. */
+/* Prints each reason once. */
 static void say_left_out(FitRuns *runs, const char *why)
 {
     const uint64_t reason = run_key_text(RUN_KEY, why);
@@ -216,7 +216,7 @@ static void say_left_out(FitRuns *runs, const char *why)
         fprintf(stderr, "left out: %s\n", why);
 }
 
-/* Whether two lines are the same but for their numbers, or to the letter. */
+/* True if two lines are equal, or, unless `exactly`, equal apart from numbers. */
 static bool same_line(const char *a, const char *b, bool exactly)
 {
     static const char NUMBER[] = "0123456789.";
@@ -239,9 +239,9 @@ static bool is_said(const Notes *notes, const char *line, bool exactly)
     return false;
 }
 
-/* Whether something is said of a setting that is not said of the scene as it is, of settings without effect
-   but, which the scene that is written leaves out. Where the scene as it is breaks, what is said of it may be
-   the reason. */
+/* True if the setting has a note that the unchanged scene does not have. Ignores notes on settings without
+   effect: the written scene leaves such settings out. If the unchanged scene breaks, its note may be the
+   reason, so only exactly equal notes are ignored. */
 static bool is_warned(FitRuns *runs, const Notes *notes)
 {
     for (int i = notes->lasting; i < notes->count; i++) {
@@ -254,7 +254,7 @@ static bool is_warned(FitRuns *runs, const Notes *notes)
     return false;
 }
 
-/* Another setting may be the same scene: one that names what was so already. */
+/* Returns false also if another setting gives the same scene, by naming an existing value. */
 static bool exists(void *of, const FitPoint *point)
 {
     static ChartRow row;
@@ -284,7 +284,7 @@ static void say(const FitRuns *runs, const ChartRow *row)
     fprintf(stderr, "%s\n", outcome_word(row->outcome.kind));
 }
 
-/* What goes back is saved by the sentinel: its steps are not those that it has. */
+/* True if the run holds without help: after going back, the sentinel runs with other steps than set. */
 static bool holds(const ChartRow *row)
 {
     return row->outcome.kind == OUTCOME_HOLDS && row->backs == 0;
@@ -308,7 +308,7 @@ static bool make(void *of, const FitPoint *point, double predicted, FitFigures *
     return true;
 }
 
-/* From starts that differ by next to nothing; and once three times as long. */
+/* Repeats a run with small jitters; and once three times as long. */
 static bool repeat(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *all_hold)
 {
     static ChartRow row;

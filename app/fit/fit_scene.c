@@ -16,10 +16,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Its first words. */
+/* First words of a file from slosh fit. */
 static const char OURS[] = "# Written by slosh fit";
 
-/* The whole file, of a size that scenes may have; "" where there is none; NULL: `error` says why. */
+/* Reads a whole file of at most SCENE_BYTES_MAX; "" if the file does not exist. Returns NULL with the
+   reason on failure. The caller frees the text. */
 static char *read_text(const char *path, size_t *size, Error *error)
 {
     char *text = calloc(1, SCENE_BYTES_MAX + 1);
@@ -69,8 +70,9 @@ static bool has_effect(const Scene *scene, const char *path)
     return notes.count == 0;
 }
 
-/* What the scene had for the key of "path=value", as a comment; NULL where it is the same, and nothing is to
-   be set. Another preset may fill in another value where none is named. */
+/* Returns the scene's old value for the key of "path=value", as a comment. NULL if the value is unchanged
+   and nothing must be set. Another preset may fill in a different value where the scene names none, so the
+   key is set then. */
 static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const char *setting)
 {
     char path[128], now[128];
@@ -93,7 +95,7 @@ static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const
     return text;
 }
 
-/* Whether a later setting is of the same key, and holds. */
+/* True if a later setting overrides the key. */
 static bool comes_again(const SceneSettings *settings, int i)
 {
     const size_t length = strcspn(settings->set[i], "=") + 1;
@@ -103,7 +105,7 @@ static bool comes_again(const SceneSettings *settings, int i)
     return false;
 }
 
-/* Of a case what it sets itself; then the command line's; then what was chosen. */
+/* Applies the settings of the case, then of the command line, then the chosen settings. */
 static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJob *job, Tree *tree,
                   Error *error)
 {
@@ -125,7 +127,7 @@ static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJ
     return ok;
 }
 
-/* Keys of that mapping that had an effect, and have none any more. */
+/* Removes keys of the mapping with an effect in `own` but none in `chosen`. */
 static void drop_unused(Node *mapping, const char *above, const Scene *own, const Scene *chosen)
 {
     Node **at = &mapping->first;
@@ -140,7 +142,7 @@ static void drop_unused(Node *mapping, const char *above, const Scene *own, cons
     }
 }
 
-/* A FileMoved. */
+/* A FileMoved callback: replaces the node's file name. */
 static void name_whole(void *user, Node *node, const char *path, const char *whole)
 {
     (void)path;
@@ -152,7 +154,7 @@ static void name_whole(void *user, Node *node, const char *path, const char *who
     node->text = own;
 }
 
-/* ---- the words above it ---- */
+/* ---- head of the file, as comments ---- */
 
 static void print_best(const FitPlan *plan, FILE *file)
 {
@@ -180,7 +182,7 @@ static void print_best(const FitPlan *plan, FILE *file)
         fprintf(file, "# It is the scene as it was: none of those that were tried is better.\n");
 }
 
-/* What it beats: the next best that is within. */
+/* Prints the second best setting within the bound. */
 static void print_rival(const FitPlan *plan, FILE *file)
 {
     const FitLadder *ladder = &plan->ladder;

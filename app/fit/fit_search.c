@@ -7,8 +7,8 @@ typedef struct Search {
     const FitSpace *space;
     const FitGoal *goal;
     FitLadder *ladder;
-    int rungs;    /* the axis of the ladder */
-    bool stopped; /* by the asker */
+    int rungs;    /* index of the ladder's axis */
+    bool stopped; /* by a callback */
 } Search;
 
 static bool same_line(const FitSpace *space, const FitPoint *a, const FitPoint *b)
@@ -35,20 +35,20 @@ static FitTry *find(const Search *search, const FitPoint *point)
     return NULL;
 }
 
-/* ---- what is better ---- */
+/* ---- comparing tries ---- */
 
 static bool wants_cheap(const FitGoal *goal)
 {
     return isinf(goal->cost);
 }
 
-/* Of all repeats. */
+/* Greatest error, including repeats. */
 static double error_of(const FitTry *try)
 {
-    return fmax(try->figures.error, try->worst); /* which passes over NaN */
+    return fmax(try->figures.error, try->worst); /* fmax skips NaN */
 }
 
-/* How often the bound goes into what is bound; at most 1 is within. */
+/* Bounded quantity over its bound; at most 1 is within. */
 static double excess(const FitGoal *goal, const FitTry *try)
 {
     return wants_cheap(goal) ? error_of(try) / goal->error : try->figures.cost / goal->cost;
@@ -70,8 +70,8 @@ static bool within(const Search *search, const FitTry *try)
     return sound(try) && excess(search->goal, try) <= 1 && try->fate != FIT_LUCK;
 }
 
-/* What is to be small; of what is outside the bound, what it would be along the ladder where the bound is
-   met: errors go with the spacing, costs with its power. */
+/* Value to minimise. Outside the bound, the value extrapolated along the ladder to the bound: errors grow
+   with the spacing, costs fall with a power of the spacing. */
 static double merit(const Search *search, const FitTry *try)
 {
     const FitGoal *goal = search->goal;
@@ -81,7 +81,7 @@ static double merit(const Search *search, const FitTry *try)
     return value(goal, try) * pow(fmax(excess(goal, try), 1), power);
 }
 
-/* Of those that are as accurate, as far as can be told, the cheapest. */
+/* Among tries with equal errors, within `scatter`, takes the cheapest. */
 static void prefer_cheap(Search *search)
 {
     FitLadder *ladder = search->ladder;
@@ -116,7 +116,8 @@ static void choose(Search *search)
 
 /* ---- one setting ---- */
 
-/* By the nearest of those that were run of the same line; of several the least. NaN: none was. */
+/* Predicts the cost from the nearest finished try of the same line; from several, the least. NaN: no such
+   try. */
 static double predict(const Search *search, const FitPoint *point)
 {
     const FitSpace *space = search->space;
@@ -136,7 +137,7 @@ static double predict(const Search *search, const FitPoint *point)
     return cost;
 }
 
-/* What a run may cost. */
+/* Greatest allowed predicted cost of a run. */
 static double ceiling(const Search *search)
 {
     const FitLadder *ladder = search->ladder;
@@ -163,7 +164,7 @@ static bool run(Search *search, FitTry *try)
     const FitSpace *space = search->space;
     if (!space->run(space->of, &try->point, try->predicted, &try->figures)) {
         search->stopped = true;
-        search->ladder->count--; /* it was not finished */
+        search->ladder->count--; /* remove the unfinished try */
         return false;
     }
     try->fate = FIT_BROKE;
@@ -173,8 +174,8 @@ static bool run(Search *search, FitTry *try)
     return true;
 }
 
-/* The setting with its figures; NULL: there is none, or the search ends. What was too dear is asked again:
-   the ceiling may be higher by now. */
+/* Returns the try of a setting, running it if needed. NULL: no such setting, or the search ends. Pruned
+   settings are checked again, as the ceiling may have grown. */
 static FitTry *ask(Search *search, const FitPoint *point, bool always)
 {
     const FitSpace *space = search->space;
@@ -191,7 +192,7 @@ static FitTry *ask(Search *search, const FitPoint *point, bool always)
     const bool dear = !always && predicted > ceiling(search);
     if (!try)
         try = add(search, point, predicted);
-    else if (!dear) { /* runs stand in their order */
+    else if (!dear) { /* keep tries in the order of their runs */
         const FitTry again = *try;
         FitTry *last = &search->ladder->tries[search->ladder->count - 1];
         for (; try < last; try++)
@@ -207,7 +208,8 @@ static FitTry *ask(Search *search, const FitPoint *point, bool always)
 
 /* ---- lines ---- */
 
-/* Within the first rung is the cheapest of the line; the most accurate is any that its cost allows. */
+/* Walks along a line. The first rung within an error bound is the cheapest of the line; for a cost bound,
+   all affordable rungs are run. */
 static void walk(Search *search, FitPoint point)
 {
     const int rungs = search->space->axis[search->rungs].values;
@@ -227,7 +229,7 @@ static FitPoint own(const FitSpace *space)
     return point;
 }
 
-/* Like a clock's hands: false behind the last line. */
+/* Advances like an odometer; returns false after the last line. */
 static bool next_line(const FitSpace *space, FitPoint *point)
 {
     for (int x = 0; x < space->axes; x++) {
@@ -250,7 +252,7 @@ static FitPoint first_line(const FitSpace *space)
 
 /* ---- columns ---- */
 
-/* The next place of a step from `from`, after `to` (-1: the first); -1: there is none. */
+/* Returns the next place reached by one step from `from`, after `to` (-1: start); -1: no more. */
 static int next_place(const FitAxis *axis, int from, int to)
 {
     for (to++; axis->kind != FIT_LINE && axis->kind != FIT_LADDER && to < axis->values; to++)
@@ -259,7 +261,7 @@ static int next_place(const FitAxis *axis, int from, int to)
     return -1;
 }
 
-/* The finest rung that may be run, of a line of which one was. */
+/* Returns the finest rung with an acceptable predicted cost, for a line with a finished run. */
 static int finest(const Search *search, FitPoint point)
 {
     int rung = search->space->axis[search->rungs].values - 1;
@@ -271,9 +273,9 @@ static int finest(const Search *search, FitPoint point)
     return rung;
 }
 
-/* All rungs of a column differ in nothing else. Errors fall with the spacing: where the finest rung that can
-   be better is outside the bound on the error, all coarser ones are; where it is within, one of them may be
-   too. The rung of the least merit is left in `column`; its merit is given. */
+/* Runs a column from fine to coarse, starting at the finest affordable rung. Errors grow with the spacing:
+   with an error bound, stops at the first sound rung outside the bound; with a cost bound, at the first
+   rung within. Leaves the rung of least merit in `column`, and returns the merit. */
 static double try_column(Search *search, FitPoint *column)
 {
     double least = INFINITY;
@@ -295,10 +297,10 @@ static double try_column(Search *search, FitPoint *column)
     return least;
 }
 
-/* How much worse two steps may be, each for itself, that are tried together. */
+/* Steps are combined in pairs if each alone is at most so many times worse. */
 static const double PAIR_REACH = 2;
 
-/* What a step must gain, a fraction, that others are tried from where it leads. */
+/* Least gain of a step, a fraction, to continue the search from there. */
 static const double GAIN = 0.02;
 
 typedef struct Steps {
@@ -306,7 +308,7 @@ typedef struct Steps {
     int axis[FIT_AXES * FIT_VALUES], place[FIT_AXES * FIT_VALUES];
 } Steps;
 
-/* Columns that differ along one axis; moves to a better one. Those that are not much worse go into `near`. */
+/* Tries columns one step away along each axis; moves to the best. Steps not much worse go into `near`. */
 static bool step_singles(Search *search, FitPoint *at, Steps *near)
 {
     const FitSpace *space = search->space;
@@ -331,7 +333,7 @@ static bool step_singles(Search *search, FitPoint *at, Steps *near)
     return here < (1 - GAIN) * before;
 }
 
-/* Two of those steps at once. */
+/* Tries pairs of those steps. */
 static bool step_pairs(Search *search, FitPoint *at, const Steps *near)
 {
     const FitPoint from = *at;
@@ -362,9 +364,9 @@ static void descend(Search *search, FitPoint at, bool pairs)
     while (pairs && !search->stopped && step_pairs(search, &at, &near));
 }
 
-/* ---- all of it ---- */
+/* ---- the whole search ---- */
 
-/* The best of the line; NULL: none is sound. */
+/* Returns the best try of the line; NULL: none is sound. */
 static const FitTry *best_of_line(const Search *search, const FitPoint *line)
 {
     const FitTry *best = NULL;
@@ -385,14 +387,15 @@ static double best_merit(const Search *search)
     return best;
 }
 
-/* How much worse a line may be that steps along other axes are tried from: none gains more, by far. */
+/* Greatest ratio of a line's merit to the best merit for a search along other axes: steps gain far less. */
 static double reach(const Search *search)
 {
     enum { MOST = 8 };
     return wants_cheap(search->goal) ? MOST : pow(MOST, 1 / search->space->power);
 }
 
-/* Where all of a line broke its steps may be too long: again with the first places of ordered axes. */
+/* Walks along a line. If all runs broke, the steps may be too long: repeats with the first places of
+   ordered axes. */
 static void walk_line(Search *search, FitPoint line)
 {
     walk(search, line);
@@ -417,7 +420,7 @@ static void search_lines(Search *search)
     } while (!search->stopped && next_line(search->space, &line));
 }
 
-/* From the best, and from what promises more though it is outside the bound. */
+/* Searches from the try of least merit, possibly outside the bound, and from the best. */
 static void search_best(Search *search)
 {
     FitLadder *ladder = search->ladder;
@@ -432,14 +435,14 @@ static void search_best(Search *search)
         descend(search, ladder->tries[ladder->best].point, true);
 }
 
-/* NULL: there is none. */
+/* NULL: no try is within the bound. */
 static FitTry *best_try(const Search *search)
 {
     return search->ladder->best < 0 ? NULL : &search->ladder->tries[search->ladder->best];
 }
 
-/* False where the next finer rung of the best is outside the bound on the error: it is no best any more. Of a
-   rung that breaks nothing is known. */
+/* Runs the next finer rung of the best. Returns false if the finer rung is outside the bound on the error:
+   the best is rejected. A broken rung proves nothing. */
 static bool confirm_finer(Search *search)
 {
     FitPoint finer = best_try(search)->point;
@@ -457,7 +460,7 @@ static bool confirm_finer(Search *search)
     return best->fate == FIT_BEST;
 }
 
-/* False where the best does not stand: it is none any more. */
+/* Checks the best try. Returns false if the best is rejected. */
 static bool confirm(Search *search)
 {
     const FitSpace *space = search->space;

@@ -1,15 +1,18 @@
-/* Searches settings: the cheapest within an error, or the most accurate within a cost. It knows no fluid: a
-   setting is a place on each of some axes, and what it costs and how far off it is are asked for, one setting
-   at a time, as seldom as can be.
+/* Searches settings: the cheapest within an error, or the most accurate within a cost. Knows nothing about
+   fluids: a setting is a place on each of some axes; its cost and error are requested one setting at a
+   time, as rarely as possible.
 
-   In this order: the scene as it is; each line (a combination of the axes FIT_LINE, all others as they are)
-   along the ladder from coarse to fine until it is within; from the best of each line columns (settings that
-   differ along the ladder alone) that are one step off along another axis, from their finest rung that may be
-   cheaper; from the best of all columns that are two steps off. Nothing is run that is predicted to cost
-   FIT_MARGIN times what it is to beat: the cost of the nearest setting of its line that was run, times the
-   ratio of their work. What is best is asked for twice more. Errors fall with the spacing: where its next
-   finer rung is outside the bound on the error, luck brought it within, and it is left. Then it is repeated;
-   a repeat that is beyond the bound counts. */
+   Order: 1. the unchanged scene. 2. Each line (a combination of the axes FIT_LINE, remaining axes
+   unchanged) along the ladder from coarse to fine until within the bound. 3. From the best of each line,
+   columns (settings that differ along the ladder alone) one step away along another axis, from their
+   finest rung with a chance to be cheaper. 4. From the best of all, columns two steps away.
+
+   Settings with a predicted cost of more than FIT_MARGIN times the present best's are not run. Prediction:
+   the cost of the nearest finished setting of the same line, times the ratio of work.
+
+   The best setting is checked twice. Errors fall with the spacing: if the next finer rung is outside the
+   bound on the error, luck brought the setting within, and the setting is rejected. Then the run is
+   repeated; a repeat beyond the bound also rejects. */
 #ifndef SLOSH_FIT_SEARCH_H
 #define SLOSH_FIT_SEARCH_H
 
@@ -17,7 +20,7 @@
 
 enum { FIT_AXES = 12, FIT_VALUES = 10, FIT_TRIES = 200 };
 
-/* Predictions miss by about so much. */
+/* Relative inaccuracy of predictions. */
 #define FIT_MARGIN 1.2
 
 typedef struct FitPoint {
@@ -25,75 +28,75 @@ typedef struct FitPoint {
 } FitPoint;
 
 typedef enum FitAxisKind {
-    FIT_LINE,    /* names, each with a ladder of its own */
-    FIT_LADDER,  /* one axis: from coarse to fine; cost grows along it */
-    FIT_ORDERED, /* steps go to the places beside */
+    FIT_LINE,    /* names, each with its own ladder */
+    FIT_LADDER,  /* one axis, from coarse to fine; cost grows along the axis */
+    FIT_ORDERED, /* steps go to adjacent places */
     FIT_FREE     /* steps go to all places */
 } FitAxisKind;
 
 typedef struct FitAxis {
     FitAxisKind kind;
-    int values, own; /* how many places; that of the scene as it is */
+    int values, own; /* count of places; place of the unchanged scene */
 } FitAxis;
 
 typedef struct FitFigures {
-    double cost;  /* any unit; NaN: it broke */
-    double error; /* a fraction; NaN: not known */
-    bool holds;   /* whether it may be chosen */
-    int row;      /* the asker's own */
+    double cost;  /* any unit; NaN: the run broke */
+    double error; /* a fraction; NaN: unknown */
+    bool holds;   /* true if the setting may be chosen */
+    int row;      /* for use by the callbacks */
 } FitFigures;
 
 typedef struct FitSpace {
     int axes;
     FitAxis axis[FIT_AXES];
-    double scatter; /* errors that differ by no more are alike; 0: none are */
+    double scatter; /* errors with a smaller difference count as equal; 0: none do */
     double power;   /* cost grows as spacing^-power: dimensions + 1 */
-    /* Whether there is such a setting that differs from all that were asked for. */
+    /* Returns true if the setting exists and differs from all earlier requests. */
     bool (*exists)(void *of, const FitPoint *point);
-    /* About what it takes beside others of its line. */
+    /* Estimates the work, relative to other settings of the same line. */
     double (*work)(void *of, const FitPoint *point);
-    /* Runs it; false: the search ends. */
+    /* Runs a setting; returns false to end the search. */
     bool (*run)(void *of, const FitPoint *point, double predicted, FitFigures *figures);
-    /* Repeats it: `worst` gets the greatest error of all, and *holds whether all do, and longer ones. NULL:
-     * none. */
+    /* Repeats a setting: `worst` gets the greatest error of all repeats, *holds is true if all repeats
+       hold, and a longer run, too. NULL: no repeats. */
     bool (*repeat)(void *of, const FitPoint *point, const FitFigures *figures, double *worst, bool *holds);
     void *of;
 } FitSpace;
 
-/* One of the two is INFINITY: what is to be as small as can be. */
+/* One of the two bounds is INFINITY: the quantity to minimise. */
 typedef struct FitGoal {
     double error, cost; /* bounds */
 } FitGoal;
 
 typedef enum FitFate {
-    FIT_BEST,   /* chosen */
-    FIT_WITHIN, /* within the bound, but no better */
+    FIT_BEST,
+    FIT_WITHIN, /* within the bound, but not better */
     FIT_BEYOND, /* outside the bound */
     FIT_BROKE,  /* broke, or does not hold */
-    FIT_LUCK,   /* its next finer rung is beyond */
-    FIT_REPEAT, /* a repeat of it is beyond */
-    FIT_PRUNED  /* not run: predicted too dear */
+    FIT_LUCK,   /* the next finer rung is beyond the bound */
+    FIT_REPEAT, /* a repeat is beyond the bound */
+    FIT_PRUNED  /* not run: predicted cost too high */
 } FitFate;
 
 typedef struct FitTry {
     FitPoint point;
     FitFigures figures;
-    double predicted; /* cost; NaN: nothing was known */
-    double worst;     /* error of its repeats; NaN: none */
-    double finer;     /* error of its next finer rung; NaN: not asked */
+    double predicted; /* cost; NaN: no prediction */
+    double worst;     /* greatest error of the repeats; NaN: no repeats */
+    double finer;     /* error of the next finer rung; NaN: not run */
     FitFate fate;
 } FitTry;
 
 typedef struct FitLadder {
-    int count, best; /* best: its place, -1: none is within */
-    bool full;       /* there was no room for more */
+    int count, best; /* best: index, or -1: no try is within the bound */
+    bool full;       /* true: no room for further tries */
     FitTry tries[FIT_TRIES];
 } FitLadder;
 
-/* False where `run` or `repeat` said so; the ladder has what was tried until then. */
+/* Searches. Returns false if `run` or `repeat` returned false; the ladder has the tries so far. */
 bool fit_search(const FitSpace *space, const FitGoal *goal, FitLadder *ladder);
 
-/* The try that misses the goal least; -1: all broke. */
+/* Returns the index of the try closest to the goal; -1: all broke. */
 int fit_nearest(const FitLadder *ladder, const FitGoal *goal);
 
 #endif
