@@ -8,11 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { COUNTED_MOST = 5000 }; /* particles under valgrind: the share of a term is that of more */
+enum { COUNTED_MOST = 5000 }; /* particles under valgrind; fractions hardly depend on the count */
 
 static const double JITTER = 1e-6; /* spacings */
 
-/* What is run. */
+/* State of the runs. */
 typedef struct Work {
     const AblateSetup *setup;
     ChartSubject subject;
@@ -20,7 +20,7 @@ typedef struct Work {
     int count;
     SceneTerm terms[TERMS_MAX];
     char settings[TERMS_MAX][2 * TERM_SIZE]; /* "--sweep path=off" */
-    ChartRows whole;                         /* the runs of the whole scene */
+    ChartRows whole;                         /* the rows of the whole scene */
     Progress progress;
     int done, all; /* runs */
 } Work;
@@ -47,7 +47,7 @@ static bool run_one(Work *work, int row, int round, ChartRow *run, Error *error)
                      1.0 / work->all, error);
 }
 
-/* The times of a run that came to its end. */
+/* Records the times of a finished run. */
 static void take(const Work *work, const ChartRow *run, AblateRow *row)
 {
     if (row->runs == 0)
@@ -59,7 +59,7 @@ static void take(const Work *work, const ChartRow *run, AblateRow *row)
     row->ms_step[row->runs++] = 1000 * run->seconds / row->steps;
 }
 
-/* False where nothing more is to be run. */
+/* Returns false to end all runs. */
 static bool run_whole(Work *work, Ablation *ablation, int round, Error *error)
 {
     ChartRow *run = &work->whole.row[work->whole.count];
@@ -75,7 +75,7 @@ static bool run_whole(Work *work, Ablation *ablation, int round, Error *error)
                      work->setup->scene, run->outcome.words);
 }
 
-/* A setting that the scene cannot do without is an outcome too. */
+/* If the scene cannot run without a setting, the outcome says so. */
 static bool run_without(Work *work, Ablation *ablation, int term)
 {
     static ChartRow run;
@@ -83,7 +83,7 @@ static bool run_without(Work *work, Ablation *ablation, int term)
     Error why = {{0}};
     work->done++;
     if (row->outcome.kind != OUTCOME_NONE && row->runs == 0)
-        return true; /* it broke in the round before */
+        return true; /* broke in the round before */
     if (!run_one(work, term + 1, 0, &run, &why)) {
         if (!interrupted())
             outcome_not_run(why.message, &row->outcome);
@@ -129,7 +129,7 @@ static void count_all(Work *work, Ablation *ablation)
     }
 }
 
-/* The scene with its terms. */
+/* Loads the scene and finds its terms. */
 static bool begin(Work *work, Ablation *ablation, Error *error)
 {
     static Notes notes;
@@ -203,8 +203,8 @@ double ablate_seconds(const AblateRow *row)
     return median(row->seconds, row->runs);
 }
 
-/* Of each round the part of the whole scene's time that goes with the term: the whole scene was run right
-   before and right behind. How many rounds there are of it. */
+/* Fills in, for each round, the term's fraction of the whole scene's time; the whole scene ran directly
+   before and after. Returns the count of rounds. */
 static int shares(const Ablation *ablation, int row, double share[ABLATE_RUNS])
 {
     const AblateRow *whole = &ablation->row[0], *without = &ablation->row[row];

@@ -1,8 +1,7 @@
-/* `slosh bench --ablate`: what each term of a scene costs, and what the scene is like without it. The scene
-   is run whole, then once without each of its terms, then all of them again: times are compared within a
-   round, so that what else the machine does falls out. From round to round the whole scene's particles are
-   moved by a millionth of a spacing, which says how far repeats of a run lie apart (as the floor of `slosh
-   chart`). */
+/* `slosh bench --ablate`: the cost of each term of a scene, and the change of the scene without the term.
+   Each round runs the whole scene, then the scene once without each term. Times are compared within a
+   round, so that other load of the machine cancels out. From round to round the whole scene's particles
+   move by a millionth of a spacing, to measure the spread of repeats (like the floor of `slosh chart`). */
 #ifndef SLOSH_ABLATE_H
 #define SLOSH_ABLATE_H
 
@@ -12,40 +11,41 @@
 
 enum { ABLATE_ROUNDS = 3, ABLATE_RUNS = ABLATE_ROUNDS + 1 };
 
-/* A scene, whole or without a term. */
+/* A scene, whole or without one term. */
 typedef struct AblateRow {
     char term[TERM_SIZE], value[TERM_SIZE]; /* "": the whole scene */
-    const char *off;                        /* its value without the term; NULL: the whole scene */
-    int runs;                               /* that there are times of; of a whole scene one more */
-    double ms_step[ABLATE_RUNS];            /* of computing, of each run, ms */
-    double seconds[ABLATE_RUNS]; /* the same, s a simulated second: steps may be longer without a term */
-    double steps;                /* a simulated second, of the first run */
-    double instructions;         /* a step; NaN: not counted */
-    double change;               /* distance of the metrics from those of the whole scene; NaN: not known */
+    const char *off;                        /* value of the setting without the term; NULL: the whole scene */
+    int runs;                               /* count of timed runs; of the whole scene one more */
+    double ms_step[ABLATE_RUNS];            /* computing time per step of each run, ms */
+    double seconds[ABLATE_RUNS]; /* computing time per simulated second, s: steps may be longer without a
+                                    term */
+    double steps;                /* per simulated second, in the first run */
+    double instructions;         /* per step; NaN: not counted */
+    double change;               /* distance of the metrics from the whole scene's; NaN: unknown */
     Outcome outcome;             /* of the first run */
 } AblateRow;
 
 typedef struct Ablation {
     const char *scene;
-    char method[NAME_SIZE], backend[NAME_SIZE], renderer[256]; /* "" where no context was needed */
+    char method[NAME_SIZE], backend[NAME_SIZE], renderer[256]; /* "" without a GL context */
     size_t particles;                                          /* at the start */
-    double time;                                               /* s of each run */
+    double time;                                               /* simulated time of each run, s */
     int count;                                                 /* rows; the first is the whole scene */
     AblateRow row[TERMS_MAX + 1];
-    double floor;          /* the greatest distance of two repeats of the whole scene; NaN: not known */
-    char not_counted[256]; /* why there are no instructions; "" where there are */
+    double floor;          /* greatest distance between two repeats of the whole scene; NaN: unknown */
+    char not_counted[256]; /* why no instructions were counted; "" if counted */
     size_t counted_particles;
 } Ablation;
 
 typedef struct AblateSetup {
-    const char *scene;             /* as scene_load takes it */
+    const char *scene;             /* name for scene_load */
     const SceneSettings *settings; /* of the command line */
     double time;                   /* simulated in each run, s */
     bool quiet;
 } AblateSetup;
 
-/* Runs them all; ends early when a signal came, with the rows that it has. A run that breaks without a term
-   is a row with its outcome. False, with the reason, where the scene cannot be read or breaks as it is. A
+/* Makes all runs. After a signal, ends early with the rows so far. A run that breaks without a term is a
+   row with its outcome. Returns false with the reason if the scene cannot be read, or breaks unchanged. A
    scene on a GPU needs a current context. `ablation` is filled in either case. */
 bool ablate(const AblateSetup *setup, Ablation *ablation, Error *error);
 
@@ -53,23 +53,23 @@ bool ablate(const AblateSetup *setup, Ablation *ablation, Error *error);
 double ablate_ms_step(const AblateRow *row);
 double ablate_seconds(const AblateRow *row);
 
-/* What the term takes of the whole scene's time: the median over the rounds; and how far rounds of that term
-   lie apart at most. NaN: not known. */
+/* ablate_saved: a term's fraction of the whole scene's time, median over the rounds. ablate_noise: the
+   greatest difference between rounds of the term. NaN: unknown. */
 double ablate_saved(const Ablation *ablation, int row);
 double ablate_noise(const Ablation *ablation, int row);
 
-/* What of the whole scene's instructions a step goes with the term; NaN: not counted. */
+/* Returns a term's fraction of the whole scene's instructions per step; NaN: not counted. */
 double ablate_counted(const Ablation *ablation, int row);
 
-/* A term costs something where it takes more of the time than its rounds lie apart, or, since a busy machine
-   hides much, so many of the instructions (a fraction). */
+/* A term has a cost if its fraction of the time exceeds the difference between rounds. As a busy machine
+   hides much, this fraction of the instructions is enough, too. */
 #define ABLATE_COUNTED 0.02
 
-/* Metrics that change less than that are not said to change, however alike repeats are: fluid that emitters
-   send out is the same in each. */
+/* Smaller changes of the metrics are not reported, however close the repeats are: fluid from emitters is
+   the same in each repeat. */
 #define ABLATE_LEAST 1e-4
 
-/* What to make of a term, by the figures above and nothing else. X(ENUM, word, help) */
+/* Advice on a term, from the figures above alone. X(ENUM, word, help) */
 #define ABLATE_ADVICE(X)                                                                                     \
     X(UNKNOWN, "not known", "it has not been run often enough")                                              \
     X(DROP, "drop it", "it costs something, and without it the metrics change no more than by repeats")      \

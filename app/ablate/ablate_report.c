@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* "12.3 %", or "-" where it is not known. */
+/* Formats "12.3 %", or "-" if unknown. */
 static const char *percent(double part, char text[32])
 {
     if (isfinite(part))

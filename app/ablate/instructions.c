@@ -20,7 +20,7 @@ bool instructions_can(void)
     return system("command -v valgrind >/dev/null 2>&1") == 0;
 }
 
-/* A command line that is put together. */
+/* A command line under construction. */
 typedef struct Line {
     int count;
     const char *word[ARGUMENTS_MAX];
@@ -38,7 +38,8 @@ static void add_two(Line *line, const char *option, const char *value)
     add(line, value);
 }
 
-/* Becomes the program of the line, which ends with this process, however that ends. */
+/* Replaces the child process by the program of the line. The program dies with `parent`, whatever the
+   cause. */
 _Noreturn static void become(const Line *line, pid_t parent)
 {
     const int nowhere = open("/dev/null", O_WRONLY);
@@ -50,7 +51,7 @@ _Noreturn static void become(const Line *line, pid_t parent)
     _exit(127);
 }
 
-/* Runs it to its end, or until a signal comes, with what it says thrown away. */
+/* Runs the program to its end, or until a signal; its output is discarded. */
 static bool run(const Line *line, Error *error)
 {
     enum { LOOK_MS = 20 };
@@ -70,7 +71,7 @@ static bool run(const Line *line, Error *error)
            error_set(error, interrupted() ? "stopped" : "the run under valgrind failed");
 }
 
-/* Of a profile of callgrind, and of the JSON of the bench beside it: both have what is looked for once. */
+/* Reads the number after `what` in a callgrind profile or in the bench's JSON; `what` occurs once in each. */
 static bool read_after(const char *path, const char *what, double *number)
 {
     char *line = NULL;
@@ -111,12 +112,12 @@ bool instructions_count(const char *scene, const SceneSettings *settings, const 
     snprintf(profile, sizeof profile, "%s/counts", folder);
     snprintf(json, sizeof json, "%s/bench.json", folder);
     snprintf(out, sizeof out, "--callgrind-out-file=%s", profile);
-    output_pending_add(folder); /* a second signal removes it, too */
+    output_pending_add(folder); /* a second signal removes the folder, too */
     snprintf(few, sizeof few, "%zu", particles > 0 ? particles : settings->particles);
-    setenv("OMP_WAIT_POLICY", "passive", 0); /* the program need not start itself anew for it */
+    setenv("OMP_WAIT_POLICY", "passive", 0); /* avoids a restart of the program */
     add_two(&line, "valgrind", "--tool=callgrind");
     add_two(&line, "--toggle-collect=world_substep", out);
-    add(&line, "--vgdb=no"); /* whose pipes would stay where it is killed */
+    add(&line, "--vgdb=no"); /* vgdb pipes would stay after a kill */
     add_two(&line, self, "bench");
     add_two(&line, scene, "--quiet");
     add_two(&line, "--json", json);

@@ -1,15 +1,15 @@
-/* Instructions of a solver's step, counted by valgrind: the same in each run, however busy the machine. */
+/* Counts instructions of a solver step with valgrind: the same in each run, however busy the machine. */
 #ifndef SLOSH_INSTRUCTIONS_H
 #define SLOSH_INSTRUCTIONS_H
 
 #include "app/scene/scene.h"
 
-/* Whether valgrind is there. */
+/* Returns true if valgrind is installed. */
 bool instructions_can(void);
 
-/* Counts those of the first steps of the scene with one more setting (NULL: none) and that many particles (0:
-   as many as the settings say), on one thread: a step's, in the mean. Runs this program anew under valgrind,
-   which is some fifty times slower; a signal ends it. False with the reason. */
+/* Counts the instructions of the scene's first steps, mean per step, on one thread; with one more setting
+   (NULL: none) and `particles` particles (0: as set). Runs the program again under valgrind, about fifty
+   times slower; a signal ends the count. Returns false with the reason. */
 bool instructions_count(const char *scene, const SceneSettings *settings, const char *more, size_t particles,
                         double *per_step, Error *error);
 
