@@ -49,14 +49,14 @@ double picture_rms(const LinearPicture *a, const LinearPicture *b)
     return sqrt(sum / (double)count);
 }
 
-/* As the eye has it, 0 .. 1: Rec. 709's weights. */
+/* Perceived brightness, 0 .. 1, with the weights of Rec. 709. */
 static double luma(const LinearPicture *picture, int x, int y)
 {
     const float *rgb = picture->rgb + 3 * ((size_t)y * (size_t)picture->width + (size_t)x);
     return linear_to_srgb(0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2]);
 }
 
-/* eq. 13, of the block at x0, y0. */
+/* eq. 13, for the block at x0, y0. */
 static double ssim(const LinearPicture *a, const LinearPicture *b, int x0, int y0)
 {
     static const double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
@@ -83,5 +83,5 @@ double picture_structure(const LinearPicture *a, const LinearPicture *b)
     for (int y = 0; y < a->height; y += BLOCK)
         for (int x = 0; x < a->width; x += BLOCK, blocks++)
             sum += ssim(a, b, x, y);
-    return fmax(1 - sum / blocks, 0); /* rounding */
+    return fmax(1 - sum / blocks, 0); /* below 0 by rounding only */
 }

@@ -28,7 +28,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The stages of a picture. */
+/* Time of all stages of a picture. */
 static double sum_of(const StageTimes *times)
 {
     double sum = 0;
@@ -37,7 +37,8 @@ static double sum_of(const StageTimes *times)
     return sum;
 }
 
-/* The first ones fill caches, and make the backdrop that the others copy. Slow ones are fewer. */
+/* The first pictures fill caches, and make the backdrop copied by later pictures. Slow pictures are drawn
+   fewer times. */
 static bool draw_all(Studio *studio, World *world, GlTimer *timer, int pictures, double *ms, Error *error)
 {
     double sums[WARM_UP + PICTURES];
@@ -55,7 +56,7 @@ static bool draw_all(Studio *studio, World *world, GlTimer *timer, int pictures,
         sums[known++] = sum_of(&times);
     const int first = known > WARM_UP ? WARM_UP : 0, count = known - first;
     qsort(sums + first, (size_t)count, sizeof *sums, ascending);
-    *ms = count > 0 ? sums[first] : (double)NAN; /* the least: what else the machine does only adds */
+    *ms = count > 0 ? sums[first] : (double)NAN; /* least time: other load of the machine only adds */
     return true;
 }
 

@@ -1,4 +1,4 @@
-/* A picture of a state with a view, and how long it takes. */
+/* A picture of a state with a view, and its drawing time. */
 #ifndef SLOSH_SHOT_H
 #define SLOSH_SHOT_H
 
@@ -9,17 +9,17 @@
 
 enum { SHOT_FACTOR = 8 };
 
-/* By how much a picture of that size can be supersampled: SHOT_FACTOR, or what the driver and 16 million
-   pixels allow. Needs a current context. */
+/* Returns the supersampling factor for a picture of the given size: SHOT_FACTOR, or less if limited by the
+   driver or by 16 million pixels. Needs a current context. */
 int shot_factor(int width, int height);
 
 typedef struct Shot {
-    LinearPicture picture; /* of the size asked for; owned */
-    double ms;             /* of drawing: the least of several pictures */
+    LinearPicture picture; /* of the requested size; owned */
+    double ms;             /* drawing time: the least of several pictures */
     char clock[NAME_SIZE]; /* "gl" or "finish" */
 } Shot;
 
-/* Draws the world's state as the scene's view is, `factor` times as large, several times where `timed`.
+/* Draws the world's state with the scene's view, `factor` times as large, several times if `timed`. Call
    linear_picture_free(&shot->picture) in either case. */
 bool shoot(const Scene *scene, World *world, int width, int height, int factor, bool timed, Shot *shot,
            Error *error);

@@ -12,7 +12,7 @@ enum { WIDTH = 860, HEIGHT = 560, LEFT = 84, TOP = 76, RIGHT = 700, BOTTOM = 500
 
 static const double LABEL_FONT = 8, LABEL_HEIGHT = 11;
 
-/* Logarithms to the base 10 of what is drawn: ms, error. */
+/* Logarithms to base 10 of the drawn values: ms, error. */
 typedef struct Frame {
     double low[2], high[2];
     LabelField field;
@@ -74,7 +74,7 @@ static void put_words(const ViewWords *words, FILE *gnuplot)
     }
 }
 
-/* The front's, where there is room; far from its point a line says whose it is. */
+/* Labels the front where there is room; a distant label gets a line to its point. */
 static void put_labels(const ViewRows *rows, Frame *frame, FILE *gnuplot)
 {
     for (int i = 0; i < rows->count; i++)
@@ -102,7 +102,7 @@ static void put_labels(const ViewRows *rows, Frame *frame, FILE *gnuplot)
     }
 }
 
-/* The views in the order of their rows; how many. */
+/* Collects the views in the order of their rows; returns their count. */
 static int views_of(const ViewRows *rows, const char *views[VIEWS_MAX])
 {
     int count = 0;
@@ -116,7 +116,7 @@ static int views_of(const ViewRows *rows, const char *views[VIEWS_MAX])
     return count;
 }
 
-/* Two blocks a view: all its pictures, and its front in the order of time. */
+/* Two blocks per view: all pictures, and the front in the order of time. */
 static void put_data(const ViewRows *rows, const char *view, int number, FILE *gnuplot)
 {
     const ViewRow *front[VIEW_ROWS_MAX];

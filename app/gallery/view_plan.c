@@ -55,7 +55,8 @@ static bool number_of(const char *text, double *number)
     return end != text && !*end;
 }
 
-/* The coarsest or finest value of a grade, or the scene's where that is beyond it, or none of them. */
+/* Returns the coarsest or finest value of a grade; the scene's own value if beyond the grade or not
+   comparable. */
 static const char *end_of(const ViewGrade *grade, const char *now, bool finest)
 {
     int count = 0, at = -1;
@@ -71,7 +72,7 @@ static const char *end_of(const ViewGrade *grade, const char *now, bool finest)
     return beyond > 0 ? now : finest ? high : low;
 }
 
-/* The job's next setting; its name gets the last part of the key's path. */
+/* Adds a setting to the job; if `named`, job->name gets the last part of the key's path. */
 static bool job_set(ViewJob *job, const char *path, const char *value, bool named)
 {
     const char *last = strrchr(path, '.') + 1;
@@ -91,7 +92,7 @@ static bool add_job(ViewPlan *plan, const ViewJob *job, Error *error)
     return true;
 }
 
-/* Whether a job of the view that is there sets the same. */
+/* True if the plan has a job of the view with the same settings. */
 static bool have_job(const ViewPlan *plan, const ViewJob *job)
 {
     for (int i = 0; i < plan->count; i++) {
@@ -105,7 +106,7 @@ static bool have_job(const ViewPlan *plan, const ViewJob *job)
     return false;
 }
 
-/* All keys at one end; whether that differs from the scene as it is. */
+/* Sets all keys to one end; returns true if any differs from the scene. */
 static bool all_at(ViewJob *job, const Scene *scene, bool finest)
 {
     bool other = false;
@@ -147,14 +148,14 @@ static bool plan_view(ViewPlan *plan, const ViewKind *kind, Error *error)
     bool ok = add_job(plan, &reference, error) && add_job(plan, &job, error);
     for (const ViewGrade *grade = kind->grades; ok && grade && grade->path; grade++)
         ok = plan_grade(plan, kind, grade, &scene, error);
-    if (ok && all_at(&coarse, &scene, false) && !have_job(plan, &coarse)) /* of one grade: its own run */
+    if (ok && all_at(&coarse, &scene, false) && !have_job(plan, &coarse)) /* may equal a single grade */
         ok = add_job(plan, &coarse, error);
     if (ok && all_at(&fine, &scene, true) && !have_job(plan, &fine))
         ok = add_job(plan, &fine, error);
     return ok;
 }
 
-/* What the scene says with each view: a key of one of them has an effect. */
+/* Keeps the notes common to all views: a key read by one view has an effect. */
 static bool keep_common(const ViewPlan *plan, const ViewKind *kind, bool first, Notes *common, Error *error)
 {
     static Scene scene;
@@ -174,7 +175,7 @@ static bool keep_common(const ViewPlan *plan, const ViewKind *kind, bool first, 
     return true;
 }
 
-/* The view that the command line names, or NULL. */
+/* Returns the view named on the command line, or NULL. */
 static const char *named_view(const SceneSettings *settings)
 {
     const char *name = NULL;

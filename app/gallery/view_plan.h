@@ -1,6 +1,6 @@
-/* What `slosh chart --views` draws: of each view the scene's own settings, each grade of each of its keys
-   (ViewKind.grades), all keys at their coarsest, all at their finest (but where one grade does that); and its
-   reference, the finest too and supersampled. */
+/* Plan of `slosh chart --views`. Pictures of each view: the scene's own settings; each grade of each of
+   the view's keys (ViewKind.grades); all keys at their coarsest; all keys at their finest (both skipped if
+   equal to a single grade); and the reference, all keys at their finest and supersampled. */
 #ifndef SLOSH_VIEW_PLAN_H
 #define SLOSH_VIEW_PLAN_H
 
@@ -15,20 +15,20 @@ typedef struct ViewJob {
     bool reference;
     int set_count;
     char set[VIEW_SETS][VIEW_SET_NAME]; /* "--set key=value" */
-    char name[VIEW_SETTINGS];           /* as ViewRow.settings */
+    char name[VIEW_SETTINGS];           /* ViewRow.settings */
 } ViewJob;
 
 typedef struct ViewPlan {
-    const char *scene;             /* as scene_load takes it */
+    const char *scene;             /* name for scene_load */
     const SceneSettings *settings; /* of the command line */
-    int count;                     /* a view's reference stands before its others */
+    int count;                     /* the reference of a view comes before the view's other jobs */
     ViewJob jobs[VIEW_JOBS_MAX];
 } ViewPlan;
 
-/* Of the view that the command line names (--set view.kind=...), or of all. */
+/* Plans the view named on the command line (--set view.kind=...), or all views. */
 bool view_plan_make(const Args *args, ViewPlan *plan, Error *error);
 
-/* The scene of a job: without legend and edges of the box, which are as wide as pixels, whatever the size. */
+/* Loads the scene of a job, without legend and box edges: their width is in pixels, whatever the size. */
 bool view_job_scene(const ViewPlan *plan, const ViewJob *job, Scene *scene, Error *error);
 
 #endif

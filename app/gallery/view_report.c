@@ -1,4 +1,4 @@
-/* What `slosh chart --views` says of its rows: a table, JSON. */
+/* Reports of `slosh chart --views`: a table, JSON. */
 #include "app/gallery/view_row.h"
 
 #include "app/base/json_file.h"

@@ -1,5 +1,5 @@
-/* One picture of `slosh chart --views`: of which view, with which settings, how long it took, how far off it
-   is. Rows are kept in a CSV file, so that a picture already there is not drawn again. */
+/* One picture of `slosh chart --views`: its view, settings, drawing time and error. Rows are kept in a CSV
+   file, so that no picture is drawn twice. */
 #ifndef SLOSH_VIEW_ROW_H
 #define SLOSH_VIEW_ROW_H
 
@@ -13,12 +13,12 @@
 enum { VIEW_ROWS_MAX = 192, VIEW_SETTINGS = 160 };
 
 typedef struct ViewRow {
-    uint64_t key; /* of all that the picture depends on, the machine but for its renderer left out */
+    uint64_t key; /* hash of all inputs of the picture; of the machine only the renderer */
     char view[NAME_SIZE];
     char settings[VIEW_SETTINGS]; /* "as it is", "cells=48" */
     char clock[NAME_SIZE];        /* "gl" or "finish" */
-    double ms;                    /* of a picture; NaN: not drawn */
-    double error, structure;      /* picture_rms and picture_structure against the view's reference; NaN */
+    double ms;                    /* per picture; NaN: not drawn */
+    double error, structure;      /* picture_rms and picture_structure from the view's reference; or NaN */
 } ViewRow;
 
 typedef struct ViewRows {
@@ -26,20 +26,22 @@ typedef struct ViewRows {
     ViewRow row[VIEW_ROWS_MAX];
 } ViewRows;
 
-/* The rows of an older run; none where there is no such file. A line that is no row is told to `warnings` and
-   left out. False where another program wrote the file, or it cannot be read: it is not to be replaced. */
+/* Reads the rows of an older run; zero rows if the file is missing. An unsound line is reported to
+   `warnings` and skipped. Returns false if the file cannot be read or was written by another program; such
+   a file must not be replaced. */
 bool view_rows_read(ViewRows *rows, const char *path, FILE *warnings, Error *error);
 
-/* Adds a row, in place of the one with its key or, where there is no room, of the oldest. */
+/* Adds a row, replacing the row with the same key; if there is no room, the oldest row. */
 void view_rows_add(ViewRows *rows, const ViewRow *row);
 
-/* Writes all rows, whole or not at all. */
+/* Writes all rows; the file is complete or not written at all. */
 bool view_rows_write(const ViewRows *rows, const char *path, Error *error);
 
-/* NULL where there is none. */
+/* Returns the row with the key, or NULL. */
 const ViewRow *view_rows_find(const ViewRows *rows, uint64_t key);
 
-/* Whether no other picture of its view is both cheaper and nearer, or hardly farther: by that factor. */
+/* view_on_front: true if no other picture of the view is both cheaper and more accurate; errors within the
+   factor VIEW_EQUAL count as equal. */
 #define VIEW_EQUAL 1.01
 bool view_on_front(const ViewRows *rows, int row);
 
@@ -47,10 +49,10 @@ typedef struct ViewWords {
     const char *title, *note, *renderer;
 } ViewWords;
 
-/* The chart: error over time, one colour a view, FILE.svg or FILE.png. */
+/* Draws the chart as FILE.svg or FILE.png: error over time, one colour per view. */
 bool view_rows_draw(const ViewRows *rows, const ViewWords *words, const char *path, Error *error);
 
-/* A line a row. */
+/* Prints one line per row. */
 void view_rows_print(const ViewRows *rows, const ViewWords *words, FILE *file);
 
 /* {"views": scene, "renderer", "size", "supersampled", "time", "runs": [...], "error": failure} */
