@@ -6,7 +6,7 @@ typedef struct Lattice {
     double faces, neighbours; /* means over ranks */
 } Lattice;
 
-/* Prime factors of the ranks, the greatest first, each along the side that has the fewest ranks. */
+/* Places prime factors of the ranks, greatest first, along the side with the fewest ranks. */
 static Lattice lattice(int ranks, int dimensions)
 {
     const int sides = dimensions == 2 ? 2 : 3;
@@ -41,7 +41,8 @@ static double surface(double particles, int ranks, int dimensions)
     return pow(particles / ranks, 1 - 1.0 / dimensions);
 }
 
-/* Least squares of (exchange - latency messages - slowness bytes) / exchange; neither is less than 0. */
+/* Minimises the squares of (exchange - latency messages - slowness bytes) / exchange, with latency and
+   slowness at least 0. */
 static void fit_exchange(const CostSample *samples, int count, CostModel *model)
 {
     double mm = 0, mb = 0, bb = 0, m = 0, b = 0;

@@ -5,16 +5,17 @@
 
 const char *const series_names[SERIES_KINDS] = {"strong", "weak"};
 
-/* How far the sizes of a series may be from that of its first run. */
+/* Greatest relative difference of size from the first run of a series. */
 static const double alike[SERIES_KINDS] = {0.02, 0.15};
 
-/* What runs of a series have in common. */
+/* Returns the size shared by the runs of a series. */
 static double size_of(const SeriesRun *run, SeriesKind kind)
 {
     return kind == SERIES_STRONG ? run->cost.particles : run->cost.particles / run->cost.ranks;
 }
 
-/* Adds a run where its ranks are new to the series, or it is faster than the one that is there. */
+/* Adds a run if its ranks are new to the series, or if the run is faster than the present run with these
+   ranks. */
 static void take(const SeriesRun *runs, Series *series, int run)
 {
     int at = 0;
@@ -34,7 +35,7 @@ static void take(const SeriesRun *runs, Series *series, int run)
     series->run[at] = run;
 }
 
-/* The least size above `above`; infinite where there is none. */
+/* Returns the least size above `above`; infinite if there is none. */
 static double next_size(const SeriesRun *runs, int count, SeriesKind kind, double above)
 {
     double least = (double)INFINITY;

@@ -1,5 +1,5 @@
-/* Runs on ranks that belong together: strong scaling has the same particles on ever more ranks, weak scaling
-   as many particles a rank. */
+/* Groups runs on ranks. Strong scaling: the same particles on more and more ranks. Weak scaling: the same
+   particles per rank. */
 #ifndef SLOSH_SERIES_H
 #define SLOSH_SERIES_H
 
@@ -11,7 +11,7 @@ typedef enum SeriesKind { SERIES_STRONG, SERIES_WEAK, SERIES_KINDS } SeriesKind;
 
 extern const char *const series_names[SERIES_KINDS];
 
-/* A run as it was measured. */
+/* A measured run. */
 typedef struct SeriesRun {
     CostSample cost;
     double step; /* s */
@@ -19,19 +19,19 @@ typedef struct SeriesRun {
 
 typedef struct Series {
     SeriesKind kind;
-    int count;            /* two or more, of the fewest ranks first; no two of the same ranks */
-    int run[SERIES_RUNS]; /* places in what was given */
+    int count;            /* two or more, ordered by ranks; no two with equal ranks */
+    int run[SERIES_RUNS]; /* indices of runs */
 } Series;
 
-/* All series that the runs make, strong ones first, each kind from few particles to many; of runs of the same
-   size and ranks the fastest. Particles of a strong series differ by 2 % at most, those a rank of a weak one
-   by 15 %: a lattice has no more choice. Returns how many. */
+/* Finds all series among the runs, strong series first, each kind ordered by particles; of runs with equal
+   size and ranks only the fastest. Particles of a strong series may differ by 2 %, particles per rank of a
+   weak series by 15 %: a lattice allows no finer choice. Returns the count. */
 int series_find(const SeriesRun *runs, int count, Series series[SERIES_MOST]);
 
-/* Particle-steps a second, k-th run of the series over its first. */
+/* Returns particle-steps per second of the k-th run of the series, over the first run's. */
 double series_speedup(const SeriesRun *runs, const Series *series, int k);
 
-/* The same for each processor at work: 1 where nothing is lost. */
+/* The same per busy processor: 1 without loss. */
 double series_efficiency(const SeriesRun *runs, const Series *series, int k);
 
 #endif
