@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Particles chained by the hash of their cell, whose sides are the limit long; 0 ends a chain. */
+/* Particles chained by the hash of their cell, of side length `limit`; 0 ends a chain. */
 typedef struct Chains {
     const float *position;
     double limit;
     size_t mask;
-    uint32_t *first, *next; /* a chain; a particle: numbers from 1 on */
+    uint32_t *first, *next; /* first of a chain; next of a particle: numbers from 1 on */
 } Chains;
 
 static size_t chain_of(const Chains *chains, const int64_t cell[3])
@@ -61,14 +61,14 @@ static bool is_close(const Chains *chains, size_t i)
     return close;
 }
 
-/* Whether its cell has a number. */
+/* True if the particle's cell index fits an integer. */
 static bool is_somewhere(const float x[3], double limit)
 {
     const double most = 1e15 * limit;
     return fabs((double)x[0]) < most && fabs((double)x[1]) < most && fabs((double)x[2]) < most;
 }
 
-/* False when memory is short. */
+/* Returns false if memory is short. */
 static bool chains_make(Chains *chains, const Cloud *cloud, double limit)
 {
     size_t count = 1;
@@ -100,8 +100,8 @@ bool metric_close(const Cloud *cloud, double limit, size_t stride, size_t *close
     return ok;
 }
 
-/* Adds what is in a cell's chain to the velocities beside i, by weight. Another cell of the same chain is
-   passed over: it would count twice. */
+/* Adds the velocities of neighbours of particle i from a cell's chain, weighted. Skips particles of other
+   cells in the same chain, to avoid double counting. */
 static void add_beside(const Chains *chains, const Cloud *cloud, const int64_t cell[3], size_t i,
                        double sum[4])
 {

@@ -1,17 +1,18 @@
-/* Particles beside others: which are too near, pairs and clumps; and whether they move alike. */
+/* Closeness of particles: counts of particles too near to a neighbour (pairs and clumps); coherence of
+   motion. */
 #ifndef SLOSH_CLOSENESS_H
 #define SLOSH_CLOSENESS_H
 
 #include "app/metric/cloud.h"
 
-/* How many of every `stride`-th particle, of one fluid or of several, have another one nearer than `limit`
-   (m, more than 0), be it one of those or not; pairs across periodic sides are not seen, places that are no
-   numbers are left out. False when memory is short. */
+/* Counts, among every `stride`-th particle, particles with a neighbour of any fluid nearer than `limit`
+   (m, more than 0). Neighbours are searched among all particles. Pairs across periodic sides are ignored;
+   positions with NaN or infinity are skipped. Returns false if memory is short. */
 bool metric_close(const Cloud *cloud, double limit, size_t stride, size_t *close);
 
-/* How much of the energy of motion of every `stride`-th particle is of motion together with others nearer
-   than h: sum v . u over sum v . v, with u the mean velocity of these, nearer ones counting more. 1 where
-   nothing moves, or everything alike; 0 of a gas. False when memory is short. */
+/* Fraction of the kinetic energy of every `stride`-th particle in common motion with neighbours nearer
+   than h: sum v . u over sum v . v, with u the weighted mean velocity of the neighbours. 1 without motion
+   or in uniform motion; 0 for a gas. Returns false if memory is short. */
 bool metric_together(const Cloud *cloud, double h, size_t stride, double *together);
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* Bins of one ratio each, so that a percentile is right to a fraction of itself, whatever its size. */
+/* Bins of a constant ratio, so that a percentile has a constant relative accuracy. */
 static const double LEAST = 1e-6, BINS_AN_OCTAVE = 64;
 
 static int bin_of(double pressed)
@@ -25,7 +25,7 @@ void compression_add(CompressionTally *tally, const Cloud *cloud, const WorldDef
     tally->states++;
 }
 
-/* The upper end of the bin that has it. */
+/* Returns the upper end of the percentile's bin. */
 static double percentile(const CompressionTally *tally, double fraction)
 {
     const double below = fraction * (double)tally->particles;

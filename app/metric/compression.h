@@ -1,5 +1,4 @@
-/* How far the particles of some states are pressed above their rest density: what the methods, whatever
-   they hold, can be compared by. */
+/* Compression of particles above their rest density over several states: a comparison for all methods. */
 #ifndef SLOSH_COMPRESSION_H
 #define SLOSH_COMPRESSION_H
 
@@ -7,18 +6,18 @@
 
 enum { COMPRESSION_BINS = 1280 };
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct CompressionTally {
     uint64_t states, particles; /* of all states */
     double sum, most;
-    double thinned; /* the most by which one's density is below that at rest, over it */
+    double thinned; /* greatest relative deficit of density below rest density */
     uint64_t bins[COMPRESSION_BINS];
 } CompressionTally;
 
-/* Fractions of the rest density, of all particles of all states; what is thinner than at rest counts as 0,
-   but in `least`: the least density. */
+/* Fractions of the rest density, over all particles of all states. Densities below rest count as 0, except
+   in `least`, the least density. */
 typedef struct CompressionFigures {
-    double mean, p999, most, least; /* p999: 99.9 % of them are no higher; to 1 % of itself */
+    double mean, p999, most, least; /* p999: 99.9 % of particles are at or below p999; accurate to 1 % */
 } CompressionFigures;
 
 void compression_add(CompressionTally *tally, const Cloud *cloud, const WorldDef *def);

@@ -52,7 +52,7 @@ double curve_slope(const Curve *curve)
     return xx > 0 ? xy / xx : (double)NAN;
 }
 
-/* Whether y passes 0 between points i - 1 and i. */
+/* True if y crosses 0 between points i - 1 and i. */
 static bool passes(const Curve *curve, size_t i)
 {
     return (curve->at[i - 1][1] < 0) != (curve->at[i][1] < 0);
@@ -73,7 +73,7 @@ double curve_period(const Curve *curve)
     return passings > 2 ? 2 * (last - first) / (passings - 1) : (double)NAN;
 }
 
-/* The top of the parabola through points i - 1, i and i + 1, evenly spaced, of |y|. */
+/* Adds the top of the parabola through |y| at points i - 1, i and i + 1, evenly spaced. */
 static void add_peak(const Curve *curve, size_t i, Curve *peaks)
 {
     const double a = fabs(curve->at[i - 1][1]), b = fabs(curve->at[i][1]), c = fabs(curve->at[i + 1][1]),

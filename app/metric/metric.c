@@ -35,7 +35,7 @@ double metric_front(const Cloud *cloud)
     return front > -INFINITY ? front + 0.5 * cloud->spacing : (double)NAN;
 }
 
-/* Of the particles with x < below. */
+/* Surface height over the particles with x < below. */
 static double surface_before(const Cloud *cloud, double below)
 {
     double top = -INFINITY, sum = 0, count = 0;
@@ -164,7 +164,8 @@ void metric_energies(const Cloud *cloud, const WorldDef *def, Energies *energies
     }
 }
 
-/* Solves the symmetric 3 x 3 system for the two velocities at the origin: f = c0 + c1 x + c2 y, by Cramer. */
+/* Solves the symmetric 3 x 3 system of f = c0 + c1 x + c2 y for both velocity components at the origin, by
+   Cramer's rule. */
 static bool solve_at_origin(double m[3][3], double b[2][3], double out[2])
 {
     const double a = m[1][1] * m[2][2] - m[1][2] * m[2][1], d = m[0][2] * m[2][1] - m[0][1] * m[2][2],

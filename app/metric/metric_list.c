@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* 0 along periodic axes: there the mean of places that are wrapped says nothing. */
+/* 0 along periodic axes: a mean of wrapped positions has no meaning. */
 static void centre_of_mass(const MetricState *state, double out[])
 {
     for (int k = 0; k < 3; k++)
