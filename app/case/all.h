@@ -4,7 +4,7 @@
 
 #include "app/case/case.h"
 
-/* X(name): the cases in the order in which they run; each is a `const Case case_NAME` of this folder. */
+/* X(name): the cases in the order of their runs; each is a `const Case case_NAME` in app/case. */
 #define CASES(X)                                                                                             \
     X(hydrostatic)                                                                                           \
     X(hydrostatic_3d)                                                                                        \

@@ -1,4 +1,4 @@
-/* A bucket that spins: its surface is y = omega^2 r^2 / 2 g. */
+/* A spinning bucket: the surface is y = omega^2 r^2 / 2 g. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 
@@ -12,7 +12,7 @@ static void sample(CaseRun *run)
               metric_paraboloid(&run->cloud, run->def->box_size[0], NULL));
 }
 
-/* The mean over the last third of the time: what still sloshes goes round. */
+/* Takes the mean over the last third of the time, as remaining sloshing rotates. */
 static bool judge(CaseRun *run, Error *error)
 {
     (void)error;

@@ -8,17 +8,17 @@
 
 static const char PUBLISHED[] = "scenes/reference/ghia-1982.csv";
 
-/* The flow stands still from here on, of the whole time: the mean over samples is without the particles'
- * noise. */
+/* The flow is steady after this fraction of the time; the mean over later samples removes the particles'
+   noise. */
 static const double STEADY = 0.75;
 
-/* Where the k-th published point of a line is; v stands at x, u at y. */
+/* Position of the k-th published point along a line: x for v, y for u. */
 static double along_of(const Reference *published, int line, int k)
 {
     return reference_number(published, k, line ? "x" : "y");
 }
 
-/* The velocities across both lines at the published points, one state after the other: columns 0 and 1. */
+/* Adds the velocities across both lines at the published points, state after state, to columns 0 and 1. */
 static void sample(CaseRun *run)
 {
     static Reference published;
@@ -36,7 +36,7 @@ static void sample(CaseRun *run)
         }
 }
 
-/* The mean of every `rows`-th value from the k-th on. */
+/* Mean of every `rows`-th value from index k on. */
 static double mean_of(const Curve *column, int rows, int k)
 {
     double sum = 0;
@@ -46,8 +46,8 @@ static double mean_of(const Curve *column, int rows, int k)
     return sum / count;
 }
 
-/* The greatest difference over the published points of both lines, over the lid's speed. In the plot v stands
-   beside u, at x and y. */
+/* Error: the greatest difference over the published points of both lines, over the lid's speed. The plot
+   shows u over y and v over x together. */
 static bool judge(CaseRun *run, Error *error)
 {
     static Reference published;

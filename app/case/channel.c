@@ -1,14 +1,14 @@
-/* Flows between two plates that begin at rest: Poiseuille's, which a force drives, and Couette's, which the
-   upper plate drives. */
+/* Flows between two plates, starting at rest: Poiseuille flow, driven by a force, and Couette flow, driven
+   by the upper plate. */
 #include "app/case/all.h"
 
 #include <math.h>
 
 enum { ERROR, TERMS = 200 };
 
-static const double FROM = 0.1; /* s: before, the fluid at a plate has a jump */
+static const double FROM = 0.1; /* s: before, the velocity has a jump at a plate */
 
-/* a y (H - y) / (2 nu) less its sine series, each term of which dies out by its own time. */
+/* u = a y (H - y) / (2 nu) minus its sine series; each term decays at its own rate. */
 static double poiseuille(const WorldDef *def, double y, double t)
 {
     const double nu = def->fluids[0].viscosity / def->fluids[0].density, height = def->box_size[1],
@@ -41,7 +41,7 @@ static double greatest(const WorldDef *def)
     return fmax(fabs(def->lid[0]), fabs(def->gravity[0]) * height * height / (8 * nu));
 }
 
-/* rms over the particles of what their velocity along the plates is off by. */
+/* rms over the particles of the error of the velocity along the plates. */
 static void sample(CaseRun *run, Profile profile)
 {
     double sum2 = 0;

@@ -1,4 +1,4 @@
-/* Two drops that collide off centre: momenta stay, and no energy comes from nothing. */
+/* Two drops collide off centre: momenta are conserved, and energy must not grow. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 
@@ -6,7 +6,7 @@
 
 enum { ENERGY, MOMENTUM_X, MOMENTUM_Y, SPIN };
 
-/* Per particle mass: both drops are of one density. */
+/* Per particle mass: both drops have the same density. */
 static void sample(CaseRun *run)
 {
     Energies e;

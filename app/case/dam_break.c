@@ -1,7 +1,8 @@
-/* The front and the height of a collapsing column without friction, as boundary elements have them
+/* Front and height of a collapsing column without friction, compared with boundary elements
    (tests/app/test_dam_break_potential.c). The experiment of J. C. Martin and W. J. Moyce, "An experimental
-   study of the collapse of liquid columns on a rigid horizontal plane", 1952, is shown beside it: the exact
-   front runs ahead of theirs by 14 %, so a solver without friction is to miss theirs as that does. */
+   study of the collapse of liquid columns on a rigid horizontal plane", 1952, is shown beside. The exact
+   front is 14 % ahead of the experiment, so a solver without friction should miss the experiment by as
+   much. */
 #include "app/case/all.h"
 #include "app/case/reference.h"
 #include "app/metric/metric.h"
@@ -10,7 +11,7 @@
 
 enum { FRONT, HEIGHT };
 
-/* The column's width a, its left side on the wall. */
+/* Width a of the column, whose left side is at the wall. */
 static double width_of(const WorldDef *def)
 {
     const Fill *fill = &def->fluids[0].fills[0];
@@ -26,10 +27,10 @@ static void sample(CaseRun *run)
 
 static const char *const names[] = {[FRONT] = "Z", [HEIGHT] = "H"};
 
-/* What the plot expects. */
+/* Reference curves of the plot. */
 enum { EXPERIMENT, POTENTIAL_FRONT, POTENTIAL_HEIGHT };
 
-/* The rows of a reference as a curve: T = t sqrt(2 g / a), and Z = x / a or H = y / a. */
+/* Loads a reference as a curve: T = t sqrt(2 g / a), and Z = x / a or H = y / a. */
 static bool expect(CaseRun *run, int c, const char *path, int what, Error *error)
 {
     static Reference reference;
@@ -45,7 +46,7 @@ typedef struct Miss {
     double mean, worst;
 } Miss;
 
-/* |found(T_k) - Z_k| / Z_k over the points of what was expected; no shift in time. */
+/* |found(T_k) - Z_k| / Z_k over the points of the reference; no shift in time. */
 static Miss miss_of(const Curve *found, const Curve *expected)
 {
     Miss miss = {0, 0};

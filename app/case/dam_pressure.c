@@ -1,5 +1,5 @@
-/* Pressure of a collapsing column on the wall behind it, and on the wall that it meets, as boundary elements
-   have them (tests/app/test_dam_break_potential.c), from sensors on the walls' lowest parts. */
+/* Pressure of a collapsing column on the wall behind and on the end wall, from sensors on the lowest parts
+   of the walls, compared with boundary elements (tests/app/test_dam_break_potential.c). */
 #include "app/case/all.h"
 #include "app/case/reference.h"
 
@@ -9,7 +9,7 @@ enum { BEHIND, END, WALLS };
 
 static const char *const names[WALLS] = {"behind", "end"};
 
-/* Means over so much of T: the fluid hits the wall with a noise of its sound. */
+/* Window of the means, in units of T: the impact on the wall causes sound noise. */
 static const double WINDOW[WALLS] = {0.1, 0.05};
 
 static void sample(CaseRun *run)
@@ -18,7 +18,7 @@ static void sample(CaseRun *run)
         curve_add(&run->column[wall], run->info.time, (double)run->probe[wall]);
 }
 
-/* What the sensor read around T, over rho g a. */
+/* Mean sensor pressure around T, over rho g a. */
 static double mean_about(const Curve *found, double at, double window)
 {
     double sum = 0, count = 0;
@@ -30,7 +30,7 @@ static double mean_about(const Curve *found, double at, double window)
     return sum / count;
 }
 
-/* The mean of |p - reference| over that of the reference. */
+/* Mean of |p - reference| over the mean of the reference. */
 static double miss_of(const Curve *found, const Curve *expected, double window)
 {
     double miss = 0, all = 0;
@@ -41,7 +41,7 @@ static double miss_of(const Curve *found, const Curve *expected, double window)
     return miss / all;
 }
 
-/* What is drawn is what is compared: means. */
+/* Compares and draws the windowed means. */
 static void judge_wall(CaseRun *run, int wall, double to_t, double to_p)
 {
     const Curve *column = &run->column[wall];

@@ -1,6 +1,6 @@
-/* A drop of inviscid fluid that a flow u = -A x, v = A y draws out: it stays an ellipse; J. J. Monaghan,
-   "Simulating free surface flows with SPH", 1994. With no force but pressure, which is 0 on the ellipse, its
-   semi-axes a along x and b = 1 / a along y go by A' = A^2 (a^4 - 1) / (a^4 + 1), a' = -a A. */
+/* A drop of inviscid fluid stretched by a flow u = -A x, v = A y: the drop stays an ellipse; J. J.
+   Monaghan, "Simulating free surface flows with SPH", 1994. The only force is pressure, 0 on the ellipse.
+   The semi-axes a along x and b = 1 / a along y follow A' = A^2 (a^4 - 1) / (a^4 + 1), a' = -a A. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 #include "sim/world/method.h"
@@ -11,8 +11,8 @@ enum { SHORT, LONG };
 
 static const double RATE = 100; /* A at the start, 1/s */
 
-/* With the pressure rho A^2 (R^2 - r^2) / 2 that holds the flow together, and what it presses the fluid by:
-   without it the drop would fly apart until the sound has crossed it. */
+/* Starts with the pressure rho A^2 (R^2 - r^2) / 2 of the exact flow, and the corresponding compression.
+   Without this pressure the drop would expand until sound has crossed the drop. */
 static void start(const WorldDef *def, CaseStart *state)
 {
     const double *centre = def->fluids[0].fills[0].centre, radius = def->fluids[0].fills[0].radius;
@@ -38,7 +38,7 @@ static void sample(CaseRun *run)
     curve_add(&run->column[LONG], run->info.time, axes[1]);
 }
 
-/* a and A carried on by dt, by the classical Runge-Kutta method. */
+/* Advances a and A by dt with the classical Runge-Kutta method. */
 static void ellipse_step(double state[2], double dt)
 {
     double k[4][2], sum[2];

@@ -1,17 +1,18 @@
-/* Bodies of half the density of water that float: a square prism that rolls, a cylinder that bobs.
+/* Floating bodies of half the density of water: a rolling square prism, a bobbing cylinder.
 
-   A square of the side L whose lower half is under water lies on its edge: flat it would be unstable, by a
-   metacentric height of L / 6 - L / 4. On its edge the water's plane is sqrt(2) L wide, GM = I / V - BG =
-   sqrt(2) L / 3 - sqrt(2) L / 6, and theta'' (J + j) = -m g GM theta for the smallest angles: 6.37 sqrt(L /
-   g); at eight degrees what rights it is a quarter less, so the exact righting moment is integrated. J = m
-   L^2 / 6 is the body's own inertia; j, what the water adds in roll with the sway that goes with it, 0.0378
-   rho L^4, comes from linear potential flow: sources on the surface under water (W. Frank, "Oscillation of
-   cylinders in or below the free surface of deep fluids", 1967), solved with 80 panels.
+   A square of side L, lower half under water, floats on its edge: a flat position would be unstable, by a
+   metacentric height of L / 6 - L / 4. On its edge the waterplane is sqrt(2) L wide, GM = I / V - BG =
+   sqrt(2) L / 3 - sqrt(2) L / 6, and theta'' (J + j) = -m g GM theta for the smallest angles: a period of
+   6.37 sqrt(L / g). At eight degrees the righting moment is a quarter less, so the exact moment is
+   integrated. J = m L^2 / 6 is the body's own inertia. The added inertia j of the water, in roll coupled
+   with sway, 0.0378 rho L^4, comes from linear potential flow: sources on the wetted surface (W. Frank,
+   "Oscillation of cylinders in or below the free surface of deep fluids", 1967), solved with 80 panels.
 
-   A half-immersed cylinder that is let go from above its level is the classical transient of S. J. Maskell
-   and F. Ursell, "The transient motion of a floating body", Journal of Fluid Mechanics 44, 1970: from the
-   added mass and the damping of F. Ursell, "On the heaving motion of a circular cylinder on the surface of a
-   fluid", 1949 (0.60 rho pi a^2 / 2 near its own frequency), by the same panels and a Fourier integral. */
+   A half-immersed cylinder released above its level is the classical transient of S. J. Maskell and F.
+   Ursell, "The transient motion of a floating body", Journal of Fluid Mechanics 44, 1970. The reference
+   uses the added mass and the damping of F. Ursell, "On the heaving motion of a circular cylinder on the
+   surface of a fluid", 1949 (0.60 rho pi a^2 / 2 near the natural frequency), by the same panels and a
+   Fourier integral. */
 #include "app/case/all.h"
 
 #include <math.h>
@@ -28,13 +29,13 @@ static void sample(CaseRun *run)
     curve_add(&run->column[HEIGHT], run->info.time, pose->position[1]);
 }
 
-/* Of water that the box holds, with that much of the body's section under water, m. */
+/* Water level, m, in the box, with an area `section` of the body under water. */
 static double level_of(const WorldDef *def, double water, double section)
 {
     return (water + section) / def->box_size[0];
 }
 
-/* What the fill holds besides the body, m2: its particles are so many that each has a spacing's square. */
+/* Area of the water, m2: each particle has the area spacing^2. */
 static double water_of(const CaseRun *run)
 {
     return pow(run->def->spacing, 2) * (double)run->cloud.count;
@@ -51,9 +52,9 @@ static double mean(const Curve *curve, double from)
     return sum / count;
 }
 
-/* Depth of the middle of what is under water, over the side, where a square is turned by `angle`: half of the
-   mean of |sin x + cos y| over it. Its least is on the edge, and grows away from there by less than a square.
- */
+/* Depth of the centroid of the immersed part, over the side, for a square turned by `angle`: half of the
+   mean of |sin x + cos y|. The minimum is on the edge; the growth away from the edge is less than
+   quadratic. */
 static double depth_at(double angle)
 {
     const double a = fabs(sin(angle)), b = fabs(cos(angle)), more = fmax(a, b), less = fmin(a, b);
@@ -66,7 +67,7 @@ static double torque_at(double angle)
     return -0.5 * (depth_at(angle + STEP) - depth_at(angle - STEP)) / (2 * STEP);
 }
 
-/* theta (J + j) = torque - damping, in units of rho, L and g, as far as the time that was simulated. */
+/* Integrates theta'' (J + j) = torque - damping, in units of rho, L and g, up to the simulated time. */
 static void theory_of_roll(double first, double unit, double end, Curve *theory)
 {
     static const double DT = 0.002;
@@ -128,7 +129,7 @@ const Case case_floating = {
     .judge = judge_roll,
 };
 
-/* Maskell and Ursell's transient, height over the first one, at each quarter of sqrt(a / g). */
+/* Transient of Maskell and Ursell: height over the initial height, at each quarter of sqrt(a / g). */
 static const double TRANSIENT[] = {1.000,  0.980,  0.922,  0.829,  0.705,  0.557,  0.392,  0.219,  0.045,
                                    -0.121, -0.273, -0.403, -0.508, -0.583, -0.627, -0.640, -0.624, -0.580,
                                    -0.514, -0.429, -0.331, -0.227, -0.121, -0.019, 0.074,  0.155,  0.220,

@@ -1,4 +1,4 @@
-/* A box that falls freely: seen from it, the fluid floats where it is. */
+/* A box in free fall: in its frame, the fluid floats in place. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 
@@ -13,7 +13,7 @@ static void sample(CaseRun *run)
     curve_add(&run->column[HEIGHT], run->info.time, centre[1]);
 }
 
-/* Over the way and the energy of the fall, g t^2 / 2 and m (g t)^2 / 2. */
+/* Errors over the distance and the energy of the fall, g t^2 / 2 and m (g t)^2 / 2. */
 static bool judge(CaseRun *run, Error *error)
 {
     (void)error;

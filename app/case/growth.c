@@ -1,5 +1,5 @@
-/* A heavy fluid on a light one in a box that both fill, with a wave between them that grows: Rayleigh and
-   Taylor's instability, which starts as linear theory's own growing wave, so that all of it grows alike. */
+/* A heavy fluid above a light fluid fill a box, with a growing wave between: Rayleigh-Taylor instability.
+   The start is the growing eigenmode of linear theory, so that the whole wave grows at one rate. */
 #include "app/case/all.h"
 
 #include <math.h>
@@ -8,12 +8,12 @@ enum { WAVE };
 
 static const double SLOPE = 0.02; /* k times the wave's height at the start */
 
-/* Half a wave across the box, of fluids without viscosity that are not compressed: Lamb, Hydrodynamics, 231.
-   Of a fluid of depth d the velocity's potential is +-height rate cosh(k d') / sinh(k d) / k cos(k x), d'
-   from its end. */
+/* Half a wave across the box, for inviscid, incompressible fluids: Lamb, Hydrodynamics, 231. In a fluid of
+   depth d the velocity potential is +-height rate cosh(k d') / sinh(k d) / k cos(k x), d' measured from
+   the fluid's end. */
 typedef struct Growth {
     double k, rate, gravity; /* 1/m, 1/s, m/s2 */
-    double left, middle;     /* of the box's left side, of the interface, m */
+    double left, middle;     /* x of the box's left side, y of the interface, m */
     double depth[2];         /* of the light and the heavy fluid, m */
     double density[2];       /* kg/m3 */
 } Growth;
@@ -33,8 +33,8 @@ static Growth growth_of(const WorldDef *def)
     return g;
 }
 
-/* What a wave of 1 m has at x for each 1 m: how far a particle is moved, and what it gains in pressure, Pa:
-   that of the flow, and of the place that it came to. */
+/* Displacement and pressure change at x for a wave of 1 m, per 1 m. The pressure, Pa, includes the flow's
+   part and the part of the new height. */
 static void wave_at(const Growth *g, int fluid, const double x[2], double moved[2], double *pressure)
 {
     const double sign = fluid == 0 ? 1 : -1, depth = g->depth[fluid], along = g->k * (x[0] - g->left),
@@ -62,7 +62,7 @@ static void start(const WorldDef *def, CaseStart *state)
     }
 }
 
-/* The wave's part of all velocities, m/s. */
+/* Projects all velocities on the wave, m/s. */
 static void sample(CaseRun *run)
 {
     const Growth g = growth_of(run->def);
@@ -80,7 +80,7 @@ static void sample(CaseRun *run)
     curve_add(&run->column[WAVE], run->info.time, log(fabs(product) / square * g.k / g.rate));
 }
 
-/* The slope while the wave is low: ln of k times its height over time. */
+/* Compares the slope of ln(k height) over time while the wave is low. */
 static bool judge(CaseRun *run, Error *error)
 {
     (void)error;

@@ -1,5 +1,5 @@
-/* A column of water at rest: p = rho0 g (H - y), and no energy comes or goes. Particles show it, and so do
-   the scene's probes: sensors on the floor and on a wall, and a gauge of the height. */
+/* A column of water at rest: p = rho0 g (H - y), and energy is conserved. Measured by particles and by the
+   scene's probes: sensors on the floor and on a wall, and a gauge of the height. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 
@@ -18,7 +18,7 @@ static void sample(CaseRun *run)
         curve_add(&run->column[c], run->info.time, (double)run->probe[c - FLOOR]);
 }
 
-/* The mean over the second half of the time. */
+/* Mean over the second half of the time. */
 static double late_mean(const CaseRun *run, int column)
 {
     const Curve *curve = &run->column[column];
@@ -31,8 +31,8 @@ static double late_mean(const CaseRun *run, int column)
     return sum / count;
 }
 
-/* By the scene's probes. The pressure on the floor is the fluid's weight, however it is pressed; on the wall,
-   WALL_AT m over the floor, what is below is denser by a part in two hundred. */
+/* Judges the scene's probes. The pressure on the floor is the fluid's weight, however compressed. On the
+   wall, WALL_AT m above the floor, the fluid below is denser by 1 / 200. */
 static void judge_probes(CaseRun *run, double density, double g)
 {
     static const double WALL_AT = 0.25;
@@ -43,8 +43,8 @@ static void judge_probes(CaseRun *run, double density, double g)
     run->figures[3] = figure_relative(late_mean(run, HEIGHT), high);
 }
 
-/* The pressure's error is the mean over the second half of the time, the drift is the greatest, of the
-   potential energy. */
+/* Errors: of the pressure the mean over the second half of the time, of the drift the greatest, relative
+   to the potential energy. */
 static bool judge(CaseRun *run, Error *error)
 {
     (void)error;

@@ -15,7 +15,7 @@ static bool add_note(Reference *reference, const char *line)
     return true;
 }
 
-/* Into cells; how many, or -1 where one is too long or there are too many. */
+/* Splits a line into cells; returns the count, or -1 if a cell is too long or there are too many cells. */
 static int split(char *line, char cells[REFERENCE_COLUMNS][REFERENCE_CELL])
 {
     int count = 0;

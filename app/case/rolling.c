@@ -1,9 +1,10 @@
-/* A tank that rolls: the surface's height at its side and the fluid's centre of mass, beside linear theory.
+/* A rolling tank: the surface height at the tank's side and the fluid's centre of mass, compared with
+   linear theory.
 
    after: O. M. Faltinsen, A. N. Timokha, "Sloshing", 2009, chapter 5. In the tank's frame the surface is a
-   sum of modes beta_m cos(k_m (x + l / 2)), k_m = m pi / l, sigma_m^2 = g k_m tanh(k_m d), each of them
-   driven by the tank's angle, which tilts gravity, and by its angular acceleration, through the potential
-   that a lid on the fluid would leave (Stokes and Joukowski's). */
+   sum of modes beta_m cos(k_m (x + l / 2)), k_m = m pi / l, sigma_m^2 = g k_m tanh(k_m d). Each mode is
+   driven by the tank's angle, which tilts gravity, and by the angular acceleration, through the
+   Stokes-Joukowski potential of a fluid under a lid. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 
@@ -13,7 +14,7 @@ enum { SIDE, CENTRE, MODES = 99 };
 
 typedef struct Roll {
     double angle, omega;         /* rad, rad/s */
-    double length, depth, pivot; /* m; pivot: over the floor */
+    double length, depth, pivot; /* m; pivot: above the floor */
     double gravity;
     double start; /* s */
 } Roll;
@@ -31,8 +32,8 @@ static Roll roll_of(const WorldDef *def)
                   .start = motion->start};
 }
 
-/* beta of mode m, which is odd, for an angle that begins as sin: b'' + sigma^2 b = -K (g theta + S theta''),
-   with the blow of the start in theta''. `along` is the mode's part of x. */
+/* beta of mode m (odd), for an angle starting as sin: b'' + sigma^2 b = -K (g theta + S theta''),
+   including the impulse of the start in theta''. `along` gets the mode's part of x. */
 static double mode_at(const Roll *r, int m, double t, double *along)
 {
     const double k = m * M_PI / r->length, tank = tanh(k * r->depth), sigma = sqrt(r->gravity * k * tank);
@@ -45,7 +46,7 @@ static double mode_at(const Roll *r, int m, double t, double *along)
            strength * lever * r->angle * sin(r->omega * t);
 }
 
-/* What linear theory has at the side x = l / 2, over the depth, and of the centre of mass. */
+/* Linear theory of the height at the side x = l / 2, over the depth, and of the centre of mass. */
 static void theory(const Roll *r, double t, double *side, double *centre)
 {
     *side = *centre = 0;
@@ -65,7 +66,7 @@ static void sample(CaseRun *run)
     curve_add(&run->column[CENTRE], run->info.time, centre[0]);
 }
 
-/* Root mean square of what is off, over that of the theory. */
+/* Root mean square of the error, over the root mean square of the theory. */
 static Figure miss_of(const Curve *found, const Curve *expected)
 {
     double off = 0, all = 0;
@@ -76,7 +77,7 @@ static Figure miss_of(const Curve *found, const Curve *expected)
     return figure_scaled(sqrt(off / all), 0, 1);
 }
 
-/* Where the tank is still: the gauge and the fluid's height have their own parts of a spacing. */
+/* Mean while the tank is at rest: gauge and fluid height have offsets of a fraction of a spacing. */
 static double at_rest(const Curve *curve, double start)
 {
     double sum = 0, count = 0;

@@ -33,10 +33,10 @@ bool case_scene(const CaseSetup *setup, Scene *scene, Error *error)
     return ok && scene_load(setup->of->scene, &all, scene, setup->notes, error);
 }
 
-/* Arrays of the scene's own start, in the order of ids. */
+/* Arrays of the scene's own start, ordered by id. */
 typedef struct Starting {
     size_t count;
-    float *position, *velocity, *density, *pressure; /* 3, 3, 1, 1 a particle */
+    float *position, *velocity, *density, *pressure; /* 3, 3, 1, 1 per particle */
     uint8_t *fluid;
 } Starting;
 
@@ -89,7 +89,7 @@ static bool starting_read(Starting *to, World *world)
     return ok;
 }
 
-/* The scene's own start, changed by the case's. */
+/* Makes the world with the scene's own start, as changed by the case. */
 static World *start_world(const Case *of, const WorldDef *def, Error *error)
 {
     World *own = world_create(def, error), *world = NULL;
@@ -128,14 +128,14 @@ static bool sample(CaseRun *run, World *world, Error *error)
     return true;
 }
 
-/* False when it broke, with the reason in the result. `sound`: whether the state stays; on a GPU trouble is
-   found behind the step, and the next one goes back. */
+/* Makes one step. Returns false if the simulation broke, with the reason in the result. `sound`: true if
+   the state is final; on a GPU trouble is found after the step, and the next step goes back. */
 static bool advance(CaseResult *result, World *world, bool *sound)
 {
     Error broke = {{0}};
     const double begin = wall_ms();
     const bool ok = world_step(world, NULL, &broke);
-    *sound = world_sound(world); /* waits for a GPU, which is what is timed */
+    *sound = world_sound(world); /* waits for the GPU, so that the time includes its work */
     result->step_seconds += (wall_ms() - begin) / 1000;
     world_info(world, &result->run.info);
     if (!ok)
@@ -169,7 +169,7 @@ static bool simulate(const CaseSetup *setup, CaseResult *result, World *world, P
     }
 }
 
-/* The probes of the case's scene. */
+/* Opens the probes of the case's scene. */
 static bool start_probes(CaseResult *result, World *world, Error *error)
 {
     const ProbeList *list = &result->scene.probes;

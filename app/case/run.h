@@ -10,35 +10,36 @@ typedef struct CaseSetup {
     const Case *of;
     CaseLevel level;
     const char *method;
-    const SceneSettings *settings; /* of the command line: they have the last word */
-    /* Told of each state that is sampled, which is sound; NULL: nobody. */
+    const SceneSettings *settings; /* of the command line, applied last */
+    /* Called with each sampled state, which is sound; or NULL. */
     void (*watch)(void *watcher, const WorldDef *def, World *world);
     void *watcher;
-    Notes *notes; /* lines about the scene; NULL: nobody listens */
+    Notes *notes; /* gets notes on the scene; or NULL */
 } CaseSetup;
 
 typedef struct CaseResult {
     const Case *of;
     CaseLevel level;
     Scene scene;
-    CaseRun run; /* figures and curves; its cloud is gone */
+    CaseRun run; /* figures and curves; without the cloud */
     size_t particles;
-    double seconds;      /* wall time of all of it */
-    double step_seconds; /* of the steps alone */
-    char failure[256];   /* why there are no figures; "": there are */
+    double seconds;      /* total wall time */
+    double step_seconds; /* of the steps only */
+    char failure[256];   /* why there are no figures; "" on success */
 } CaseResult;
 
-/* The case's scene with the level's spacing, the method and the settings. */
+/* Loads the case's scene with the level's spacing, the method and the settings. */
 bool case_scene(const CaseSetup *setup, Scene *scene, Error *error);
 
-/* `progress` goes from `done` to `done + part`. A simulation that breaks is a result too, with the failure;
-   false where a reference can't be read, memory is short, or a signal came (no message then). The caller has
-   made a context where the backend needs one. Free with case_result_free in any case. */
+/* Runs a case. `progress` goes from `done` to `done + part`. A broken simulation is a result too, with
+   `failure` set. Returns false if a reference can't be read, memory is short, or a signal came (without
+   message). The caller makes a current context if the backend needs one. Call case_result_free in any
+   case. */
 bool case_run(const CaseSetup *setup, Progress *progress, double done, double part, CaseResult *result,
               Error *error);
 void case_result_free(CaseResult *result);
 
-/* Whether a metric's error keeps its tolerance. */
+/* True if a metric's error is within its tolerance. */
 bool case_passed(const CaseResult *result, int metric);
 
 #endif

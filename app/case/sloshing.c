@@ -1,4 +1,4 @@
-/* Linear sloshing: the box shakes for two periods, then the fluid swings by itself at its natural frequency,
+/* Linear sloshing: the box shakes for two periods, then the fluid oscillates at its natural frequency,
    omega^2 = g k tanh(k d), k = pi / L. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
@@ -30,7 +30,7 @@ static bool judge(CaseRun *run, Error *error)
         curve_add(&run->found[0], at[0], at[1]);
     }
     run->figures[0] = figure_relative(2 * M_PI / curve_period(&free), omega);
-    /* in phase with what was found, and as high */
+    /* expected curve: with the phase and amplitude of the simulation */
     double most = 0, a = 0, b = 0;
     for (size_t i = 0; i < free.count; i++) {
         a += free.at[i][1] * cos(omega * (free.at[i][0] - released));

@@ -1,4 +1,5 @@
-/* Surface tension in the plane: how a drop swings, the pressure in it, the angle that it has on a floor. */
+/* Surface tension in the plane: oscillation of a drop, pressure in drops, contact angle of drops on a
+   floor. */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 
@@ -6,7 +7,7 @@
 
 enum { SHAPE, BIG, SMALL, DROPS = 3 };
 
-/* An ellipse of the same area, whose axes differ by 0.2 of its radius. */
+/* Deforms the drop to an ellipse of the same area; the axes differ by 0.2 of the radius. */
 static void start_ellipse(const WorldDef *def, CaseStart *state)
 {
     const FluidDef *fluid = &def->fluids[0];
@@ -78,7 +79,7 @@ static void sample_pressures(CaseRun *run)
     }
 }
 
-/* The difference is sigma (1 / R2 - 1 / R1); the mean over the last third of the time. */
+/* The pressure difference is sigma (1 / R2 - 1 / R1); takes the mean over the last third of the time. */
 static bool judge_pressures(CaseRun *run, Error *error)
 {
     (void)error;
@@ -119,15 +120,15 @@ const Case case_laplace = {
     .judge = judge_pressures,
 };
 
-/* The height of a segment's centre of mass over the root of its area, of that angle: what no gravity makes of
-   a drop on a floor. */
+/* Height of the centre of mass of a circular segment with the given contact angle, over the root of the
+   segment's area: the shape of a drop on a floor without gravity. */
 static double segment_height(double angle)
 {
     const double s = sin(angle), area = angle - s * cos(angle);
     return (2 * s * s * s / (3 * area) - cos(angle)) / sqrt(area);
 }
 
-/* Degrees. */
+/* Returns the contact angle, degrees. */
 static double segment_angle(double height, double area)
 {
     double low = 0.01, high = M_PI;
@@ -151,7 +152,7 @@ static void sample_angles(CaseRun *run)
                   segment_angle(height[f] / count[f], count[f] * cloud->spacing * cloud->spacing));
 }
 
-/* The mean over the last third of the time; errors are of a right angle. */
+/* Takes the mean over the last third of the time; errors are fractions of a right angle. */
 static bool judge_angles(CaseRun *run, Error *error)
 {
     (void)error;

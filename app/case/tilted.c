@@ -1,5 +1,4 @@
-/* Fluid that starts in balance: its pressures in the first second, in a tank that leans, and of two layers.
- */
+/* Fluid starting in balance: pressures in the first second, in a leaning tank, and with two layers. */
 #include "app/case/all.h"
 #include "sim/matter/fill.h"
 
@@ -7,7 +6,7 @@
 
 enum { PRESSURE };
 
-/* What the weight above gives at x, Pa: below a level surface by formula, or in layers of blocks, the lowest
+/* Hydrostatic pressure at x, Pa: below a level surface by formula, or in layers of blocks, the lowest
    first. */
 static double weight_at(const WorldDef *def, const float x[3])
 {

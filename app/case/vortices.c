@@ -1,4 +1,4 @@
-/* Taylor and Green's vortices in a periodic square: their energy falls as exp(-16 pi^2 nu t / L^2). */
+/* Taylor-Green vortices in a periodic square: the energy falls as exp(-16 pi^2 nu t / L^2). */
 #include "app/case/all.h"
 #include "app/metric/metric.h"
 

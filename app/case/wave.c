@@ -1,4 +1,4 @@
-/* A standing wave of half a wavelength in a tank with walls that let it slide, and its viscous decay. */
+/* A standing wave of half a wavelength in a tank with slip walls, and its viscous decay. */
 #include "app/case/all.h"
 #include "app/case/start.h"
 #include "app/metric/metric.h"
@@ -8,7 +8,7 @@
 
 enum { CENTRE };
 
-static const double HEIGHT = 0.03; /* of the wave over the depth: kept linear */
+static const double HEIGHT = 0.03; /* wave height over depth: small, for linear theory */
 
 static void start(const WorldDef *def, CaseStart *state)
 {
@@ -23,10 +23,10 @@ static void sample(CaseRun *run)
     curve_add(&run->column[CENTRE], run->info.time, centre[0]);
 }
 
-/* alpha = -decay + i omega of waves like exp(alpha t), with (alpha + 2 nu k^2)^2 + g k tanh(k d) =
-   4 nu^2 k^4 sqrt(1 + alpha / (nu k^2)): Lamb, Hydrodynamics, 349, for deep water; a floor that slips adds no
-   layer of its own, and at k d = pi the tanh is within 0.4 % of 1. By Newton's method from the inviscid one.
- */
+/* Returns alpha = -decay + i omega of waves proportional to exp(alpha t), with (alpha + 2 nu k^2)^2 + g k
+   tanh(k d) = 4 nu^2 k^4 sqrt(1 + alpha / (nu k^2)): Lamb, Hydrodynamics, 349, for deep water. A slip
+   floor adds no boundary layer, and at k d = pi tanh is within 0.4 % of 1. Newton's method, starting at
+   the inviscid value. */
 static double complex viscous_wave(double nu, double k, double restoring)
 {
     const double s = nu * k * k;
