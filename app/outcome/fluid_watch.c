@@ -8,8 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Particles pair under the cubic kernel, and hardly under the other ones that a method lets a scene choose.
- */
+/* Particles form pairs with the cubic kernel, and hardly with other selectable kernels. */
 static const char *advice_on_clumps(const WorldDef *def)
 {
     const char *kernel = method_kernels(def).slope->name;
@@ -45,7 +44,8 @@ static const char *advice(OutcomeKind kind, const WorldDef *def)
     }
 }
 
-/* What starts close, as emitters' fluid or a jittered lattice, is no clump; nothing else is normal. */
+/* Close particles at the start, such as emitted fluid or a jittered lattice, are no clumps; nothing else
+   counts as normal. */
 static void begin(FluidWatch *watch, const OutcomeLook *first)
 {
     watch->looked = true;
@@ -62,7 +62,7 @@ static void judge(const FluidWatch *watch, const OutcomeLook *now, Outcome *outc
     outcome_judge(&history, outcome);
 }
 
-/* Without what was told: it does not hide the other kinds. */
+/* Removes reported failures from a look, so that they do not hide other kinds. */
 static OutcomeLook untold(const FluidWatch *watch, OutcomeLook look)
 {
     if (watch->told >> OUTCOME_NOISY & 1)
@@ -95,16 +95,16 @@ bool fluid_watch(FluidWatch *watch, const WorldDef *def, World *world, char word
     watch->next = info.step + (info.step < FLUID_WATCH_STEPS   ? FLUID_WATCH_STEPS
                                : info.step < FLUID_WATCH_LATER ? info.step
                                                                : FLUID_WATCH_LATER);
-    if (world_on_gpu(def)) /* what costs no wait */
+    if (world_on_gpu(def)) /* without waiting for the GPU */
         look = known;
     else if (!outcome_glance(&look, def, !watch->closed, world))
-        return false; /* no memory: the next look may have it */
+        return false; /* memory is short: retry at the next look */
     else if (!watch->looked)
         begin(watch, &look);
     judge(watch, &look, &now);
     if (now.kind > watch->worst.kind)
         watch->worst = now;
-    watch->start.energy = fmin(watch->start.energy, look.energy); /* which passes over NaN */
+    watch->start.energy = fmin(watch->start.energy, look.energy); /* fmin skips NaN */
     look = untold(watch, look);
     judge(watch, &look, &now);
     if (now.kind <= OUTCOME_HOLDS)

@@ -36,7 +36,7 @@ OutcomeKind outcome_of_word(const char *word)
     return (OutcomeKind)kind;
 }
 
-/* Rows of tables have one. */
+/* Replaces line ends, as a table row has one line. */
 static void put_on_one_line(char text[OUTCOME_WORDS])
 {
     for (char *at = text; *at; at++)
@@ -49,7 +49,7 @@ static const OutcomeKind of_trouble[STEP_TROUBLE_COUNT] = {
     [STEP_TROUBLE_ENERGY] = OUTCOME_NOISY,   [STEP_TROUBLE_SOLVE] = OUTCOME_DIVERGES,
     [STEP_TROUBLE_MEMORY] = OUTCOME_NONE,    [STEP_TROUBLE_LOST] = OUTCOME_LEAKS};
 
-/* Takes the place of what is less bad, or as bad and later. */
+/* Sets a worse kind; an equally bad kind at a later time is ignored. */
 static void find(Outcome *outcome, OutcomeKind kind, double time)
 {
     if (kind > outcome->kind) {
@@ -64,7 +64,7 @@ static void judge_energy(const OutcomeHistory *history, Outcome *outcome)
     double least = INFINITY;
     for (int i = 0; i < history->count && outcome->kind < OUTCOME_NOISY; i++) {
         const OutcomeLook *look = &history->look[i];
-        const double gain = (look->energy - least) / look->scale; /* NaN is not more than anything */
+        const double gain = (look->energy - least) / look->scale; /* false for NaN */
         if (gain > OUTCOME_GAIN) {
             find(outcome, OUTCOME_NOISY, look->time);
             snprintf(outcome->words, OUTCOME_WORDS, "%s: %.3g %%", outcome_help(OUTCOME_NOISY), 100 * gain);
@@ -101,7 +101,7 @@ static void judge_volume(const OutcomeLook *look, Outcome *outcome)
              outcome_help(OUTCOME_SQUEEZED), 100 * look->pressed);
 }
 
-/* What starts close, as emitters' fluid or a jittered lattice, is no clump. */
+/* Close particles at the start, such as emitted fluid or a jittered lattice, are no clumps. */
 static void judge_places(const OutcomeHistory *history, int i, Outcome *outcome)
 {
     const OutcomeLook *look = &history->look[i], *first = &history->look[0];
@@ -127,7 +127,7 @@ static void judge_places(const OutcomeHistory *history, int i, Outcome *outcome)
     }
 }
 
-/* What ended a run is its kind, whatever was seen before. */
+/* The trouble that ended a run decides its kind, whatever was found before. */
 static void judge_end(const WorldTrouble *trouble, Outcome *outcome)
 {
     char found[160];

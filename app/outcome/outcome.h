@@ -1,5 +1,5 @@
-/* How a run went: what counts as each kind of failure is written down here and nowhere else. All commands
-   that run a fluid say the words below in the terminal, the panel, the table and the JSON. */
+/* Outcome of a run: the only definition of each kind of failure. All commands running a fluid report these
+   words in the terminal, the panel, the table and the JSON. */
 #ifndef SLOSH_OUTCOME_H
 #define SLOSH_OUTCOME_H
 
@@ -7,7 +7,7 @@
 
 #include <jansson.h>
 
-/* X(ENUM, word, help): from the best to the worst; a run is of the worst kind that holds of it. */
+/* X(ENUM, word, help): from best to worst; a run gets the worst applicable kind. */
 #define OUTCOMES(X)                                                                                          \
     X(NONE, "not run", "something else than the fluid failed")                                               \
     X(HOLDS, "holds", "none of the others")                                                                  \
@@ -30,74 +30,74 @@ typedef enum OutcomeKind {
 const char *outcome_word(OutcomeKind kind);
 const char *outcome_help(OutcomeKind kind);
 
-/* The kind of that word; OUTCOME_COUNT without one. */
+/* Returns the kind of a word; OUTCOME_COUNT if unknown. */
 OutcomeKind outcome_of_word(const char *word);
 
-/* Energy has grown without work done where it is so much (a fraction) above the least that it was before, of
-   all that moves, is pressed, or could come down. The scenes that gain most gain 2.2 % (docs/failures.md). */
+/* Energy has grown without work if the energy exceeds its earlier minimum by this fraction of the sum of
+   kinetic, compression and available potential energy. The greatest gain of any scene is 2.2 %
+   (docs/failures.md). */
 #define OUTCOME_GAIN 0.05
 
-/* Fluid in a box at rest boils where less than this part of its energy of motion is of motion together with
-   neighbours, and particles jump higher than so many spacings in gravity, or are faster than so much of
-   sound. Calm or splashing, scenes have a half and more. */
+/* Fluid in a box at rest boils if two conditions hold. The fraction of kinetic energy in common motion
+   with neighbours is less than OUTCOME_TOGETHER. Particles jump higher than OUTCOME_JUMP spacings under
+   gravity, or are faster than OUTCOME_OF_SOUND of the sound speed. Calm or splashing scenes have a
+   fraction of a half and more. */
 #define OUTCOME_TOGETHER 0.2
 #define OUTCOME_JUMP     0.5
 #define OUTCOME_OF_SOUND 0.05
 
-/* Fluid has lost volume where its particles are pressed by so much above rest density in the mean. Calm
-   scenes have less than 0.02 with all methods. */
+/* Fluid has lost volume if the mean compression above rest density exceeds this fraction. Calm scenes have
+   less than 0.02 with all methods. */
 #define OUTCOME_PRESSED 0.05
 
-/* Particles lie on each other where so many of them (a fraction) have another one nearer than so many
-   spacings: OUTCOME_NEAR of them more than at the start. */
+/* Particles lie on each other if the fraction with a neighbour nearer than OUTCOME_NEAR spacings has grown
+   by OUTCOME_CLOSE since the start. */
 #define OUTCOME_NEAR  0.2
 #define OUTCOME_CLOSE 0.1
 
-/* Fluid leaks where so many of its particles (a fraction) are beyond a wall by half a spacing, or without a
+/* Fluid leaks if this fraction of its particles is beyond a wall by OUTCOME_BEYOND spacings, or without a
    place in the grid. */
 #define OUTCOME_BEYOND 0.5
 #define OUTCOME_OUT    0.001
 
-/* What a run was like at a time. */
+/* Properties of a run at one time. */
 typedef struct OutcomeLook {
-    double time;  /* s */
-    size_t count; /* particles */
-    size_t close; /* of them, nearer than OUTCOME_NEAR spacings to another one */
-    size_t
-        beyond;  /* of them, by OUTCOME_BEYOND spacings beyond a wall of the box or within a solid, or nowhere
-                  */
-    size_t lost; /* of them, without a place in the grid */
-    double pressed; /* how much of their density is above that at rest, a fraction, in the mean */
-    double
-        together;   /* of the energy of motion, a fraction: that of motion with neighbours; 1 of what rests */
-    double jump;    /* how fast they move, in the mean, over what OUTCOME_JUMP and OUTCOME_OF_SOUND say */
-    double fastest; /* greatest speed of any of them so far, m/s */
-    double sound;   /* m/s; 0 without sound */
-    bool stuck;     /* a solver of the last step ended in trouble */
-    double energy;  /* of motion, place and compression, J; NaN: not known, or something does work */
-    double scale;   /* what its growth is compared with, J */
+    double time;     /* s */
+    size_t count;    /* particles */
+    size_t close;    /* particles nearer than OUTCOME_NEAR spacings to a neighbour */
+    size_t beyond;   /* particles beyond a wall of the box, or inside a solid, by OUTCOME_BEYOND spacings, or
+                        at NaN */
+    size_t lost;     /* particles without a place in the grid */
+    double pressed;  /* mean compression above rest density, a fraction */
+    double together; /* fraction of kinetic energy in common motion with neighbours; 1 at rest */
+    double jump;     /* mean speed over the threshold of OUTCOME_JUMP or OUTCOME_OF_SOUND */
+    double fastest;  /* greatest speed of any particle so far, m/s */
+    double sound;    /* m/s; 0 without sound */
+    bool stuck;      /* a solver of the last step failed to converge */
+    double energy; /* kinetic, potential and compression energy, J; NaN: unknown, or external work is done */
+    double scale;  /* reference for growth of energy, J */
 } OutcomeLook;
 
 enum { OUTCOME_LOOKS_MAX = 64 };
 
 typedef struct OutcomeHistory {
     int count;
-    OutcomeLook look[OUTCOME_LOOKS_MAX]; /* in the order of time */
-    WorldTrouble trouble;                /* `ended`: by that trouble */
+    OutcomeLook look[OUTCOME_LOOKS_MAX]; /* ordered by time */
+    WorldTrouble trouble;                /* `ended`: the trouble ended the run */
 } OutcomeHistory;
 
 enum { OUTCOME_WORDS = 192 };
 
 typedef struct Outcome {
     OutcomeKind kind;
-    double time;               /* when it was first seen, s; NaN where it holds or did not run */
-    char words[OUTCOME_WORDS]; /* what was found, on one line; "" where it holds */
+    double time;               /* time of first detection, s; NaN if the run holds or was not run */
+    char words[OUTCOME_WORDS]; /* details on one line; "" if the run holds */
 } Outcome;
 
-/* The looks are some of a run's: what comes and goes between two of them is not seen. */
+/* Judges a run by its looks and its trouble; a failure only between two looks goes unseen. */
 void outcome_judge(const OutcomeHistory *history, Outcome *outcome);
 
-/* Of something else than the fluid that failed. */
+/* Makes the outcome of a failure outside the fluid. */
 void outcome_not_run(const char *why, Outcome *outcome);
 
 enum { OUTCOME_TEXT = OUTCOME_WORDS + 64 };
@@ -105,8 +105,8 @@ enum { OUTCOME_TEXT = OUTCOME_WORDS + 64 };
 /* "blown up at t = 0.31 s: a particle moves further than the support radius in one step"; "holds" */
 const char *outcome_text(const Outcome *outcome, char text[OUTCOME_TEXT]);
 
-/* Adds "outcome" to an object (NULL: nothing): the kind's word; and, but where it holds, "outcome_time" (s,
-   or null) and "outcome_words". */
+/* Adds "outcome" to an object (may be NULL): the kind's word; unless the run holds, also "outcome_time"
+   (s, or null) and "outcome_words". */
 void outcome_json(json_t *object, const Outcome *outcome);
 
 #endif

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* Whether nothing does work on the fluid but gravity, so that its energy is known and never grows: as
-   sim/world/energy_watch.h, of a box that does not move. */
+/* True if only gravity does work on the fluid, so that the energy is known and never grows: as in
+   sim/world/energy_watch.h, for a box at rest. */
 static bool is_left_alone(const WorldDef *def)
 {
     bool alone = def->motion_count == 0 && def->drain_count == 0 &&
@@ -21,8 +21,8 @@ static bool is_left_alone(const WorldDef *def)
     return alone;
 }
 
-/* All that moves, is pressed, and would be freed at most on the way to the lowest corner; fluid at rest has
-   the energy of a hundredth of its density more or less. */
+/* Reference for growth of energy: kinetic and compression energy, and potential energy down to the lowest
+   corner. Adds the energy of 0.01 of compression, for fluid at rest. */
 static double scale_of(const WorldDef *def, double mass, const WorldGauge *gauge)
 {
     static const double COMPRESSED = 0.01;
@@ -37,7 +37,7 @@ static void look_at_energy(OutcomeLook *look, const WorldDef *def, double mass, 
     WorldGauge gauge;
     bool known = false;
     world_gauge_ask(world);
-    for (int tries = 0; !known && tries < 1000; tries++) /* a GPU's answer comes when it comes */
+    for (int tries = 0; !known && tries < 1000; tries++) /* a GPU answers after a delay */
         known = world_gauge(world, &gauge);
     if (!known || !gauge.total_known)
         return;
@@ -58,8 +58,8 @@ static bool is_beyond(const WorldDef *def, const WorldInfo *info, const SolidPos
     return beyond;
 }
 
-/* How fast particles are in the mean, over what makes a jump of OUTCOME_JUMP spacings in gravity, or
- * OUTCOME_OF_SOUND. */
+/* Mean speed of the particles, over the speed for a jump of OUTCOME_JUMP spacings under gravity, or over
+   OUTCOME_OF_SOUND. */
 static double jump_of(const WorldDef *def, const Cloud *cloud)
 {
     const double *g = def->gravity, weight = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -73,7 +73,7 @@ static double jump_of(const WorldDef *def, const Cloud *cloud)
     return cloud->count > 0 ? sqrt(sum / (double)cloud->count) / enough : 0;
 }
 
-/* Fluid that a box throws about moves in all directions too. */
+/* True if the box moves: thrown fluid moves in all directions, too. */
 static bool is_thrown(const BoxState *box)
 {
     double speed = 0;
@@ -82,8 +82,8 @@ static bool is_thrown(const BoxState *box)
     return speed > 0;
 }
 
-/* Of every `stride`-th particle whether it lies on another, and as many of all; `mass`, kg, in 2D of a
-   metre's depth. */
+/* Checks every `stride`-th particle for clumps, scaled to all; leaks and compression of all particles.
+   `mass`: kg; in 2D for a depth of one metre. */
 static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldInfo *info, size_t stride,
                            double *mass, World *world)
 {
@@ -99,7 +99,7 @@ static bool look_at_places(OutcomeLook *look, const WorldDef *def, const WorldIn
     const bool ok =
         cloud_read(&cloud, world) && metric_close(&cloud, OUTCOME_NEAR * def->spacing, stride, &look->close);
     look->jump = ok && !is_thrown(&info->box) ? jump_of(def, &cloud) : 0;
-    const bool moves = look->jump > 1; /* else there is nothing to be found */
+    const bool moves = look->jump > 1; /* at lower speeds no boiling is possible */
     for (size_t i = 0; ok && i < cloud.count; i++) {
         const double density = def->fluids[cloud.fluid[i]].density;
         look->beyond += is_beyond(def, info, pose, cloud.position + 4 * i);
