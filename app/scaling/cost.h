@@ -8,10 +8,10 @@
        balance   b n / p
        wait      w * compute, 0 on a single rank
 
-   A rank has k (n / p)^(2/3) ghost particles for each of its faces towards neighbour ranks (surface to volume;
-   ^(1/2) in two dimensions). Each ghost costs the same bytes per step, and each neighbour the same messages.
-   Faces and neighbours are counted on a lattice of ranks, cut repeatedly along its longest side: 1 and 1 for
-   two ranks, 2 and 3 for four, near 6 and 26 for many. */
+   A rank has k (n / p)^(2/3) ghost particles for each of its faces towards neighbour ranks (surface to
+   volume; ^(1/2) in two dimensions). Each ghost costs the same bytes per step, and each neighbour the
+   same messages. Faces and neighbours are counted on a lattice of ranks, cut repeatedly along its longest
+   side: 1 and 1 for two ranks, 2 and 3 for four, near 6 and 26 for many. */
 #ifndef SLOSH_COST_H
 #define SLOSH_COST_H
 
