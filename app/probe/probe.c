@@ -7,24 +7,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PUSH = 6 };             /* numbers of a force: itself, then its torque */
-enum { HEIGHT_PLACES = 4000 }; /* of a gauge, at most: in a box that is very high */
+enum { PUSH = 6 };             /* numbers of a force: force, then torque */
+enum { HEIGHT_PLACES = 4000 }; /* most sensors of a height gauge: limits very high boxes */
 
-/* A probe's sensors and columns, one behind the other. */
+/* A probe's sensors and columns are contiguous. */
 typedef struct Probe {
     ProbeDef def;
-    int first, count; /* of its sensors */
-    double step;      /* height: from sensor to sensor, m */
-    int on;           /* force: a solid's number, -1: the box */
+    int first, count; /* range of its sensors */
+    double step;      /* height: distance of sensors, m */
+    int on;           /* force: index of the solid, or -1: the box */
 } Probe;
 
 struct Probes {
     int count, sensor_count, column_count;
     Probe probe[PROBES_MAX];
     Sensors *sensors;
-    SensorReading *reading; /* one a sensor */
+    SensorReading *reading; /* one per sensor */
     ProbeColumn *column;
-    Forces felt; /* last; of 0 s before there are any */
+    Forces felt; /* the last forces; 0 s before the first */
 };
 
 void probes_destroy(Probes *probes)
@@ -37,7 +37,7 @@ void probes_destroy(Probes *probes)
     free(probes);
 }
 
-/* ---- where the sensors are ---- */
+/* ---- positions of the sensors ---- */
 
 static int components_of(const ProbeDef *def)
 {
@@ -56,7 +56,7 @@ int probe_columns(const ProbeDef *def)
     return components_of(def) * (def->kind == PROBE_LINE ? def->count : 1);
 }
 
-/* Half a spacing apart, from the foot to the ceiling. */
+/* Places sensors half a spacing apart, from the foot to the ceiling. */
 static void measure_height(Probe *probe, const WorldDef *def)
 {
     const double length = fmax(def->box_size[1] - probe->def.at[1], 0);
@@ -81,12 +81,12 @@ static void measure(Probe *probe, const WorldDef *def)
     probe->on = probe_on(of, def->solid_count);
 }
 
-/* The place of sensor i: of a plane in the middle of its part. */
+/* Position of sensor i; on a plane the middle of its part. */
 static void place_of(const Probe *probe, int i, double at[3])
 {
     const ProbeDef *of = &probe->def;
     const double share = i / (double)(of->count > 1 ? of->count - 1 : 1);
-    const int column = i % of->count, row = i / of->count; /* of a plane */
+    const int column = i % of->count, row = i / of->count; /* on a plane */
     for (int k = 0; k < 3; k++)
         switch ((ProbeKind)of->kind) {
         case PROBE_LINE:
@@ -124,7 +124,7 @@ static void place_all(const Probes *probes, const WorldDef *def, Sensor *out)
         }
 }
 
-/* ---- what the columns are called ---- */
+/* ---- names of the columns ---- */
 
 void probe_column(const ProbeDef *def, int index, ProbeColumn *out)
 {
@@ -216,7 +216,7 @@ const ProbeColumn *probes_column(const Probes *probes, int column)
 
 /* ---- reading ---- */
 
-/* The highest place that is half full, by straight lines between the sensors; m over the foot. */
+/* Highest point with a filling of one half, by linear interpolation between the sensors; m above the foot. */
 static double height_of(const Probe *probe, const SensorReading *reading)
 {
     int i = probe->count - 1;
@@ -243,7 +243,7 @@ static double value_of(const SensorReading *reading, ProbeField field, int k)
     }
 }
 
-/* The mean over `count` sensors, those left out that have no such number. */
+/* Mean over `count` sensors, skipping NaN. */
 static double mean_of(const SensorReading *reading, int count, ProbeField field, int k)
 {
     double sum = 0, all = 0;

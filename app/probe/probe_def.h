@@ -1,6 +1,6 @@
 /* A scene's probes: places where `slosh run --probes` and the panel read pressure, density and velocity of
-   the fluid, or the height of its surface; and what fluid does to the box and to solids. Plain data; lengths
-   in m, in the box's frame, in which a probe rests. */
+   the fluid, or the height of its surface; and the force of fluid on the box and on solids. Plain data;
+   lengths in m, in the box's frame, where probes are at rest. */
 #ifndef SLOSH_PROBE_DEF_H
 #define SLOSH_PROBE_DEF_H
 
@@ -29,7 +29,7 @@ typedef enum ProbeKind {
         PROBE_KIND_COUNT
 } ProbeKind;
 
-/* What one may read of the fluid: X(ENUM, name, unit, components) */
+/* Fields of the fluid a probe can read: X(ENUM, name, unit, components) */
 #define PROBE_FIELD_LIST(X)                                                                                  \
     X(PRESSURE, "pressure", "Pa", 1)                                                                         \
     X(DENSITY, "density", "kg/m3", 1)                                                                        \
@@ -50,18 +50,18 @@ typedef struct ProbeFieldRow {
 
 extern const ProbeFieldRow probe_fields[]; /* in the order of ProbeField, ended by a NULL name */
 
-/* Members that a kind does not name are unused. */
+/* Members not named for a kind are unused. */
 typedef struct ProbeDef {
     char name[PROBE_NAME_SIZE]; /* letters, digits and _ */
-    int kind;                   /* a ProbeKind */
-    double at[3];               /* point, height; of the plane: its middle */
+    int kind;                   /* ProbeKind */
+    double at[3];               /* point, height; plane: the middle */
     double from[3], to[3];      /* line */
-    double along[3], across[3]; /* plane: its sides */
-    char on[PROBE_ON_SIZE];     /* force: "box", all its walls; "solid_0" */
-    int count;                  /* line: places; plane: places along each side */
-    double size;                /* diameter of the ball around each place that counts, m; 0: see probe_size */
-    double average;             /* s: a mean over so long stands beside each value; 0: none does */
-    int field_count, fields[PROBE_FIELD_COUNT]; /* each a ProbeField; of a height and a force none count */
+    double along[3], across[3]; /* plane: both sides */
+    char on[PROBE_ON_SIZE];     /* force: "box", all walls; "solid_0" */
+    int count;                  /* line: places; plane: places per side */
+    double size;                /* diameter of the ball around each place, m; 0: default of probe_size */
+    double average;             /* averaging time, s: adds a mean column after each value; 0: none */
+    int field_count, fields[PROBE_FIELD_COUNT]; /* each a ProbeField; unused for height and force */
 } ProbeDef;
 
 typedef struct ProbeList {
@@ -69,14 +69,14 @@ typedef struct ProbeList {
     ProbeDef probe[PROBES_MAX];
 } ProbeList;
 
-/* Whose force it is: the solid's number, -1 of the box; -2: there is nothing of that name among so many
- * solids. */
+/* Returns the target of a force: the solid's index, or -1 for the box; -2 if there is no such name among
+   `solids` solids. */
 int probe_on(const ProbeDef *probe, int solids);
 
-/* Whether the list has a force. */
+/* True if the list has a force. */
 bool probe_list_feels(const ProbeList *list);
 
-/* The size that is taken, m: the asked one, four spacings at least; where none is asked for, six spacings, or
+/* Returns the diameter in use, m: the requested size, at least four spacings; by default six spacings, or
    twice the support radius. */
 double probe_size(const ProbeDef *probe, double spacing, double support);
 

@@ -8,7 +8,7 @@
 #define AT(field)    offsetof(ProbeList, field)
 #define PROBE(field) offsetof(ProbeDef, field)
 
-enum { PLACES = 9 }; /* of a line; along each side of a plane */
+enum { PLACES = 9 }; /* default count: of a line; per side of a plane */
 
 const ProbeFieldRow probe_fields[] = {
 #define X(NAME, name, unit, components) {name, unit, components},
@@ -16,7 +16,7 @@ const ProbeFieldRow probe_fields[] = {
 #undef X
         {.name = NULL}};
 
-/* What each kind names. */
+/* Keys of each kind. */
 #define PLACE_OF(S, HELP)    VEC3(S ".at", R | I, "m", -1e6, 1e6, PROBE(at), HELP),
 #define SIDE(S, NAME, HELP)  VEC3(S "." #NAME, R | I, "m", -1e6, 1e6, PROBE(NAME), HELP),
 #define COUNT(S, MOST, HELP) INTEGER(S ".count", I, 2, MOST, PROBE(count), HELP),

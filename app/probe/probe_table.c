@@ -14,7 +14,7 @@ static bool fail(const ProbeTable *table, Error *error)
     return error_set(error, "%.300s: %s", table->path, strerror(errno));
 }
 
-/* What the table of every scene's probes begins with. */
+/* Start of the head line of every probe table. */
 static const char OURS[] = "time [s]";
 
 static char *header_of(const ProbeTable *table)
@@ -48,7 +48,7 @@ static void count_in(ProbeFigures *figures, double value)
     figures->rows++;
 }
 
-/* A row that the file has or is to have; false when memory is short. */
+/* Counts a row, written or to be written, in the statistics. Returns false if memory is short. */
 static bool take_row(ProbeTable *table, double time, const float value[])
 {
     table->last = time;
@@ -68,7 +68,7 @@ static bool put_row(ProbeTable *table, double time, const float value[])
 {
     char text[32];
     snprintf(text, sizeof text, "%.12g", time);
-    if (!take_row(table, strtod(text, NULL), value)) /* as who goes on reads it */
+    if (!take_row(table, strtod(text, NULL), value)) /* the time as a resumed run will read it back */
         return false;
     fputs(text, table->file);
     for (int k = 0; k < table->columns; k++) {
@@ -81,7 +81,7 @@ static bool put_row(ProbeTable *table, double time, const float value[])
     return true;
 }
 
-/* A field and its comma; false at the end of the line. */
+/* Reads a field and its comma; returns false at the end of the line. */
 static bool read_field(const char **at, double *value)
 {
     char *end;
@@ -94,7 +94,7 @@ static bool read_field(const char **at, double *value)
     return *at[0] == ',' || *at[0] == '\n';
 }
 
-/* A line of the file as a row; false: it is not whole. */
+/* Reads a line of the file as a row; returns false if the line is incomplete. */
 static bool read_row(const ProbeTable *table, const char *line, double *time, float value[])
 {
     char *end;
@@ -111,7 +111,7 @@ static bool read_row(const ProbeTable *table, const char *line, double *time, fl
     return whole && *at == '\n';
 }
 
-/* Goes over the rows up to `keep`, and leaves the file's place behind them. */
+/* Reads the rows up to `keep`, and leaves the file position after them. */
 static bool keep_rows(ProbeTable *table, double keep, Error *error)
 {
     char *line = NULL;
@@ -132,7 +132,7 @@ static bool keep_rows(ProbeTable *table, double keep, Error *error)
     return fseek(table->file, end, SEEK_SET) == 0 || fail(table, error);
 }
 
-/* Whether the file begins with that line; its place is behind it then. */
+/* Returns true if the file's first line is `header`; the file position is then after the line. */
 static bool has_header(FILE *file, const char *header)
 {
     char *line = NULL;
@@ -150,7 +150,7 @@ static bool go_on(ProbeTable *table, const char *header, double keep, Error *err
            (ftruncate(fileno(table->file), ftell(table->file)) == 0 || fail(table, error));
 }
 
-/* Whether the file is empty, or some scene's probes wrote it: no measurement, and no table of heights. */
+/* Returns true if the file is empty or a probe table; false for measurements or tables of heights. */
 static bool is_ours(FILE *file, const char *path, Error *error)
 {
     char start[sizeof OURS];

@@ -1,7 +1,7 @@
-/* What probes read over a run, as a table: CSV, a row a step, that grows as the run does. Columns: `time
-   [s]`, then those of the probes with their units, "wall.pressure [Pa]"; where a probe asks for an average
-   each of its columns is followed by that mean, "wall.pressure_mean [Pa]" (app/probe/probe_window.h). A field
-   without a number is empty. */
+/* Table of probe readings over a run: CSV, one row per step, growing with the run. Columns: `time [s]`,
+   then the columns of the probes with units, "wall.pressure [Pa]". With an averaging time, each column is
+   followed by its mean, "wall.pressure_mean [Pa]" (app/probe/probe_window.h). A field without a number is
+   empty. */
 #ifndef SLOSH_PROBE_TABLE_H
 #define SLOSH_PROBE_TABLE_H
 
@@ -12,48 +12,49 @@
 #include <jansson.h>
 #include <stdio.h>
 
-/* Of a column over the whole table. */
+/* Statistics of a column over the whole table. */
 typedef struct ProbeFigures {
-    size_t rows; /* that have a number */
+    size_t rows; /* rows with a number */
     double sum, least, most;
 } ProbeFigures;
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct ProbeTable {
-    FILE *file; /* NULL: there is none */
+    FILE *file; /* NULL: no table */
     OutputLock lock;
     char path[1024];
     const Probes *probes;
-    int columns;           /* of the probes */
-    double last;           /* time of its last row, s; less than 0: it has none */
-    ProbeWindow window;    /* of rows that are written */
-    ProbeFigures *figures; /* one a column of the probes */
-    size_t waiting, room;  /* rows that are not written yet, and that there is memory for */
+    int columns;           /* count of probe columns */
+    double last;           /* time of the last row, s; less than 0: no rows */
+    ProbeWindow window;    /* of written rows */
+    ProbeFigures *figures; /* one per probe column */
+    size_t waiting, room;  /* rows not written yet, and their capacity */
     double *time;          /* s, */
-    float *value;          /* `columns` a row */
+    float *value;          /* `columns` per row */
 } ProbeTable;
 
-/* Whether a table may begin there: no file, an empty one, or a table of some scene's probes. False with the
-   reason. */
+/* Returns true if a table may be written to the path: no file, an empty file, or a table of any scene's
+   probes. Returns false with the reason. */
 bool probe_table_check(const char *path, Error *error);
 
-/* Opens the table of these probes, which outlive it: anew, or with `keep` (s) not less than 0 behind the rows
-   up to then, where there is such a table. False with the reason: it cannot be written, another slosh writes
-   it, or what is there is something else, which stays as it is. */
+/* Opens the table of the given probes, which must outlive the table. Starts a new table; or with `keep`
+   (s) at least 0, keeps the rows up to time `keep` of an existing table. Returns false with the reason:
+   the file cannot be written, another slosh writes the file, or the file has other contents, which stay. */
 bool probe_table_open(ProbeTable *table, const char *path, const Probes *probes, double keep, Error *error);
 
-/* Adds a row, which waits: the step may be taken back. False when memory is short. */
+/* Adds a waiting row, as the step may be taken back. Returns false if memory is short. */
 bool probe_table_add(ProbeTable *table, double time, const float value[]);
 
-void probe_table_drop(ProbeTable *table);                /* the rows that wait */
-bool probe_table_write(ProbeTable *table, Error *error); /* them; they are in the file then */
+void probe_table_drop(ProbeTable *table);                /* drops waiting rows */
+bool probe_table_write(ProbeTable *table, Error *error); /* writes waiting rows to the file */
 
-/* Nothing where there is none. */
+/* Closes the table; does nothing if not open. */
 bool probe_table_close(ProbeTable *table, Error *error);
 
-/* {"wall.pressure": {"unit", "rows", "mean", "min", "max"}, ...}: means over rows. NULL without memory. */
+/* Returns {"wall.pressure": {"unit", "rows", "mean", "min", "max"}, ...}: means over rows. Returns NULL if
+   memory is short. */
 json_t *probe_table_json(const ProbeTable *table);
 
-void probe_table_free(ProbeTable *table); /* after the close */
+void probe_table_free(ProbeTable *table); /* call after probe_table_close */
 
 #endif

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows are older by no more than this part of the window, if times were written with twelve digits. */
+/* Relative tolerance of a row's age: times were written with twelve digits. */
 static const double ROUNDING = 1e-9;
 
 void probe_window_free(ProbeWindow *window)
@@ -14,7 +14,7 @@ void probe_window_free(ProbeWindow *window)
     *window = (ProbeWindow){.columns = window->columns, .longest = window->longest};
 }
 
-/* The rows from `first` on to the begin of the memory; twice as much where they fill half of it. */
+/* Moves the kept rows to the start of the memory; doubles the memory if more than half full. */
 static bool make_room(ProbeWindow *w)
 {
     const size_t columns = (size_t)w->columns, room = 2 * w->count >= w->room ? 2 * w->room + 64 : w->room;
@@ -40,7 +40,7 @@ bool probe_window_add(ProbeWindow *w, double time, const float value[])
     const size_t at = w->first + w->count++;
     w->time[at] = time;
     memcpy(w->value + at * (size_t)w->columns, value, (size_t)w->columns * sizeof *value);
-    /* one row before the window stays: the first one in it holds from there */
+    /* keep one row before the window, as the start of the first interval */
     while (w->count > 2 && w->time[w->first + 1] <= time - w->longest * (1 + ROUNDING)) {
         w->first++;
         w->count--;

@@ -1,25 +1,25 @@
-/* Means over the last seconds, from the rows before. */
+/* Means over the last seconds, from earlier rows. */
 #ifndef SLOSH_PROBE_WINDOW_H
 #define SLOSH_PROBE_WINDOW_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Zero-initialise it but for `columns` and `longest`. */
+/* Zero-initialise all but `columns` and `longest`. */
 typedef struct ProbeWindow {
     int columns;
-    double longest;            /* s: rows are kept for so long */
-    size_t first, count, room; /* of the rows that are kept, and that there is memory for */
+    double longest;            /* s: how long rows are kept */
+    size_t first, count, room; /* kept rows and capacity */
     double *time;              /* s, */
-    float *value;              /* `columns` a row */
+    float *value;              /* `columns` per row */
 } ProbeWindow;
 
-/* Adds a row, later than the last; false when memory is short. */
+/* Adds a row, later than the last; returns false if memory is short. */
 bool probe_window_add(ProbeWindow *window, double time, const float value[]);
 void probe_window_free(ProbeWindow *window);
 
-/* The mean of a column over the last `seconds` up to the last row: each row holds from the one before; NaN
-   counts nowhere. The last row's own value where there is no earlier one. */
+/* Returns the mean of a column over the last `seconds` up to the last row. Each row stands for the time
+   since the row before; NaN is skipped. Without an earlier row, returns the last row's value. */
 double probe_window_mean(const ProbeWindow *window, int column, double seconds);
 
 #endif

@@ -6,18 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* FIELDS: pressure, density, velocity. The lattice that measures a ball has so many points along its radius;
-   a grid has so many cells at most. */
+/* FIELDS: pressure, density, velocity (3). BALL_POINTS: lattice points along a ball's radius, to measure
+   its full weight. CELLS_MAX: most cells of the grid. */
 enum { FIELDS = 5, BALL_POINTS = 8, CELLS_MAX = 1 << 18, IMAGES_MAX = 8 };
 
-/* How far from their middle, in their own spread and squared, particles are trusted with a slope: on a wall
-   it is some 4, in a corner some 12. */
+/* Greatest trusted leverage: squared distance of the sensor from the particles' mean position, in units of
+   their spread. About 4 on a wall, 12 in a corner. */
 static const double LEVERAGE_MOST = 16;
 
-/* Of the ball's radius, squared, added to the spread: keeps particles on a line from having any slope. */
+/* Added to the spread, times the squared radius: particles on a line give no slope across the line. */
 static const double SPREAD_LEAST = 1e-4;
 
-/* Moments about the sensor. */
+/* Moments of the particles around a sensor. */
 typedef struct Moments {
     double w, x[3], xx[6]; /* xx: xx yy zz xy yz zx */
     double value[FIELDS], slope[FIELDS][3];
@@ -32,11 +32,11 @@ typedef struct Eye {
 struct Sensors {
     int count, eye_count;
     Sensor *sensor;
-    double *full; /* the sum of weights of fluid at rest where fluid may be */
+    double *full; /* sum of weights of fluid at rest in all accessible space */
     Moments *moments;
     Eye *eye;
-    /* A grid of cells over all balls; the eyes of a cell are list[start[cell]] to list[start[cell + 1] - 1]
-     */
+    /* A grid of cells over all balls; the eyes of a cell are list[start[cell]] to list[start[cell + 1] -
+       1]. */
     double low[3], cells_a_metre;
     int cells[3];
     int *start, *list;
@@ -62,7 +62,7 @@ void sensors_destroy(Sensors *s)
     free(s);
 }
 
-/* ---- what each ball would hold, full of fluid ---- */
+/* ---- weight of a ball full of fluid ---- */
 
 static bool in_box(const WorldDef *def, const double x[3])
 {
@@ -84,7 +84,7 @@ static bool in_solid(const WorldDef *def, const SolidPose pose[SOLIDS_MAX], cons
     return false;
 }
 
-/* The sum of weights of a lattice of fluid at rest, from one that is finer. */
+/* Sum of weights of a lattice of fluid at rest, integrated on a finer lattice. */
 static double full_of(const Sensor *sensor, const WorldDef *def, const SolidPose pose[SOLIDS_MAX])
 {
     const int deep = def->dimensions == 3 ? BALL_POINTS : 0;
@@ -111,9 +111,10 @@ static void measure_balls(Sensors *s, const WorldDef *def)
         s->full[i] = full_of(&s->sensor[i], def, pose);
 }
 
-/* ---- who looks where ---- */
+/* ---- grid of sensors ---- */
 
-/* Along one axis: the sensor itself, and across a periodic side that its ball passes. */
+/* Fills in the shifts of a sensor along one axis: 0, and across a periodic side cut by the ball. Returns
+   their count. */
 static int shifts(const Sensor *sensor, const WorldDef *def, int k, double shift[2])
 {
     const double size = def->box_size[k], low = k == 1 ? 0 : -0.5 * size, from = sensor->at[k] - low;
@@ -141,7 +142,7 @@ static void add_eyes(Sensors *s, int i, const WorldDef *def)
     }
 }
 
-/* Cells as wide as the largest ball, or wider where there would be too many; one where there is no ball. */
+/* Makes cells as wide as the largest ball, or wider if there would be too many; one cell without balls. */
 static void lay_grid(Sensors *s)
 {
     double high[3], widest = 0, cells;
@@ -180,7 +181,8 @@ static int cell_along(const Sensors *s, int k, double x)
     return (int)fmin(fmax(floor((x - s->low[k]) * s->cells_a_metre), 0), s->cells[k] - 1);
 }
 
-/* Goes over the cells that a ball may reach: counts it in `number`, or where `list` is there puts it in. */
+/* Visits the cells within reach of a ball: counts the ball in `number`, and puts the ball in `list` if not
+   NULL. */
 static void enter_eye(const Sensors *s, int e, int *number, int *list)
 {
     const Eye *eye = &s->eye[e];
@@ -200,7 +202,7 @@ static void enter_eye(const Sensors *s, int e, int *number, int *list)
             }
 }
 
-/* start[] and list[], by counting. */
+/* Fills in start[] and list[], by counting. */
 static bool fill_grid(Sensors *s)
 {
     const int cells = s->cells[0] * s->cells[1] * s->cells[2];
@@ -268,7 +270,7 @@ static void add_fields(Moments *m, unsigned wants, double w, const double d[3], 
         add_value(m, 2 + k, w * (double)cloud->velocity[4 * i + (size_t)k], d);
 }
 
-/* The cell of the grid that x is in; -1: in none, where no sensor looks. */
+/* Returns the cell of x; -1 if outside the grid. */
 static int cell_of(const Sensors *s, const float x[3])
 {
     int cell = 0;
@@ -298,8 +300,8 @@ static void add_particle(Sensors *s, int cell, const Cloud *cloud, size_t i)
     }
 }
 
-/* Solves C y = -mean for the spread C of the particles about their mean place, by Cramer; mean . y is how
-   much of their spread the sensor is away from them, squared. */
+/* Solves C y = -mean for the spread C of the particles around their mean position, by Cramer's rule; -mean
+   . y is the leverage. */
 static void lever_of(const Moments *m, const double mean[3], double radius, double y[3])
 {
     const double own = SPREAD_LEAST * radius * radius;
@@ -317,7 +319,7 @@ static void lever_of(const Moments *m, const double mean[3], double radius, doub
         y[k] = -(a[k][0] * mean[0] + a[k][1] * mean[1] + a[k][2] * mean[2]) / determinant;
 }
 
-/* Of particles that are there. */
+/* Computes the values of all fields; needs at least one particle. */
 static void values_of(const Moments *m, double radius, double value[FIELDS])
 {
     double mean[3], y[3], leverage = 0;
