@@ -2,7 +2,7 @@
 
 static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/* Three bytes as four digits. */
+/* Encodes three bytes as four digits. */
 static void encode(const unsigned char from[3], char to[4])
 {
     const unsigned bits = (unsigned)from[0] << 16 | (unsigned)from[1] << 8 | from[2];

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Of a snapshot: the surface if it is wanted, and the solids. */
+/* Meshes of a snapshot: the surface if requested, and the solids. */
 typedef struct Meshes {
     int count;
     Surface mesh[EXPORT_PARTS_MAX];
@@ -34,7 +34,7 @@ const Named *export_kinds(void)
     return kinds;
 }
 
-/* Whether the file is called SOMETHING.EXTENSION. */
+/* True if the file is named SOMETHING.EXTENSION. */
 static bool has_extension(const char *path, const char *extension)
 {
     const char *slash = strrchr(path, '/');
@@ -72,13 +72,13 @@ bool export_is_colored(ExportKind kind)
     return kind != EXPORT_PVD && kind != EXPORT_VTP;
 }
 
-/* Of the file of one snapshot. */
+/* True if a snapshot's file is a .ply. */
 static bool is_ply(const Export *export)
 {
     return export->kind == EXPORT_PLY || export->kind == EXPORT_PLY_SERIES;
 }
 
-/* Without what is left out, which is noted in `flaws`. */
+/* Reads a step without particles to be left out, which are noted in `flaws`. */
 static bool read_step(const Export *export, size_t index, SnapshotFlaws *flaws, SnapshotStep *step,
                       Error *error)
 {
@@ -125,7 +125,7 @@ bool export_colors(Export *export, Scalar by, size_t first, size_t count, Error 
 
 /* ---- files ---- */
 
-/* Closes a stream that was written; `written` says how that went. */
+/* Closes a stream; `written`: false if writing failed. */
 static bool close_file(const Export *export, FILE *file, bool written, Error *error)
 {
     int reason = errno;
@@ -146,7 +146,7 @@ static FILE *open_file(const Export *export, const char *name, Error *error)
 
 /* ---- the meshes of a snapshot ---- */
 
-/* Surfaces of fluids in a snapshot. */
+/* Returns the count of fluid surfaces per snapshot. */
 static int count_surfaces(const Export *export)
 {
     if (!export->surface)
@@ -188,7 +188,7 @@ static bool make_solids(const Export *export, const SnapshotStep *step, Meshes *
     return true;
 }
 
-/* In the frame that is asked for. */
+/* Makes the meshes in the requested frame. */
 static bool make_meshes(Export *export, const SnapshotStep *step, Meshes *meshes, Error *error)
 {
     if (!make_surfaces(export, step, meshes, error) || !make_solids(export, step, meshes, error))
@@ -198,7 +198,7 @@ static bool make_meshes(Export *export, const SnapshotStep *step, Meshes *meshes
     return true;
 }
 
-/* Which of the solids mesh `number` of a snapshot is; less than 0: it is a fluid's. */
+/* Returns the index of the solid of mesh `number`; less than 0: a fluid's surface. */
 static int solid_of(const Export *export, int number)
 {
     return number - count_surfaces(export);
@@ -235,7 +235,7 @@ static bool write_particles(const Export *export, const char *name, SnapshotStep
     return close_file(export, file, written, error);
 }
 
-/* All in one file. */
+/* Writes all meshes into one file. */
 static bool write_obj(const Export *export, const char *name, const SnapshotStep *step, const Meshes *meshes,
                       Error *error)
 {
@@ -264,11 +264,11 @@ static bool write_mesh(const Export *export, const char *name, int number, const
     return close_file(export, file, written, error);
 }
 
-/* The particles and each mesh in a file of its own; without parts only one of these is there. */
+/* Writes the particles and each mesh into files of their own; without parts there is only one of these. */
 static bool write_parts(const Export *export, const char *name, SnapshotStep *step, const Meshes *meshes,
                         Error *error)
 {
-    const int first = export->surface ? 0 : 1; /* part of the first mesh */
+    const int first = export->surface ? 0 : 1; /* index of the first mesh's part */
     if (first > 0 && !write_particles(export, name, step, error))
         return false;
     for (int k = 0; k < meshes->count; k++) {
@@ -319,7 +319,7 @@ static void add_part(Export *export, const char *name, const char *kind, int num
         snprintf(part->suffix, sizeof part->suffix, "-%s%d", kind, number);
 }
 
-/* Of a .pvd; with neither solids nor surfaces of each fluid it has one file at each time. */
+/* Names the parts of a .pvd; without solids and surfaces of each fluid there is one file per time. */
 static void name_parts(Export *export)
 {
     const bool each = export->surface && export->surface->each;

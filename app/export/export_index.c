@@ -15,7 +15,7 @@ void export_index_name(const char *folder, size_t index, const char *extension, 
     snprintf(name, size, "%s-%04zu%s", last_part(folder), index, extension);
 }
 
-/* Within the quotes of an attribute. */
+/* Prints a text within the quotes of an attribute. */
 static void print_escaped(FILE *file, const char *text)
 {
     for (; *text; text++)
@@ -32,7 +32,7 @@ void export_part_name(const char *name, const char *suffix, char *own, size_t si
     snprintf(own, size, "%.*s%s%s", length, name, suffix, dot ? dot : "");
 }
 
-/* Part 0 without a name where the files have no parts. */
+/* Prints one file's entry; without parts, part 0 without a name. */
 static void print_part(FILE *file, const ExportIndex *index, size_t number, size_t part)
 {
     const IndexPart *own = index->part_count > 0 ? &index->parts[part] : NULL;
@@ -77,7 +77,7 @@ bool export_index_series(FILE *file, const ExportIndex *index)
     json_t *all = json_pack("{s:s, s:o}", "file-series-version", "1.0", "files", files);
     const bool whole = all && json_array_size(files) == index->count;
     if (!whole)
-        errno = EILSEQ; /* all that json_pack refuses: a name that is not UTF-8 */
+        errno = EILSEQ; /* json_pack failed: the name is not UTF-8 */
     const bool written =
         whole && json_dumpf(all, file, JSON_INDENT(1) | JSON_PRESERVE_ORDER) == 0 && fputc('\n', file) != EOF;
     json_decref(all);

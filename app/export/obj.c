@@ -1,5 +1,5 @@
 /* After: "Object files (.obj)", Wavefront Technologies, Advanced Visualizer manual, appendix B1; colours
-   behind a vertex's place as MeshLab, Blender and ParaView have them. */
+   follow a vertex's position as in MeshLab, Blender and ParaView. */
 #include "app/export/obj.h"
 
 ObjFile obj_begin(FILE *file, double time, const char *frame, const PointColors *colors)

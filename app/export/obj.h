@@ -1,10 +1,10 @@
-/* Meshes as Wavefront OBJ, for Blender, Houdini and whatever else reads meshes: text, any number of named
-   meshes in a file.
+/* Meshes as Wavefront OBJ, for Blender, Houdini and further programs: text, any number of named meshes per
+   file.
 
-   Each begins with `o NAME` and `g NAME`, an object for one reader and a group for another; its vertices are
-   `v x y z`, m, and behind them red green blue where they have a colour (sRGB 0 to 1, as Blender takes them),
-   their normals `vn`, and its triangles `f`, counter-clockwise seen from outside. y is up. Numbers are those
-   of the snapshot to the last bit. The head has time, frame and units. */
+   Each mesh begins with `o NAME` and `g NAME`, as programs read either objects or groups. Vertices are `v
+   x y z`, m, followed by red green blue if coloured (sRGB 0 to 1, like in Blender); normals `vn`;
+   triangles `f`, counter-clockwise seen from outside. y is up. Numbers have all bits of the snapshot. The
+   head has time, frame and units. */
 #ifndef SLOSH_OBJ_H
 #define SLOSH_OBJ_H
 
@@ -13,19 +13,19 @@
 
 #include <stdio.h>
 
-/* A file in the making. */
+/* A file being written. */
 typedef struct ObjFile {
     FILE *file;
-    size_t vertices; /* that are in it: faces count from the file's first */
+    size_t vertices; /* written so far: faces count from the file's first vertex */
 } ObjFile;
 
-/* `frame` and the time, s, go into the head, and so does what a colormap is of. */
+/* Writes the head, with time (s), `frame`, and the meaning of a colormap. */
 ObjFile obj_begin(FILE *file, double time, const char *frame, const PointColors *colors);
 
-/* A blank or a letter of control in the name becomes '_'. */
+/* Adds a mesh. Blanks and control characters in the name become '_'. */
 void obj_add(ObjFile *obj, const char *name, const Surface *mesh, const PointColors *colors);
 
-/* False when the stream failed (errno tells why). */
+/* Returns false if the stream failed (see errno). */
 bool obj_end(const ObjFile *obj);
 
 #endif

@@ -34,7 +34,7 @@ static const char *const places[] = {"x", "y", "z", NULL}, *const normals[] = {"
                          *const fluids[] = {"fluid", NULL}, *const ids[] = {"id", NULL},
                          *const channels[] = {"red", "green", "blue", NULL};
 
-/* A row in the making. */
+/* A row being built. */
 typedef struct Row {
     size_t size;
     uint8_t byte[64];
@@ -52,7 +52,7 @@ static void put_vector(Row *row, float *const vector[3], size_t i)
         put(row, &vector[k][i], sizeof(float));
 }
 
-/* Velocity, density, pressure and fluid. */
+/* Adds velocity, density, pressure and fluid. */
 static void put_fields(Row *row, const SnapshotStep *step, size_t i)
 {
     put_vector(row, step->velocity, i);

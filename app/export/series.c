@@ -23,7 +23,7 @@ static const struct {
 } indices[] = {
     {".pvd", export_index_pvd}, {".ply.series", export_index_series}, {".obj.series", export_index_series}};
 
-/* By the end of the name; the first where it is none of them. */
+/* Finds the index format by the ending of the name; the first format for unknown endings. */
 static size_t index_of(const char *path)
 {
     const size_t length = strlen(path);
@@ -35,7 +35,7 @@ static size_t index_of(const char *path)
     return 0;
 }
 
-/* The folder is called as the index without its extension. */
+/* Begins both outputs; the folder's name is the index's name without extension. */
 static bool begin(Series *series, const SeriesJob *job, Error *error)
 {
     char folder[sizeof series->folder.path];

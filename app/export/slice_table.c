@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what is wanted ---- */
+/* ---- request ---- */
 
 /* clang-format off */
 static const Key keys[] = {

@@ -1,4 +1,4 @@
-/* A slice of a snapshot as numbers: what `slosh export --slice` writes. */
+/* A slice of a snapshot as numbers, for `slosh export --slice`. */
 #ifndef SLOSH_SLICE_TABLE_H
 #define SLOSH_SLICE_TABLE_H
 
@@ -8,12 +8,12 @@
 
 #include <stdio.h>
 
-/* How it is made. */
+/* Request of a slice. */
 typedef struct SliceWanted {
-    double point[3], normal[3]; /* of the plane, box's frame; m, and of any length but 0 */
-    int samples[2];             /* along and up, over the part of the plane that is in the box */
-    int kernel;                 /* of plane_kernels, at least 1; its support radius is the file's */
-    bool raw;                   /* sum V W s; else over sum V W */
+    double point[3], normal[3]; /* of the plane, in the box's frame; m, and any nonzero length */
+    int samples[2];             /* count along and up, over the part of the plane inside the box */
+    int kernel;                 /* index into plane_kernels, at least 1; the support radius is the file's */
+    bool raw;                   /* true: sum V W s; false: divided by sum V W */
     Scalar scalar;
 } SliceWanted;
 
@@ -21,16 +21,15 @@ typedef struct SliceTable {
     SliceWanted wanted;
     Plane plane;
     double time;  /* s */
-    float *value; /* of each sample, rows from the bottom up: NaN where it is empty or no number */
-    float *field; /* sum V W, 0 where it is empty */
-    size_t empty; /* samples that no particle reaches */
+    float *value; /* per sample, rows from the bottom up: NaN if empty or not a number */
+    float *field; /* sum V W, 0 if empty */
+    size_t empty; /* samples without particles in reach */
 } SliceTable;
 
-/* Reads "{point: [x, y, z], normal: [x, y, z]}", either of which may be left out; false with what would be
-   right. */
+/* Reads "{point: [x, y, z], normal: [x, y, z]}"; both keys are optional. Returns false with advice. */
 bool slice_wanted_read(SliceWanted *wanted, const char *text, Error *error);
 
-/* What one slice leaves to the next: programs and buffers. Zero-initialise it. */
+/* Programs and buffers reused between slices. Zero-initialise before use. */
 typedef struct SliceMaker {
     PlaneSum sum;
     StepBuffers buffers;
@@ -38,18 +37,19 @@ typedef struct SliceMaker {
 
 void slice_maker_destroy(SliceMaker *maker);
 
-/* Makes it in the current OpenGL 4.5 context, with V = mass / density, the mass being that of a spacing^3 at
-   rest. False where the plane misses the box, the snapshot lacks the scalar, memory is short, or the driver
-   has no such texture: nothing of the table to free then. */
+/* Makes a slice in the current OpenGL 4.5 context, with V = mass / density, where the mass is that of
+   spacing^3 at rest density. Returns false with nothing to free if the plane misses the box, the snapshot
+   lacks the scalar, memory is short, or the driver cannot make the texture. */
 bool slice_table_make(SliceMaker *maker, const SliceWanted *wanted, const SnapshotScene *scene,
                       const SnapshotStep *step, SliceTable *table, Error *error);
 void slice_table_free(SliceTable *table);
 
-/* The columns x, y, z (m, box's frame) and value, which is empty where nothing is. False when the stream
-   fails (errno tells why). */
+/* Writes the columns x, y, z (m, box's frame) and value, empty without fluid. Returns false if the stream
+   fails (see errno). */
 bool slice_table_csv(FILE *file, const SliceTable *table);
 
-/* VTK's image data in XML, turned and placed as the plane is: the scalar by its name and "field". */
+/* Writes VTK image data in XML, placed and oriented like the plane: the scalar under its name, and
+   "field". */
 bool slice_table_vti(FILE *file, const SliceTable *table);
 
 #endif

@@ -1,5 +1,5 @@
-/* After: VTK file formats, "XML file formats", https://docs.vtk.org: ImageData, numbers as base64 with 64-bit
-   sizes (app/export/vtp.c has why). */
+/* After: VTK file formats, "XML file formats", https://docs.vtk.org: ImageData, numbers as base64 with
+   64-bit sizes (for the reason see app/export/vtp.c). */
 #include "app/export/slice_table.h"
 
 #include "app/export/base64.h"
@@ -30,7 +30,7 @@ bool slice_table_csv(FILE *file, const SliceTable *table)
     return written && fflush(file) == 0;
 }
 
-/* A sample is a point of VTK's image; its axes are the columns of Direction. */
+/* A sample is a point of VTK's image; the axes are the columns of Direction. */
 static bool write_head(FILE *file, const SliceTable *table)
 {
     const Plane *plane = &table->plane;

@@ -42,7 +42,7 @@ static void place_vertex(Surface *mesh, size_t i, const SolidVertex *vertex, con
     SnapshotStep *to = &mesh->vertices;
     const double still[3] = {0}, own[3] = {vertex->position[0], vertex->position[1], vertex->position[2]};
     double x[3], v[3], normal[3] = {vertex->normal[0], vertex->normal[1], vertex->normal[2]};
-    box_to_world(pose, own, still, x, v); /* of a solid: its frame to the box's */
+    box_to_world(pose, own, still, x, v); /* from the solid's frame to the box's frame */
     quat_rotate(pose->orientation, normal, normal);
     for (int k = 0; k < 3; k++) {
         to->position[k][i] = (float)x[k];

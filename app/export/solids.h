@@ -1,5 +1,4 @@
-/* The solids of a recorded scene as meshes, each where its motion has carried it at the time of a snapshot.
- */
+/* The solids of a recorded scene as meshes, at their positions at the time of a snapshot. */
 #ifndef SLOSH_EXPORT_SOLIDS_H
 #define SLOSH_EXPORT_SOLIDS_H
 
@@ -8,23 +7,24 @@
 #include "app/scene/scene.h"
 #include "render/frame/solid_mesh.h"
 
-/* In the order of the scene. */
+/* Ordered as in the scene. */
 typedef struct ExportSolids {
     int count;
     struct {
-        char name[NAME_SIZE]; /* "solid0_bowl", the number as in --set solids[0] */
+        char name[NAME_SIZE]; /* "solid0_bowl"; the number as in --set solids[0] */
         SolidDef def;
         SolidMesh mesh; /* in the solid's own frame */
         PointColors color;
     } solid[SOLIDS_MAX];
 } ExportSolids;
 
-/* The meshes; in two dimensions as deep as the particles. False when memory is short; to be freed in either
-   case. */
+/* Makes the meshes; in two dimensions as deep as the particles. Returns false if memory is short; call
+   export_solids_free in either case. */
 bool export_solids_make(ExportSolids *solids, const WorldDef *world, Error *error);
 
-/* Solid `k` at the step's time in the box's frame: places, normals, and as velocities those of its surface.
-   What fluids have is 0. The caller frees it; false, and nothing to free, when memory is short. */
+/* Makes the mesh of solid `k` at the step's time, in the box's frame: positions, normals and surface
+   velocities; fluid fields are 0. The caller frees the mesh. Returns false, with nothing to free, if
+   memory is short. */
 bool export_solid_at(const ExportSolids *solids, int k, const SnapshotStep *step, Surface *mesh,
                      Error *error);
 

@@ -12,9 +12,9 @@
 
 /* ---- the grid ---- */
 
-/* The grid around low .. high, with h and a cell more on each side, so that its outermost values are 0. Its
-   cells are those of one lattice for all steps of a scene, so that a fluid at rest has the same mesh in each.
-   False when so many numbers a cell need more memory than there is. */
+/* Makes the grid around low .. high, with a margin of h and one cell, so that the outermost values are 0.
+   Cells belong to one lattice for all steps of a scene, so that fluid at rest keeps its mesh. Returns
+   false if memory does not suffice for `fields` numbers per cell. */
 static bool grid_around(const double low[3], const double high[3], const SnapshotScene *scene, size_t fields,
                         double cell, VolumeGrid *grid)
 {
@@ -37,7 +37,7 @@ static double cell_side(const SurfaceDef *def, const SnapshotScene *scene)
     return (def->cell > 0 ? def->cell : 0.5) * scene->spacing;
 }
 
-/* The field and a mean; of each fluid its share, and the region of one. */
+/* Count of numbers per cell: field and mean; for surfaces per fluid also each share and one region. */
 static size_t count_fields(const SurfaceDef *def, const SnapshotScene *scene)
 {
     return 2 + (def->each ? 1 + scene->fluid_count : 0);
@@ -67,19 +67,19 @@ bool surface_check(const SurfaceDef *def, const SnapshotScene *scene, Error *err
                      physical_bytes() / 1e9, fits / scene->spacing);
 }
 
-/* ---- the work in hand ---- */
+/* ---- state ---- */
 
 typedef struct Work {
     const SnapshotScene *scene;
     const SnapshotStep *step;
-    size_t fields; /* numbers a cell */
+    size_t fields; /* numbers per cell */
     VolumeGrid grid;
     FieldSlabs slabs;
     FieldParticles particles;
-    float *position;          /* of the particles, as a field wants them */
-    float *field, *weighted;  /* the grid's values */
-    float *scalar;            /* of each particle: whether it is of a fluid, or what it has of it */
-    float *share[FLUIDS_MAX]; /* of surface_make_each: the grid's values of each fluid's particles alone */
+    float *position;          /* of the particles, in the format of a field */
+    float *field, *weighted;  /* values on the grid */
+    float *scalar;            /* per particle: 1 for a fluid's particles, or the fluid's value */
+    float *share[FLUIDS_MAX]; /* for surface_make_each: grid values of each fluid's own particles */
     IsoMesh mesh;
     Surface *surface;
 } Work;
@@ -112,7 +112,7 @@ static bool take_particles(Work *work)
     return true;
 }
 
-/* ---- what each vertex has ---- */
+/* ---- vertex fields ---- */
 
 static bool sum_weighted(Work *work, const float *scalar, Error *error)
 {
@@ -123,7 +123,7 @@ static bool sum_weighted(Work *work, const float *scalar, Error *error)
 
 enum { ALL_FLUIDS = -1 };
 
-/* The mean of the scalar of a fluid's particles at each vertex, weighted by V W. */
+/* Mean of the scalar over a fluid's particles at each vertex, weighted by V W. */
 static bool mean_over(Work *work, const float *scalar, int fluid, float *out, Error *error)
 {
     const float *weights = fluid == ALL_FLUIDS ? work->field : work->share[fluid];
@@ -141,7 +141,7 @@ static bool mean(Work *work, const float *scalar, float *out, Error *error)
     return mean_over(work, scalar, ALL_FLUIDS, out, error);
 }
 
-/* The fluid that has the most of V W at each vertex. `most` has room for a number a vertex. */
+/* Finds the fluid with most of V W at each vertex. `most` is scratch: one number per vertex. */
 static bool find_fluids(Work *work, float *most, Error *error)
 {
     SnapshotStep *vertices = &work->surface->vertices;
@@ -168,12 +168,12 @@ static bool find_means(Work *work, Error *error)
     for (int k = 0; k < 3; k++)
         if (!mean(work, step->velocity[k], vertices->velocity[k], error))
             return false;
-    return find_fluids(work, vertices->density, error) && /* which is not yet found */
+    return find_fluids(work, vertices->density, error) && /* still unused: scratch */
            mean(work, step->density, vertices->density, error) &&
            mean(work, step->pressure, vertices->pressure, error);
 }
 
-/* The values fall outwards. */
+/* Places vertices and normals; values fall outwards. */
 static void place_vertices(Work *work, const float *values)
 {
     Surface *surface = work->surface;
@@ -191,7 +191,7 @@ static void place_vertices(Work *work, const float *values)
     }
 }
 
-/* ---- all of it ---- */
+/* ---- whole surface ---- */
 
 static bool allocate(Surface *surface, const Work *work)
 {
@@ -216,12 +216,11 @@ static bool march(Work *work, double level, Error *error)
     return true;
 }
 
-/* The level at which the mesh encloses the volume that the fluid has at rest, by the method of secants.
- */
+/* Finds the level at which the mesh encloses the fluid's volume at rest, by the secant method. */
 static bool march_to_volume(Work *work, Error *error)
 {
     const double s = work->scene->spacing, volume = s * s * s * (double)work->particles.count;
-    double level = 0.5, change = -1, before = 0; /* of the excess with the level; the last excess */
+    double level = 0.5, change = -1, before = 0; /* change of the excess with the level; the last excess */
     for (int tries = 0; tries < 6; tries++) {
         const double last = work->surface->level;
         if (!march(work, level, error))
@@ -239,7 +238,7 @@ static bool march_to_volume(Work *work, Error *error)
     return true;
 }
 
-/* The mesh, or none where there are no particles. */
+/* Makes the mesh; no mesh without particles. */
 static bool cross_level(Work *work, double level, Error *error)
 {
     double low[3], high[3];
@@ -260,11 +259,11 @@ static bool cross_level(Work *work, double level, Error *error)
     return level > 0 ? march(work, level, error) : march_to_volume(work, error);
 }
 
-/* Gives the surface the mesh, placed where `values` cross the level; without its fields. */
+/* Moves the mesh into the surface, with vertices where `values` cross the level; fields are not set. */
 static bool take_mesh(Work *work, const float *values, Error *error)
 {
     Surface *surface = work->surface;
-    if (work->mesh.triangle_count > INT32_MAX / 3) /* what files count their numbers with */
+    if (work->mesh.triangle_count > INT32_MAX / 3) /* limit of the integers in files */
         return error_set(error, "a surface of %zu triangles fits into no file; use a larger --cell",
                          work->mesh.triangle_count);
     if (!allocate(surface, work))
@@ -305,7 +304,7 @@ bool surface_make(const SurfaceDef *def, const SnapshotScene *scene, const Snaps
     return made;
 }
 
-/* ---- a surface of each fluid ---- */
+/* ---- one surface per fluid ---- */
 
 static bool sum_shares(Work *work, Error *error)
 {
@@ -324,9 +323,9 @@ static bool sum_shares(Work *work, Error *error)
     return true;
 }
 
-/* More than 0 where the fluid is: what F is above the level, or, if that is less, the fluid's share above the
-   largest of another. Both are smooth, and so is the border; its other side has the same values with the
-   other sign. */
+/* Fills in the region of a fluid, positive inside: the lesser of F minus the level, and the fluid's share
+   minus the largest of other shares. Both are smooth, and so is the border; on its other side the
+   neighbour's region has the opposite values. */
 static void find_region(const Work *work, size_t fluid, double level, float *region)
 {
     const size_t cells = volume_grid_cells(&work->grid);
@@ -340,7 +339,7 @@ static void find_region(const Work *work, size_t fluid, double level, float *reg
     }
 }
 
-/* The mean over the fluid's own particles. */
+/* Mean over the fluid's own particles. */
 static bool own_mean(Work *work, size_t fluid, const float *scalar, float *out, Error *error)
 {
     for (size_t i = 0; i < work->step->count; i++)
@@ -361,7 +360,7 @@ static bool own_means(Work *work, size_t fluid, Error *error)
            own_mean(work, fluid, step->pressure, vertices->pressure, error);
 }
 
-/* `region` is scratch. */
+/* Makes one fluid's surface; `region` is scratch. */
 static bool make_one(Work *work, size_t fluid, double level, float *region, Error *error)
 {
     const double side = work->grid.cell;
@@ -374,7 +373,7 @@ static bool make_one(Work *work, size_t fluid, double level, float *region, Erro
     return take_mesh(work, region, error) && own_means(work, fluid, error);
 }
 
-/* From the surface of all, which says the level. */
+/* Makes a surface per fluid, with the level of the whole surface. */
 static bool make_each(Work *work, const Surface *whole, Surface surfaces[FLUIDS_MAX], Error *error)
 {
     const size_t cells = work->field ? volume_grid_cells(&work->grid) : 0;

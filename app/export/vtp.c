@@ -1,6 +1,6 @@
-/* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, each array's numbers in its
-   element as base64 with a 64-bit size. Raw data behind the XML is smaller, but ParaView 5.11 cannot read it
-   with expat since its fix of CVE-2023-52425, which Debian 12 has. */
+/* After: VTK file formats, "XML file formats", https://docs.vtk.org: PolyData, each array's numbers inside
+   its element as base64 with a 64-bit size. Raw data after the XML would be smaller, but ParaView 5.11
+   cannot read raw data with expat since expat's fix of CVE-2023-52425, included in Debian 12. */
 #include "app/export/vtp.h"
 
 #include "app/export/base64.h"
@@ -14,7 +14,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "files are written as 
 
 enum { CHUNK = 4096, BLOCKS_MAX = 10 };
 
-/* Where a block's array stands in the XML, in this order. */
+/* Place of a block's array in the XML, in file order. */
 typedef enum Section {
     SECTION_POINTS,
     SECTION_VERTS,
@@ -25,20 +25,20 @@ typedef enum Section {
     SECTION_COUNT
 } Section;
 
-/* An array: its size in bytes as 64 bits and then its numbers. */
+/* An array: its size in bytes as 64 bits, then its numbers. */
 typedef struct Block {
     Section section;
-    const char *name, *type; /* VTK's */
+    const char *name, *type; /* in VTK */
     size_t components, bytes, count;
-    const void *numbers;  /* or if NULL */
-    float *const *vector; /* three arrays, or if NULL */
+    const void *numbers;  /* or if NULL: see vector */
+    float *const *vector; /* three arrays, or if NULL: see first */
     size_t first, step;   /* first, first + step, ... */
 } Block;
 
 typedef struct Contents {
     double time;
     size_t points, vertices, lines, triangles;
-    const char *shown; /* attributes of the points' data: which array is what */
+    const char *shown; /* attributes of PointData: roles of the arrays */
     size_t count;
     Block block[BLOCKS_MAX];
 } Contents;
@@ -134,7 +134,7 @@ static void write_numbers(FILE *file, const Block *block)
 
 /* ---- the XML ---- */
 
-/* As VTK's key for it, which ParaView keeps with the array; "": none. */
+/* Returns an array's unit for VTK's key, kept by ParaView; "": none. */
 static const char *unit_of(const char *name)
 {
     if (strcmp(name, "Points") == 0)
@@ -149,7 +149,7 @@ static const char *unit_of(const char *name)
     return "";
 }
 
-/* The numbers come first: VTK looks for them right behind the tag. */
+/* Numbers come first: VTK expects them directly after the tag. */
 static void print_array(FILE *file, const Block *block)
 {
     const char *unit = unit_of(block->name);
@@ -215,7 +215,7 @@ bool vtp_write(FILE *file, const SnapshotStep *step)
     return write_all(file, &all);
 }
 
-/* The points and triangles of a mesh. */
+/* Starts with the points and triangles of a mesh. */
 static Contents begin_mesh(const Surface *mesh, const char *shown)
 {
     const SnapshotStep *step = &mesh->vertices;
