@@ -35,9 +35,9 @@ bool trace_is_column(const Trace *trace, double time)
     return time - trace->time >= 0.999 * trace->def->every;
 }
 
-/* ---- who was where ---- */
+/* ---- hash table of particles ---- */
 
-/* The place of an id, or the free one that it gets. After: Steele, Lea and Flood, Fast splittable
+/* Returns the entry of an id, or a free entry for the id. After: Steele, Lea and Flood, Fast splittable
    pseudorandom number generators, 2014 (its mixing of 64 bits). */
 static TraceEnd *place_of(TraceEnd *ends, size_t room, int64_t id)
 {
@@ -51,7 +51,7 @@ static TraceEnd *place_of(TraceEnd *ends, size_t room, int64_t id)
     }
 }
 
-/* Half of the places stay free. */
+/* Grows the table to keep half of the entries free. */
 static bool make_room(Trace *trace, Error *error)
 {
     const size_t room = trace->ends_room > 0 ? 2 * trace->ends_room : ENDS_LEAST;
@@ -103,14 +103,14 @@ static bool is_behind(const TraceDef *def, const float at[3])
     return side < 0;
 }
 
-/* From the step before, in which it was `at`, to this one. */
+/* True if the particle crossed the plane since the last step, where its position was end->at. */
 static bool crosses(const Trace *trace, const TraceEnd *end, const float at[3])
 {
     return trace_def_has_plane(trace->def) && end->step + 1 == trace->steps &&
            is_behind(trace->def, end->at) != is_behind(trace->def, at);
 }
 
-/* Whether a line leads on from the column before, and not through a periodic side. */
+/* True if the line continues from the last column, without crossing a periodic side. */
 static bool joins(const Trace *trace, const TraceEnd *end, const float at[3])
 {
     bool near = end->shown && end->column > 0 && end->column + 1 == trace->columns;
@@ -128,7 +128,7 @@ static bool add_point(Trace *trace, const TraceEnd *end, Error *error)
            trace_rows_add(&trace->line, &end->line, 1, trace->beside, error);
 }
 
-/* A line begins with the point before. */
+/* Begins a line with the previous point. */
 static bool begin_line(Trace *trace, TraceEnd *end, Error *error)
 {
     end->line = (uint32_t)trace->id.count;
@@ -172,7 +172,7 @@ static bool take_particle(Trace *trace, const SnapshotStep *step, size_t i, bool
         return false;
     TraceEnd *end = place_of(trace->ends, trace->ends_room, step->id[i]);
     if (end->used && end->step == trace->steps)
-        return true; /* the first of that id has the trail */
+        return true; /* duplicate id: only the first particle has the trail */
     if (!end->used) {
         *end = (TraceEnd){.id = step->id[i],
                           .used = true,
@@ -200,7 +200,8 @@ bool trace_step(Trace *trace, const SnapshotStep *step, bool column, Error *erro
     return true;
 }
 
-/* A counting sort by line: `offset` first counts the points of each, then says where its next one goes. */
+/* Counting sort by line: `offset` first counts the points per line, then holds the next free index of each
+   line. */
 bool trace_lines(const Trace *trace, TraceRows *order, TraceRows *offset, Error *error)
 {
     const size_t points = trace->line.count, lines = trace->id.count;

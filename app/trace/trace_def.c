@@ -106,7 +106,7 @@ bool trace_def_read(TraceDef *def, const char *text, Error *error)
 {
     Tree tree = {.path = "--trails"};
     Node *root = NULL;
-    *def = (TraceDef){.stride = 20, .ids = "all"}; /* as the overlay's */
+    *def = (TraceDef){.stride = 20, .ids = "all"}; /* defaults of the overlay */
     const bool read = yaml_read(&tree, "--trails", text, strlen(text), &root, error) &&
                       read_keys(def, &tree, root, error) && read_ids(def, error) && check(def, error);
     tree_free(&tree);

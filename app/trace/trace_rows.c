@@ -19,7 +19,7 @@ static bool make_file(TraceRows *rows, const char *beside)
     return rows->file >= 0 && unlink(name) == 0;
 }
 
-/* Whole before it is written to: a write into a hole of a full disk would end the program. */
+/* Allocates the whole file first: a write into a hole on a full disk would kill the program. */
 static bool map_file(TraceRows *rows, size_t room)
 {
     errno = posix_fallocate(rows->file, 0, (off_t)room);

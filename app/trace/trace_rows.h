@@ -1,4 +1,4 @@
-/* Rows that become more than memory may hold: a file without a name, beside the output, as memory. */
+/* Rows in a growing memory map of an unnamed file beside the output, as they may exceed the memory. */
 #ifndef SLOSH_TRACE_ROWS_H
 #define SLOSH_TRACE_ROWS_H
 
@@ -7,17 +7,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Zero-initialise it; `row` is then the size of a row in bytes. */
+/* Zero-initialise, then set `row`. */
 typedef struct TraceRows {
-    void *data; /* count rows; elsewhere after the next is added */
+    void *data; /* `count` rows; moves when rows are added */
     size_t row; /* bytes */
     size_t count;
     size_t room; /* bytes */
-    int file;    /* where there is `data` */
+    int file;    /* file descriptor, if `data` is not NULL */
 } TraceRows;
 
-/* Adds so many rows, from `rows` (NULL: zeros). False, with the reason and all as it was, where the disk is
-   full or memory has no place for them; the file is made as `beside`.XXXXXX and loses its name at once. */
+/* Adds `count` rows from `rows` (NULL: zeros). Returns false with the reason, and all rows unchanged, if
+   the disk is full or address space is short. The file is made as `beside`.XXXXXX and unlinked at once. */
 bool trace_rows_add(TraceRows *to, const void *rows, size_t count, const char *beside, Error *error);
 void trace_rows_free(TraceRows *rows);
 
