@@ -21,9 +21,9 @@
 extern char **environ;
 
 static const double LOOK_MS = 300;
-enum { NICE = 10 }; /* the fluid in the window comes first */
+enum { NICE = 10 }; /* low priority: the fluid in the window comes first */
 
-/* A folder and those above it. */
+/* Makes a folder and its parents. */
 static bool make_folders(char *path, Error *error)
 {
     for (char *slash = path + 1; (slash = strchr(slash, '/')); slash++) {
@@ -37,7 +37,7 @@ static bool make_folders(char *path, Error *error)
            error_set(error, "no pictures of scenes: %.300s: %s", path, strerror(errno));
 }
 
-/* FNV-1a: scenes of other folders may have the same names. */
+/* FNV-1a: separates scenes with equal names in different folders. */
 static unsigned hash_of(const char *text)
 {
     uint32_t hash = 2166136261U;
@@ -46,7 +46,7 @@ static unsigned hash_of(const char *text)
     return hash;
 }
 
-/* After the XDG base directory specification; a path there that is not absolute is to be ignored. */
+/* Finds the cache folder after the XDG base directory specification, which ignores relative paths. */
 static bool find_cache(CardShelf *shelf, Error *error)
 {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -77,7 +77,7 @@ static void add_shelf(SceneCards *cards, const char *folder)
     cards->shelf_count += scene_list_read(folder, &shelf->list, &none);
 }
 
-/* The folder of the open scene is a shelf of its own, where it is not the one that comes with slosh. */
+/* Adds the shelves; the open scene's folder is a second shelf unless it came with slosh. */
 static void find_shelves(SceneCards *cards, const char *scene)
 {
     char folder[1024] = ".";
@@ -101,7 +101,7 @@ static bool make_cards(SceneCards *cards, Error *error)
     cards->cards = count > 0 ? calloc((size_t)count, sizeof *cards->cards) : NULL;
     if (!cards->cards)
         return error_set(error, "there is no scene to choose");
-    for (int s = cards->shelf_count; s-- > 0;) /* the open one's neighbours first */
+    for (int s = cards->shelf_count; s-- > 0;) /* neighbours of the open scene first */
         for (int i = 0; i < cards->shelves[s].list.count; i++) {
             const SceneRow *row = &cards->shelves[s].list.rows[i];
             cards->cards[cards->count++] =
@@ -122,7 +122,7 @@ bool cards_open(SceneCards *cards, const char *scene, Error *error)
     return all;
 }
 
-/* ---- the other process ---- */
+/* ---- second process ---- */
 
 static void start_maker(SceneCards *cards, CardShelf *shelf)
 {
@@ -186,7 +186,7 @@ static bool load_picture(const CardShelf *shelf, const SceneRow *row, SceneCard 
     if (card->texture || !*shelf->cache || !thumbnail_path(shelf->cache, row->name, path) ||
         !thumbnail_is_new(path, row->path) || !image_read(path, &image, &none))
         return false;
-    if (image.width >= 4 && image.height >= 4) /* three levels */
+    if (image.width >= 4 && image.height >= 4) /* enough for three mip levels */
         card->texture = make_texture(&image);
     image_destroy(&image);
     return card->texture != 0;
@@ -206,7 +206,7 @@ bool cards_follow(SceneCards *cards)
     return come;
 }
 
-/* The other process ends by itself behind the picture in its hand; it leaves nothing half-written. */
+/* Ends the second process; it stops after its present picture and leaves no partial file. */
 void cards_close(SceneCards *cards)
 {
     if (cards->maker)

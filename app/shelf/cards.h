@@ -1,5 +1,5 @@
-/* The scenes from which the window's list lets choose, with pictures that the program makes: a second process
-   draws them into the user's cache while the list is shown, so that the fluid in the window goes on. */
+/* The scenes of the window's list, with pictures. A second process draws the pictures into the user's
+   cache while the list is shown, so that the fluid in the window goes on. */
 #ifndef SLOSH_SCENE_CARDS_H
 #define SLOSH_SCENE_CARDS_H
 
@@ -11,8 +11,8 @@
 
 typedef struct SceneCard {
     const char *title, *text, *path;
-    unsigned texture; /* its picture; 0: not there yet */
-    bool lit;         /* the open one */
+    unsigned texture; /* the picture; 0: not ready */
+    bool lit;         /* true for the open scene */
 } SceneCard;
 
 enum { CARD_SHELVES = 2 };
@@ -20,26 +20,27 @@ enum { CARD_SHELVES = 2 };
 /* Scenes of one folder. */
 typedef struct CardShelf {
     SceneList list;
-    char folder[1024]; /* of the scenes; "": those that come with slosh */
-    char cache[1024];  /* of their pictures; "": there can be none */
-    bool made;         /* the other process was there, or is */
+    char folder[1024]; /* of the scenes; "": the scenes that come with slosh */
+    char cache[1024];  /* folder of their pictures; "": no pictures possible */
+    bool made;         /* true once the second process was started */
 } CardShelf;
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct SceneCards {
     int count;
-    SceneCard *cards; /* owned; of all shelves */
+    SceneCard *cards; /* owned; cards of all shelves */
     int shelf_count;
     CardShelf shelves[CARD_SHELVES];
-    pid_t maker;      /* 0: none */
+    pid_t maker;      /* the second process; 0: none */
     double looked_ms; /* wall time of the last look for new pictures */
 } SceneCards;
 
-/* The scenes beside the open one, and those that come with slosh. False with the reason why there are no
-   pictures, or no list; cards_close in any case. Needs the context, as the next two. */
+/* Lists the scenes beside the open scene, and the scenes that come with slosh. Returns false with the
+   reason if there are no pictures or no list; call cards_close in any case. All three functions need a
+   current GL context. */
 bool cards_open(SceneCards *cards, const char *scene, Error *error);
 
-/* Whether pictures have come since the last call. */
+/* Returns true if pictures have arrived since the last call. */
 bool cards_follow(SceneCards *cards);
 
 void cards_close(SceneCards *cards);

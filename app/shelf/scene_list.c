@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where a sentence ends in the `length` bytes: behind a full stop with a space or nothing after it. */
+/* Returns the end of a sentence within `length` bytes: after a full stop followed by a space, or `length`. */
 static size_t sentence_end(const char *text, size_t length)
 {
     for (size_t i = 0; i + 1 < length; i++)
@@ -55,7 +55,7 @@ static void read_words(SceneRow *row)
     free(text);
 }
 
-/* False where the path is too long. */
+/* Returns false if the path is too long. */
 static bool fill_row(SceneRow *row, const char *folder, const char *file)
 {
     const int length = snprintf(row->path, sizeof row->path, "%s/%s", folder, file);

@@ -1,4 +1,4 @@
-/* The scenes of a folder as people choose from them: name, title, and what each shows. */
+/* The scenes of a folder for choosing: name, title and idea. */
 #ifndef SLOSH_SCENE_LIST_H
 #define SLOSH_SCENE_LIST_H
 
@@ -6,23 +6,23 @@
 #include "sim/base/error.h"
 
 typedef struct SceneRow {
-    char name[64]; /* of the file, without .yaml */
+    char name[64]; /* file name without .yaml */
     char path[SCENE_PATH_SIZE];
-    char title[128]; /* its key `title`; of a file without one the name */
-    char idea[256];  /* first sentence of the comment that the file begins with; "": none */
+    char title[128]; /* key `title`; without title the name */
+    char idea[256];  /* first sentence of the file's head comment; "": none */
 } SceneRow;
 
 typedef struct SceneList {
     int count;
-    SceneRow *rows; /* owned; in the order of their names */
+    SceneRow *rows; /* owned; ordered by name */
 } SceneList;
 
-/* `folder` NULL: the scenes that come with slosh. A file that is no YAML is in the list too: opening it says
-   why. False with the reason: no such folder, no memory, no scene in it. */
+/* Lists the scenes of a folder; NULL: the scenes that come with slosh. Broken YAML files are listed too:
+   opening the file shows the error. Returns false with the reason: no such folder, no memory, no scene. */
 bool scene_list_read(const char *folder, SceneList *list, Error *error);
 void scene_list_free(SceneList *list); /* a zeroed one is allowed */
 
-/* The first sentence of the comment at the start of a scene's text; "" without one. Pure. */
+/* Extracts the first sentence of the head comment of a scene's text; "" without comment. Pure function. */
 void scene_idea(const char *text, size_t size, char idea[256]);
 
 #endif

@@ -10,11 +10,11 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A second of one processor for most scenes: a list of thirty is made in half a minute. */
+/* About a second on one processor for most scenes: thirty thumbnails take half a minute. */
 static const double WORK_MOST = 2e6; /* particles times steps */
 enum { STEPS_MOST = 400, PARTICLES_3D = 4000, PARTICLES_2D = 1500 };
 
-/* When a scene shows what it is: falling fluid is under way then, and an emitter has filled something. */
+/* Time of the picture, s: falling fluid is moving; with an emitter, later, so that some fluid is there. */
 static const double TIME_S = 0.6, TIME_FILLED_S = 2;
 
 static bool has_emitter(const WorldDef *def)
@@ -25,7 +25,7 @@ static bool has_emitter(const WorldDef *def)
     return false;
 }
 
-/* As its file says, but for fewer particles where it has many, and without a legend, which would fill a small
+/* Loads the scene with fewer particles if it has many, and without the legend, too large for a small
    picture. */
 static bool load(const char *path, Scene *scene, Error *error)
 {

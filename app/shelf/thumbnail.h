@@ -1,4 +1,4 @@
-/* Small pictures of scenes, that lists of them show. */
+/* Thumbnails: small pictures of scenes, for lists. */
 #ifndef SLOSH_THUMBNAIL_H
 #define SLOSH_THUMBNAIL_H
 
@@ -10,15 +10,14 @@
 
 enum { THUMBNAIL_WIDTH = 256, THUMBNAIL_HEIGHT = 144 };
 
-/* Simulates the scene with few particles for a moment, and draws it by its own view, in the context that is
-   current. The image is owned by the caller. False with the reason: the scene is wrong, or it cannot run
-   here. */
+/* Simulates the scene briefly with few particles, and draws its own view in the current context. The
+   caller owns the image. Returns false with the reason: the scene is wrong, or cannot run here. */
 bool thumbnail_make(const char *path, Headless *context, Image *image, Error *error);
 
-/* The file of the scene `name` in a folder of thumbnails; false where that is too long. */
+/* Makes the path of scene `name` in a folder of thumbnails; returns false if too long. */
 bool thumbnail_path(const char *folder, const char *name, char path[1024]);
 
-/* Whether that file is there and is younger than the scene and the program that makes it. */
+/* True if the thumbnail exists and is newer than the scene and the program. */
 bool thumbnail_is_new(const char *thumbnail, const char *scene);
 
 #endif
