@@ -11,16 +11,16 @@ static const double STALL_MS = 250, PICTURE_S = 1.0 / 60;
 
 struct Player {
     Reel *reel;
-    Recorded known; /* without its reader: what the file has */
+    Recorded known; /* facts of the file, without its reader */
     ReelStatus status;
-    double time;    /* of the file, that is to be shown, s */
-    double asked;   /* of the last reel_seek */
-    double last_ms; /* wall time of the last work; less than 0: none */
+    double time;    /* time to show, s */
+    double asked;   /* time of the last reel_seek */
+    double last_ms; /* wall time of the last player_work; less than 0: none */
     double speed, played_s;
     bool paused, loop, wants;
-    int steps; /* that wait */
+    int steps; /* waiting steps */
     unsigned failures;
-    char told[sizeof(Error)]; /* the last of them */
+    char told[sizeof(Error)]; /* the last reported failure */
     bool told_replaced;
     char message[1024]; /* of the last failure */
 };
@@ -68,7 +68,7 @@ static bool at_end(const Player *player)
     return player->time >= player->status.last;
 }
 
-/* Whether it would begin anew, at the end. */
+/* True if playing restarts at the end. */
 static bool loops(const Player *player)
 {
     return player->loop && player->status.last > player->status.first;
@@ -88,7 +88,7 @@ static void flow(Player *player, double seconds)
         player->time = player->status.last;
 }
 
-/* To the neighbour of the step that is shown, once it is. */
+/* Moves to the neighbour of the shown step, as soon as that step is shown. */
 static void walk(Player *player)
 {
     const ReelStatus *status = &player->status;
@@ -99,7 +99,7 @@ static void walk(Player *player)
     player->time = next;
 }
 
-/* Whether another step than the shown one may be wanted. */
+/* True if a step other than the shown one may be needed. */
 static bool leaves_step(const Player *player)
 {
     const ReelStatus *status = &player->status;
@@ -108,7 +108,7 @@ static bool leaves_step(const Player *player)
            (!last && player->time >= status->after);
 }
 
-/* Steps are read ahead where each of them is shown: at a greater speed nobody knows which will be wanted. */
+/* Steps are read ahead if each step is shown: at a higher speed the next step is unknown. */
 static double lead_of(const Player *player)
 {
     const double gap = player->status.after - player->status.time;
@@ -168,7 +168,7 @@ double player_work(Player *player, double now_ms)
     seek(player);
     if (player->paused || player->steps != 0 || (at_end(player) && !loops(player)))
         return INFINITY;
-    if (!player->status.answered) /* the thread wakes; time goes on meanwhile */
+    if (!player->status.answered) /* the thread wakes the window; time goes on meanwhile */
         return STALL_MS;
     const double left = 1e3 * (player->status.after - player->time) / player->speed;
     return fmin(fmax(left, 1), STALL_MS);
@@ -212,7 +212,7 @@ void player_step(Player *player, int steps, bool held)
         player->steps += steps;
 }
 
-/* ---- what is there ---- */
+/* ---- status ---- */
 
 void player_status(const Player *player, PlayerStatus *status)
 {

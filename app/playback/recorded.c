@@ -15,7 +15,7 @@ bool recorded_is_file(const char *path)
     return length > end && strcasecmp(path + length - end, ending) == 0;
 }
 
-/* ---- what the file has ---- */
+/* ---- contents of the file ---- */
 
 static void tell_lacks(const char *path, const SnapshotStep *step, Notes *notes)
 {
@@ -76,7 +76,8 @@ static bool sets_views(const SceneSettings *settings)
     return sets;
 }
 
-/* Beside a run nothing is simulated; and what stood beside it when it was simulated is not in the file. */
+/* Removes views beside the scene: nothing is simulated beside a recorded run, and files shown beside the
+   run when it was recorded are not part of the file. */
 static void drop_beside(Recorded *recorded, const SceneSettings *settings, Notes *notes)
 {
     const bool said = sets_views(settings);
@@ -137,7 +138,7 @@ bool recorded_time(Recorded *recorded, size_t index, double *time, Error *error)
     return snapshot_read_time(recorded->reader, index, time, error);
 }
 
-/* What rounding does to a time, s. */
+/* Rounding error of a time, s. */
 static double slack(double time)
 {
     return 1e-9 * fmax(fabs(time), 1);
@@ -155,7 +156,7 @@ bool recorded_find_after(Recorded *recorded, double time, size_t *index, Error *
 bool recorded_find(Recorded *recorded, double time, size_t *index, Error *error)
 {
     const double latest = time + slack(time);
-    size_t low = 0, high = recorded->steps; /* the step is one of low .. high - 1 */
+    size_t low = 0, high = recorded->steps; /* the step is in low .. high - 1 */
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         double at;
@@ -185,7 +186,7 @@ static void describe(const Recorded *recorded, const SnapshotStep *step, Particl
     memcpy(out->gravity, step->gravity, sizeof out->gravity);
 }
 
-/* A field that only some steps lack would be 0 in these. */
+/* Fails if the step lacks attributes of the first step: they would be 0. */
 static bool is_like_first(const Recorded *recorded, const SnapshotStep *step, size_t index, Error *error)
 {
     return (recorded->attributes & ~snapshot_attributes(step)) == 0 ||

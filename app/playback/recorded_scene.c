@@ -13,7 +13,7 @@
 
 /* ---- settings of the command line ---- */
 
-/* As "view.radius=1", "views=[{}, {kind: slice}]" and "views[1].radius=1" are. */
+/* True for settings such as "view.radius=1", "views=[{}, {kind: slice}]" and "views[1].radius=1". */
 static bool is_of_view(const char *setting)
 {
     return strncmp(setting, "view.", strlen("view.")) == 0 ||
@@ -40,7 +40,7 @@ static bool check_settings(const char *path, const SceneSettings *settings, Erro
 
 /* ---- settings of the file ---- */
 
-/* What could not be taken over. */
+/* Settings of the file that could not be used. */
 typedef struct Strange {
     int count;
     char first[64]; /* a key */
@@ -52,7 +52,8 @@ static void add_strange(Strange *strange, const char *key)
         snprintf(strange->first, sizeof strange->first, "%.60s", key);
 }
 
-/* As YAML: a text in quotes, since it may look like anything; others as they are, without their unit. */
+/* Prints a setting as YAML: text in quotes, as it may contain anything; other values unchanged, without
+   unit. */
 static bool print_setting(const Key *key, const char *path, const char *value, char *setting, size_t size)
 {
     const size_t length = strlen(value), unit = strlen(key->unit);
@@ -72,7 +73,7 @@ static bool print_setting(const Key *key, const char *path, const char *value, c
     return fclose(file) == 0 && strlen(setting) + 1 < size;
 }
 
-/* A colour is written with three digits, which those of the defaults may exceed. */
+/* True for a default colour: colours are written with three digits, and defaults may have more. */
 static bool is_default_color(const Key *key, const char *value)
 {
     Scene scene;
@@ -84,7 +85,7 @@ static bool is_default_color(const Key *key, const char *value)
     return strcmp(own, value) == 0;
 }
 
-/* One line, "key = value unit". */
+/* Adds one line, "key = value unit". */
 static void add_line(Tree *tree, char *line, Strange *strange)
 {
     enum { SETTING_SIZE = 4096 };
@@ -120,7 +121,7 @@ __attribute__((format(printf, 3, 4))) static bool set(Tree *tree, Error *error, 
     return tree_set(tree, setting, "", error);
 }
 
-/* What no scene is without; two numbers make a box of two dimensions. */
+/* Adds the numbers required by every scene; a box of two numbers makes a two-dimensional scene. */
 static bool add_numbers(Tree *tree, const SnapshotScene *numbers, Error *error)
 {
     const double *box = numbers->box_size;
@@ -134,7 +135,7 @@ static bool add_numbers(Tree *tree, const SnapshotScene *numbers, Error *error)
     return ok;
 }
 
-/* Where the settings say nothing of fluids; no scene is without a place for each. */
+/* Adds a fill per fluid, required by every scene, if the file has no settings. */
 static bool add_fills(Tree *tree, const SnapshotScene *numbers, Error *error)
 {
     const double *box = numbers->box_size;
@@ -145,8 +146,8 @@ static bool add_fills(Tree *tree, const SnapshotScene *numbers, Error *error)
     return ok;
 }
 
-/* The YAML of a scene: of the file's settings, or without them of what it says besides. The caller frees it;
-   NULL with the reason. */
+/* Returns the YAML of a scene, from the file's settings, or from its attributes without settings. The
+   caller frees the text. Returns NULL with the reason. */
 static char *print_yaml(const char *path, char *settings, const SnapshotScene *numbers, Strange *strange,
                         Error *error)
 {
@@ -170,7 +171,7 @@ static char *print_yaml(const char *path, char *settings, const SnapshotScene *n
     return NULL;
 }
 
-/* To the bit. */
+/* Copies numbers with all bits. */
 static void take_numbers(const SnapshotReader *reader, const SnapshotScene *numbers, Scene *scene)
 {
     WorldDef *def = &scene->world;
@@ -184,7 +185,8 @@ static void take_numbers(const SnapshotReader *reader, const SnapshotScene *numb
             def->fluids[i].color[k] = (float)srgb_to_linear(colors[i][k]);
 }
 
-/* With the file's settings, if `with_settings`; false also where they are no scene. */
+/* Reads the scene, with the file's settings if `with_settings`. Returns false also if the settings are no
+   valid scene. */
 static bool read_scene(const SnapshotReader *reader, const char *path, bool with_settings,
                        const SceneSettings *settings, const SnapshotScene *numbers, Scene *scene,
                        Notes *notes, Strange *strange, Error *error)
@@ -210,8 +212,8 @@ static void tell_strange(const char *path, const Strange *strange, Notes *notes)
                   path, strange->count, strange->count == 1 ? "is" : "are", strange->first);
 }
 
-/* Which of the two is wrong, what the command line sets or what the file says, is found by leaving out the
-   first. */
+/* On failure, retries without the command line's settings, to find out if the command line or the file is
+   wrong. */
 static bool build(const SnapshotReader *reader, const char *path, const SceneSettings *settings,
                   const SnapshotScene *numbers, Scene *scene, Notes *notes, Error *error)
 {

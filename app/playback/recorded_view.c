@@ -1,4 +1,4 @@
-/* Which views a recorded file has enough for. */
+/* Checks which views a recorded file has enough attributes for. */
 #include "app/playback/recorded.h"
 #include "render/derived/derived.h"
 #include "render/frame/overlay.h"
@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- what a part of a view needs and the file lacks: PARTICLE_* ---- */
+/* ---- attributes (PARTICLE_*) needed by a part of a view but missing in the file ---- */
 
-/* Births that a file says need no ids to be found by. */
+/* If the file has times of birth, ids are not needed to find them. */
 static unsigned lacks_scalar(const Recorded *recorded, Scalar scalar)
 {
     const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
@@ -21,7 +21,7 @@ static unsigned lacks_color(const Recorded *recorded, const ViewDef *view)
     return strcmp(view->kind, "none") == 0 ? 0 : lacks_scalar(recorded, view_color_by(view));
 }
 
-/* Screen-doors go by ids. */
+/* Screen-door transparency needs ids. */
 static unsigned lacks_opacity(const Recorded *recorded, const ViewDef *view)
 {
     return view->opacity.by == 0 ? 0
@@ -81,7 +81,7 @@ static bool no_color(const Recorded *recorded, Scalar scalar, Error *error)
                      scalar_name(scalar), known);
 }
 
-/* ---- for all ---- */
+/* ---- whole view ---- */
 
 bool recorded_has(const Recorded *recorded, const ViewDef *view, Error *error)
 {

@@ -10,13 +10,13 @@
 #include <sys/stat.h>
 #include <time.h>
 
-static const double FOLLOW_MS = 500; /* from look to look whether the file has grown */
+static const double FOLLOW_MS = 500; /* interval of checks if the file has grown */
 
-/* A step that was read. */
+/* A step in memory. */
 typedef struct Kept {
     bool is;
     size_t index;
-    double before, after; /* times of its neighbours */
+    double before, after; /* times of the neighbour steps */
     Still still;
 } Kept;
 
@@ -27,23 +27,23 @@ struct Reel {
     void (*wake)(void);
 
     pthread_t thread;
-    pthread_mutex_t mutex; /* of all down to the next blank line */
+    pthread_mutex_t mutex; /* guards all members down to the next blank line */
     pthread_cond_t wanted, done;
     double time, lead;
     unsigned asked, answered; /* counts of reel_seek */
-    size_t room, needs;       /* particles: of the upload; of the step that is wanted, where these are more */
+    size_t room, needs;       /* particles: capacity of the upload; size of the requested step if larger */
     bool quit;
     ReelStatus status;
     SnapshotFlaws flaws; /* a copy */
 
-    Upload *upload;    /* written by the thread, replaced while that waits for room */
-    Upload *before;    /* the one that was replaced, until the new one has a state; or NULL */
-    Recorded recorded; /* of the thread */
-    struct stat file;  /* of its name when it was opened */
+    Upload *upload;    /* written by the thread; replaced while the thread waits for room */
+    Upload *before;    /* the replaced upload, until the new upload has a state; or NULL */
+    Recorded recorded; /* used by the thread only */
+    struct stat file;  /* status of the file when opened */
     Kept kept[REEL_KEPT_MOST];
     size_t kept_most;
-    size_t shown;       /* index in the file, SIZE_MAX: none */
-    double followed_ms; /* wall time of the last look whether the file has grown */
+    size_t shown;       /* step index in the file; SIZE_MAX: none */
+    double followed_ms; /* wall time of the last check if the file has grown */
 };
 
 /* ---- steps ---- */
@@ -69,14 +69,15 @@ static Kept *find_kept(Reel *reel, size_t index)
     return NULL;
 }
 
-/* How little a kept step is needed: behind, seen along `lead`, less than ahead, and far less than near. */
+/* Rank of a kept step for removal: steps behind, seen along `lead`, before steps ahead; far steps before
+   near steps. */
 static double uselessness(const Kept *kept, size_t index, double lead)
 {
     const double ahead = (lead < 0 ? -1 : 1) * ((double)kept->index - (double)index);
     return ahead < 0 ? 1e18 - ahead : ahead;
 }
 
-/* The place for one more: a free one, or of the step that is needed least by who stands at `index`. */
+/* Returns a place for one more step: free, or with the least useful step for a reader at `index`. */
 static Kept *place_for(Reel *reel, size_t index, double lead)
 {
     Kept *worst = &reel->kept[0];
@@ -99,7 +100,7 @@ static bool read_neighbours(Reel *reel, Kept *kept, Error *error)
             recorded_time(recorded, kept->index + 1, &kept->after, error));
 }
 
-/* As many as fit where all are as large as that one, which stays. */
+/* Reduces the kept steps to as many as fit if all are as large as `kept`, which stays. */
 static Kept *keep_fewer(Reel *reel, Kept *kept)
 {
     const size_t most = clamp(reel->bytes / step_bytes(&kept->still), REEL_KEPT_LEAST, reel->kept_most);
@@ -126,7 +127,7 @@ static Kept *read_into(Reel *reel, Kept *kept, size_t index, Error *error)
 
 /* ---- the thread ---- */
 
-/* With the mutex: waits until a step is wanted, for a while. */
+/* Waits, for a limited time, until a step is requested. Call with the mutex locked. */
 static void wait_for_work(Reel *reel)
 {
     struct timespec until;
@@ -146,7 +147,7 @@ static void tell(Reel *reel)
         reel->wake();
 }
 
-/* Into the upload, once it has the room; false: all ends. */
+/* Writes a step into the upload, after waiting for room. Returns false to end the thread. */
 static bool show(Reel *reel, const Kept *kept, Error *error)
 {
     const size_t count = kept->still.state.count;
@@ -164,7 +165,8 @@ static bool show(Reel *reel, const Kept *kept, Error *error)
     return upload_arrays(reel->upload, &kept->still.arrays, &kept->still.state, error);
 }
 
-/* Of the status, with the mutex: where in the file the wish led, whether or not the step can be shown. */
+/* Updates the status, with the mutex locked: the requested place in the file, even if the step cannot be
+   shown. */
 static void describe(Reel *reel, const Kept *kept)
 {
     ReelStatus *status = &reel->status;
@@ -187,8 +189,8 @@ static bool find(Reel *reel, double time, size_t *index, Error *error)
     return (reel->at_or_after ? recorded_find_after : recorded_find)(&reel->recorded, time, index, error);
 }
 
-/* What was asked for last; `place`: where in the file that is. False with the reason, and `place` as far as
-   it is known. */
+/* Shows the last requested step; `place` gets its place in the file. Returns false with the reason, and
+   `place` as far as known. */
 static bool show_asked(Reel *reel, double time, double lead, Kept *place, bool *read, Error *error)
 {
     if (!find(reel, time, &place->index, error))
@@ -238,7 +240,7 @@ static bool is_asked(Reel *reel)
     return asked;
 }
 
-/* The next step of those that will be wanted that is not kept; false: all are that there is room for. */
+/* Finds the next step to read ahead; returns false if all steps with room are kept. */
 static bool find_next(Reel *reel, double time, double lead, size_t *index)
 {
     Error none = {{0}};
@@ -251,8 +253,8 @@ static bool find_next(Reel *reel, double time, double lead, size_t *index)
     return false;
 }
 
-/* One step; what cannot be read is said when it is wanted. False: there is none, or others are needed more.
- */
+/* Reads one step ahead; errors are reported when the step is requested. Returns false if there is no step
+   to read, or kept steps are more useful. */
 static bool read_ahead(Reel *reel, double time, double lead)
 {
     Error none = {{0}};
@@ -270,7 +272,7 @@ static bool read_ahead(Reel *reel, double time, double lead)
     return read;
 }
 
-/* Another run has its name: what was opened is shown on. */
+/* Notices a new file of the same name; the opened file is still shown. */
 static void look_for_another(Reel *reel)
 {
     struct stat now;
@@ -284,7 +286,7 @@ static void look_for_another(Reel *reel)
     pthread_mutex_unlock(&reel->mutex);
 }
 
-/* A run may go on writing it. What cannot be read now may be later. */
+/* Checks if the file has grown, as a run may still be writing. Read errors may vanish later. */
 static void follow(Reel *reel)
 {
     Error none = {{0}};
@@ -297,7 +299,7 @@ static void follow(Reel *reel)
         return;
     pthread_mutex_lock(&reel->mutex);
     describe_file(reel);
-    reel->asked++; /* what is shown now has a neighbour, and may not be the newest any more */
+    reel->asked++; /* the shown step has a new neighbour, and may not be the newest */
     tell(reel);
     pthread_mutex_unlock(&reel->mutex);
 }
@@ -305,7 +307,7 @@ static void follow(Reel *reel)
 static void *work(void *user)
 {
     Reel *reel = user;
-    bool more = false; /* to read ahead */
+    bool more = false; /* true: more steps to read ahead */
     hdf5_listen();
     for (;;) {
         pthread_mutex_lock(&reel->mutex);
@@ -324,7 +326,7 @@ static void *work(void *user)
     }
 }
 
-/* ---- for the thread of the context ---- */
+/* ---- functions of the context's thread ---- */
 
 static bool make_upload(Reel *reel, size_t room, Error *error)
 {
@@ -332,7 +334,7 @@ static bool make_upload(Reel *reel, size_t room, Error *error)
     if (!upload)
         return false;
     if (reel->before)
-        upload_destroy(reel->upload); /* nothing came of it */
+        upload_destroy(reel->upload); /* never got a state */
     else
         reel->before = reel->upload;
     reel->upload = upload;
@@ -357,7 +359,7 @@ Reel *reel_create(const ReelSetup *setup, Error *error)
     reel->followed_ms = wall_ms();
     reel->recorded = *setup->recorded;
     if (stat(reel->recorded.path, &reel->file) != 0)
-        reel->status.replaced = true; /* it is gone already: nothing can be said of another */
+        reel->status.replaced = true; /* already gone: a replacement cannot be recognised */
     describe_file(reel);
     pthread_mutex_init(&reel->mutex, NULL);
     pthread_cond_init(&reel->wanted, NULL);
@@ -406,8 +408,8 @@ void reel_seek(Reel *reel, double time, double lead)
     pthread_mutex_unlock(&reel->mutex);
 }
 
-/* With the mutex: what the step that is wanted needs, and a fourth more, since the next may be larger still.
- */
+/* Makes room for the requested step plus a quarter, as the next step may be larger. Call with the mutex
+   locked. */
 static bool make_room(Reel *reel, Error *error)
 {
     if (reel->needs <= reel->room)

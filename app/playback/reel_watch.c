@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The step that was sought, where overlays have not seen it. */
+/* Shows the seer the requested step, unless seen before. */
 static bool watch_step(ReelWatch *watch, Reel *reel, double least, const ReelSeer *seer, ReelStatus *status,
                        Error *error)
 {
@@ -32,11 +32,11 @@ bool reel_watch(ReelWatch *watch, Reel *reel, double time, const ReelSeer *seer,
         if (!watch_step(watch, reel, least, seer, status, error))
             return false;
         if (status->after <= status->time)
-            break; /* the file's last */
+            break; /* the file's last step */
         lead = status->after - status->time;
         const double next = fmax(status->after, watch->watched + 0.999 * watch->every);
         if (!(next > at))
-            break; /* a step whose time cannot be read */
+            break; /* the step's time cannot be read */
         at = next;
     }
     return true;
