@@ -61,7 +61,7 @@ bool beside_settings(const SceneSettings *base, const ViewDef *view, int entry, 
     return true;
 }
 
-/* Columns of a method; births are known by ids. */
+/* Scalars depending on the method's columns; births come from ids. */
 enum { OWN_SCALARS = (PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1) & ~PARTICLE_SCALAR(SCALAR_BORN) };
 
 unsigned beside_simulated_attributes(const WorldDef *def)
@@ -87,7 +87,7 @@ bool beside_simulated_has(const WorldDef *def, const ViewDef *view, Error *error
     could.acceleration = world_can(&could, error);
     const unsigned lacks = reads & ~columns_scalars(&could);
     if (lacks && !beside)
-        return false; /* as world_can says */
+        return false; /* the error of world_can */
     return lacks == 0 || error_set(error, "method %s keeps no such scalar", could.method);
 }
 
@@ -97,7 +97,8 @@ static bool blame(int entry, Error *error)
     return error_set(error, "views[%d].file: %s", entry, why.message);
 }
 
-/* As --set names files, and means those of the scene. */
+/* True if only the name relative to the working directory exists, as in --set; scene files mean a name
+   beside the scene. */
 static bool is_elsewhere(const char *path, const char *name)
 {
     return strcmp(path, name) != 0 && access(path, F_OK) != 0 && access(name, F_OK) == 0;

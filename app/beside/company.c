@@ -14,24 +14,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const size_t KEPT_BYTES = 256U << 20; /* of a run's steps in memory */
+static const size_t KEPT_BYTES = 256U << 20; /* for steps of a run in memory */
 
-/* One of them. */
+/* One companion. */
 typedef struct Member {
-    ViewDef view; /* says what it is */
+    ViewDef view; /* identifies the companion */
     char words[BESIDE_WORDS];
-    Scene scene; /* with its settings, or as the file has it */
+    Scene scene; /* with the view's settings, or from the file */
     Recording recording;
     Upload *upload;
     Simulator *simulator;
-    Recorded recorded; /* with its reader until the start */
+    Recorded recorded; /* with its reader until company_start */
     Reel *reel;
     ReelStatus at;
     double asked, lead; /* of the reel, s */
     ParticleBuffers state;
     bool taken;
-    unsigned messages; /* that were told */
-    bool failed;       /* the reel's last step, or the simulation; told */
+    unsigned messages; /* count of reported messages */
+    bool failed;       /* the reel's last step or the simulation failed; reported */
 } Member;
 
 static const ParticleBuffers NO_PARTICLES = {.box = {.orientation = {0, 0, 0, 1}}};
@@ -85,7 +85,7 @@ static Member *find(const Company *company, const ViewDef *view)
     return NULL;
 }
 
-/* Each for itself fits, as the loader has seen. */
+/* Checks the memory for all companions together; the loader has checked each alone. */
 static bool fit_together(const Company *company, const Scene *scene, Error *error)
 {
     const WorldDef *def = &scene->world;
@@ -137,7 +137,7 @@ WorldDef *company_world_def(Company *company, int index)
 
 static bool start_run(Member *member, const SimulatorSetup *how, Error *error)
 {
-    Recorded taken = member->recorded; /* what the file has is asked for later */
+    Recorded taken = member->recorded; /* the facts of the file are needed later */
     const ReelSetup setup = {
         .recorded = &taken, .attributes = ~0U, .bytes = KEPT_BYTES, .at_or_after = true, .wake = how->wake};
     member->asked = NAN;
@@ -198,7 +198,7 @@ void company_destroy(Company *company)
 
 /* ---- while it runs ---- */
 
-/* Whether a view has that setting for itself. */
+/* True if the view overrides the setting. */
 static bool has_own(const Member *member, const char *setting)
 {
     const size_t length = strcspn(setting, "=");
@@ -217,7 +217,7 @@ void company_send(Company *company, const SimCommand *command)
     }
 }
 
-/* Once: what it cannot keep it says itself. */
+/* Sends the command once; the simulator itself reports if accelerations are impossible. */
 void company_want(Company *company, const ViewDef *view)
 {
     const SimCommand command = {.kind = SIM_SET, .setting = "solver.acceleration=true"};
@@ -244,7 +244,7 @@ bool company_fresh(Company *company)
     return fresh;
 }
 
-/* The next picture is taken to come as much later as this one did. */
+/* Takes a run's state. The next picture is expected after the same interval as this one. */
 static void take_run(Member *member, double time)
 {
     Error error = {{0}};
@@ -260,7 +260,7 @@ static void take_run(Member *member, double time)
     member->taken |= reel_take(member->reel, &member->state);
 }
 
-/* Without a world its buffers and births are gone. */
+/* Takes a simulated state. Without a world, its buffers and births are gone. */
 static void take_simulated(Member *member)
 {
     if (!simulator_on_gpu(member->simulator))
@@ -278,12 +278,12 @@ bool company_take(Company *company, double time)
             take_run(member, time);
         else
             take_simulated(member);
-        all &= member->taken || member->failed || member->at.failed; /* those are shown empty */
+        all &= member->taken || member->failed || member->at.failed; /* failed companions are shown empty */
     }
     return all;
 }
 
-/* ---- what is shown ---- */
+/* ---- contents ---- */
 
 const ParticleBuffers *company_state(const Company *company, const ViewDef *view)
 {

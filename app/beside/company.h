@@ -1,8 +1,7 @@
-/* What is shown beside the scene that is open in the window: recorded runs, and the scene with other
-   settings, which a simulator follows it with. All at the time of the scene's newest state: each shows its
-   first state at or after it.
+/* Companions of the window's scene: recorded runs, and the scene with other settings, run by a following
+   simulator. All show the time of the scene's newest state: each its first state at or after that time.
 
-   All functions are for the thread of the GL context but company_send. */
+   All functions except company_send belong to the thread of the GL context. */
 #ifndef SLOSH_COMPANY_H
 #define SLOSH_COMPANY_H
 
@@ -15,51 +14,53 @@
 typedef struct Company Company;
 
 typedef struct CompanySetup {
-    const Scene *scene; /* whose views say what; not needed afterwards */
-    const char *text;   /* of the scene's file; NULL: it is a recorded run, beside which none has settings */
+    const Scene *scene; /* with the views; not needed afterwards */
+    const char *text;   /* text of the scene's file; NULL: a recorded run, where views cannot have settings */
     size_t size;
     const SceneSettings *settings; /* of the command line; NULL: none */
 } CompanySetup;
 
-/* Reads all of it; starts nothing. *out is NULL where no view shows anything beside the scene. False with the
-   reason; what is to be said goes into `notes`. */
+/* Reads everything; starts nothing. *out is NULL if no view shows anything beside the scene. Returns false
+   with the reason; notes go into `notes`. */
 bool company_read(const CompanySetup *setup, Company **out, Notes *notes, Error *error);
 
-/* Starts it; the simulators to hand to the scene's own one as its followers are in company_followers.
-   `how`: its pause, wake and past. */
+/* company_start: starts the companions, with pause, wake and past of `how`. company_followers: fills in
+   the simulators that must follow the scene's simulator; returns their count. */
 bool company_start(Company *company, const SimulatorSetup *how, Error *error);
 int company_followers(const Company *company, Simulator *out[SIMULATOR_FOLLOWERS]);
 
-/* The worlds that are simulated, before the start: for what the machine decides. NULL behind the last. */
+/* Returns the definitions of the simulated worlds, before company_start, to set machine-dependent values.
+   NULL after the last. */
 WorldDef *company_world_def(Company *company, int index);
 
-/* After the simulator that they follow has ended; NULL is allowed. */
+/* Call after the end of the followed simulator; NULL is allowed. */
 void company_destroy(Company *company);
 
-/* To all that are simulated. A setting that a view has for itself does not reach it. */
+/* Sends a command to all simulated companions. Settings overridden by a view are skipped. */
 void company_send(Company *company, const SimCommand *command);
 
-/* From its next step on what the view shows keeps accelerations. */
+/* Makes the view's companion compute accelerations from its next step on. */
 void company_want(Company *company, const ViewDef *view);
 
-/* Whether there is a state that was not taken; takes what is there for the scene's state of that time. False
-   as long as one of them has no state at all, and has not failed: one that has is without particles. */
+/* company_fresh: true if there is a new state. company_take: takes the states for the scene's state at
+   `time`; returns false while a companion has no state at all and has not failed. A failed companion has
+   no particles. */
 bool company_fresh(Company *company);
 bool company_take(Company *company, double time);
 
-/* What a view shows; NULL: the scene itself. */
+/* State and world of a view; NULL: the scene's. */
 const ParticleBuffers *company_state(const Company *company, const ViewDef *view);
 const WorldDef *company_world(const Company *company, const ViewDef *view);
 
-/* Of a view that shows something beside the scene, into `facts`, with its name. */
+/* Fills in `facts`, with the name, for a view beside the scene. */
 void company_facts(const Company *company, const ViewDef *view, PanelFacts *facts);
 
-/* Whether what it shows has all that the view reads. */
+/* Returns true if the companion has all attributes read by the view. */
 bool company_has(const Company *company, const ViewDef *view, Error *error);
 
-bool company_reload(Company *company, Error *error); /* as of simulator_reload */
+bool company_reload(Company *company, Error *error); /* see simulator_reload */
 
-/* What one of them has to say, with its name; false: nothing new. */
+/* Fills in a new message of a companion, with its name; returns false if there is none. */
 bool company_message(Company *company, char words[1280]);
 
 #endif

@@ -1,4 +1,4 @@
-/* What pictures lack of what their views were asked for, said once behind them. */
+/* Attributes missing in pictures, reported once at the end. */
 #ifndef SLOSH_LACKS_H
 #define SLOSH_LACKS_H
 
@@ -8,21 +8,21 @@
 
 enum { LACKS_SIZE = 512 };
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct Lacks {
     int panels;
     size_t drawn; /* pictures */
     struct PanelLacks {
-        size_t pictures;        /* that lack something: */
-        double first;           /* time of the first of them, s */
-        char words[LACKS_SIZE]; /* what it lacks */
+        size_t pictures;        /* pictures with missing attributes */
+        double first;           /* time of the first such picture, s */
+        char words[LACKS_SIZE]; /* missing attributes */
     } of[PANELS_MAX];
 } Lacks;
 
-/* Behind a picture of these states. */
+/* Call after a picture of the given states. */
 void lacks_take(Lacks *lacks, const Panels *panels, const ParticleBuffers *const states[]);
 
-/* A line for each panel that lacks something; `output`: the name of the pictures. */
+/* Prints a line for each panel with missing attributes; `output`: name of the pictures. */
 void lacks_print(const Lacks *lacks, const char *output, FILE *file);
 
 #endif

@@ -4,10 +4,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What panels may differ in besides their names. */
+/* A property in which panels may differ. */
 typedef struct Figure {
-    const char *key;                                     /* that says it; "": none does */
-    void (*text)(const PanelFacts *facts, char out[64]); /* "": not known */
+    const char *key;                                     /* key setting the property; "": none */
+    void (*text)(const PanelFacts *facts, char out[64]); /* "": unknown */
 } Figure;
 
 static void count_text(const PanelFacts *facts, char out[64])
@@ -36,11 +36,11 @@ static void step_text(const PanelFacts *facts, char out[64])
         snprintf(out, 64, "steps by cfl");
 }
 
-/* The spacing stands beside a name that says it too: fills may have taken another. */
+/* The spacing is shown even if the name contains it: fills may have changed the value. */
 static const Figure figures[] = {
     {"", count_text}, {"", spacing_text}, {"solver.method", method_text}, {"", step_text}};
 
-/* Whether a line of them begins with the key. */
+/* True if one of the lines sets the key. */
 static bool says(const char *lines, const char *key)
 {
     const size_t length = strlen(key);
@@ -57,7 +57,7 @@ static void add(Title *title, const char *words)
         snprintf(title->figures + used, TITLE_SIZE - used, "%s%s", used ? ", " : "", words);
 }
 
-/* A file that has no state for the time, a solver that has none any more. */
+/* Notes a file without a state for the time, or a stopped solver. */
 static void add_end(Title *title, const PanelFacts *facts)
 {
     const double slack = 1e-9 * fmax(fabs(facts->wanted), 1);

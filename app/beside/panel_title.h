@@ -1,4 +1,4 @@
-/* What stands over panels that show different states: what each is, and in what it differs. */
+/* Titles of panels with different states: name and differences. */
 #ifndef SLOSH_PANEL_TITLE_H
 #define SLOSH_PANEL_TITLE_H
 
@@ -8,22 +8,22 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Of a panel. */
+/* Facts of a panel. */
 typedef struct PanelFacts {
     const char *words; /* its name; "": none */
-    const char *said;  /* lines "path=value": what the name says already */
+    const char *said;  /* lines "path=value": settings contained in the name */
     const WorldDef *def;
     size_t particles;
     double spacing;     /* m */
-    bool recorded;      /* a file says neither method nor step */
-    bool failed;        /* its simulation has stopped */
-    double time;        /* at that time, s */
-    double first, last; /* of a file: times of its first and last step, s */
-    double wanted;      /* of a file: the time that it is to show, s */
+    bool recorded;      /* from a file: method and step are unknown */
+    bool failed;        /* the simulation has stopped */
+    double time;        /* of the shown state, s */
+    double first, last; /* of a file: times of first and last step, s */
+    double wanted;      /* of a file: requested time, s */
 } PanelFacts;
 
-/* Of one of `count` panels: its name, and below it what differs between them; a file also says where its time
-   is not there. `unnamed`: stands for "" */
+/* Makes the title of one of `count` panels: its name, and below the differences between panels; for a file
+   also a note if its times do not reach the requested time. `unnamed`: replaces an empty name. */
 void panel_title(const PanelFacts facts[], int count, int panel, const char *unnamed, Title *title);
 
 #endif

@@ -5,9 +5,9 @@
 #include <math.h>
 #include <string.h>
 
-static const size_t KEPT_BYTES = 256U << 20; /* of a run's steps in memory */
+static const size_t KEPT_BYTES = 256U << 20; /* for steps of a run in memory */
 
-/* The place of the session or the run among the sources; a new one where it is not there yet. */
+/* Returns the index of the session or run among the sources; adds a source if it is new. */
 static int source_find(Shoot *shoot, const Session *session, Recorded *recorded)
 {
     int at = 0;
@@ -25,7 +25,7 @@ static int source_find(Shoot *shoot, const Session *session, Recorded *recorded)
     return at;
 }
 
-/* What a panel reads of its source. */
+/* Adds the needs of a view to its source. */
 static void source_serve(ShootSource *source, const ViewDef *view)
 {
     double before;
@@ -34,7 +34,7 @@ static void source_serve(ShootSource *source, const ViewDef *view)
     source->before_picture = fmax(source->before_picture, before);
 }
 
-/* What its scene says stays where it is, for the panels. */
+/* Opens the reel; the scene's data stays for the panels. */
 static bool reel_open(ShootSource *source, Error *error)
 {
     Recorded taken = *source->recorded;
@@ -46,7 +46,7 @@ static bool reel_open(ShootSource *source, Error *error)
     return source->reel != NULL;
 }
 
-/* Room for what the world may hold now. */
+/* Makes room for the world's present capacity. */
 static bool uploads_fit(ShootSource *source, Error *error)
 {
     WorldInfo info;
@@ -175,14 +175,14 @@ bool shoot_watch(Shoot *shoot, const Session *session, double time, Error *error
     if (!take_present(source, error))
         return false;
     source->watched = now;
-    source->taken = false; /* it was not drawn */
+    source->taken = false; /* not drawn */
     for (int i = 0; i < panels_count(shoot->panels); i++)
         if (&shoot->sources[shoot->source_of[i]] == source)
             panels_take(shoot->panels, i, &source->state);
     return true;
 }
 
-/* A run, for overlays. */
+/* A run watched for overlays. */
 typedef struct Watched {
     const Shoot *shoot;
     ShootSource *source;
@@ -195,7 +195,7 @@ static void see(void *user, const ParticleBuffers *particles)
     for (int i = 0; i < panels_count(shoot->panels); i++)
         if (&shoot->sources[shoot->source_of[i]] == watched->source)
             panels_take(shoot->panels, i, particles);
-    watched->source->taken = false; /* it was not drawn */
+    watched->source->taken = false; /* not drawn */
 }
 
 static bool watch_recorded(const Shoot *shoot, ShootSource *source, double time, Error *error)
@@ -207,8 +207,8 @@ static bool watch_recorded(const Shoot *shoot, ShootSource *source, double time,
     return reel_watch(watch, source->reel, time, &(ReelSeer){see, &watched}, &source->at, error);
 }
 
-/* The run's first step at or after that time, or its last one; the next picture comes as much later as this
-   one did. */
+/* Takes the run's first step at or after `time`, or its last step; the next picture is expected after the
+   same interval. */
 static bool take_recorded(const Shoot *shoot, ShootSource *source, double time, bool *fresh, Error *error)
 {
     const size_t shown = source->at.index;
@@ -226,7 +226,7 @@ static bool take_recorded(const Shoot *shoot, ShootSource *source, double time, 
            error_set(error, "%s: Step#%zu is not shown", source->recorded->path, source->at.index);
 }
 
-/* The state of a picture at that time. `fresh`: it is another one than in the picture before. */
+/* Takes the state of a picture at `time`. `fresh` is set if the state differs from the last picture's. */
 static bool take(const Shoot *shoot, ShootSource *source, double time, bool *fresh, Error *error)
 {
     const Session *session = source->session;
@@ -252,7 +252,7 @@ bool shoot_take(Shoot *shoot, double time, Error *error)
     return true;
 }
 
-/* Commands of a recorded session move, put and take out solids. */
+/* Updates solids: commands of a recorded session may move, add and remove solids. */
 static bool follow_solids(Shoot *shoot, int panel, Error *error)
 {
     const Session *session = shoot->sources[shoot->source_of[panel]].session;

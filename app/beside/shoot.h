@@ -1,5 +1,4 @@
-/* Pictures of one session or of several at a time, and of recorded runs beside them, each in the panels that
-   show it. */
+/* Pictures of one or several sessions at the same time, and of recorded runs, each in its panels. */
 #ifndef SLOSH_SHOOT_H
 #define SLOSH_SHOOT_H
 
@@ -11,76 +10,75 @@
 #include "render/panels.h"
 #include "render/particles/upload.h"
 
-/* What a panel shows, and how; all outlives the shoot. */
+/* Contents of a panel; all pointers must outlive the shoot. */
 typedef struct ShootPanel {
     const Session *session;
-    Recorded *recorded;   /* in place of a session; what reads it is taken over, the rest stays */
-    const Session *scene; /* at the time of whose state a run is shown; NULL: at the picture's */
+    Recorded *recorded;   /* instead of a session; its reader is taken over, the rest stays */
+    const Session *scene; /* session giving the time for a run; NULL: the picture's time */
     const ViewDef *view;
 } ShootPanel;
 
-/* One of the sessions or runs: its state on the GPU, for all panels that show it. */
+/* A session or run: its state on the GPU, for all its panels. */
 typedef struct ShootSource {
-    const Session *session; /* NULL: a run's */
+    const Session *session; /* NULL: a run */
     Recorded *recorded;
-    const Session *scene; /* of a run: as of ShootPanel */
+    const Session *scene; /* of a run: see ShootPanel */
     Reel *reel;
     ReelStatus at; /* in the last picture */
     ReelWatch reel_watch;
-    unsigned attributes; /* that its views read */
-    Upload *upload;      /* NULL: the world has its particles on the GPU */
-    size_t room;         /* of both: particles of the world, which a recorded session may raise */
+    unsigned attributes; /* read by its views */
+    Upload *upload;      /* NULL: the world's particles are on the GPU */
+    size_t room;         /* capacity of both, particles; a recorded session may raise the world's count */
     bool interpolates;
-    Upload *upload_between;       /* of what is between two states; NULL: none is asked for */
-    Still before, after, between; /* the state before the last step, and so on */
+    Upload *upload_between;       /* for interpolated states; NULL: no interpolation */
+    Still before, after, between; /* states before and after the last step, and the interpolated state */
     ParticleBuffers state;        /* in the last picture */
-    bool is_between, taken;       /* that state is between two; there is one */
-    double every, before_picture; /* how far apart states may be that overlays see, and how long before a
-                                     picture, s */
-    double watched;               /* the time of the last one, s */
+    bool is_between, taken;       /* the state is interpolated; there is a state */
+    double every, before_picture; /* interval of states for overlays, and for how long before a picture, s */
+    double watched;               /* time of the last state seen by overlays, s */
 } ShootSource;
 
 typedef struct Shoot {
     Panels *panels;
     int source_count;
     ShootSource sources[PANELS_MAX];
-    int source_of[PANELS_MAX]; /* of each panel; */
+    int source_of[PANELS_MAX]; /* per panel */
     ViewDef views[PANELS_MAX];
-    int solids[PANELS_MAX]; /* that it shows */
-    bool fresh;             /* a state is another one than in the last picture */
+    int solids[PANELS_MAX]; /* count of shown solids */
+    bool fresh;             /* a state has changed since the last picture */
     Lacks lacks;
     Image image; /* the last picture */
 } Shoot;
 
-/* For `count` panels, 1 to PANELS_MAX, in a picture of that size; in the current context. `interpolates`:
-   pictures of the states between two of a fixed step (app/session/between.h). On failure call shoot_close as
-   well. */
+/* Opens a shoot for `count` panels, 1 to PANELS_MAX, in pictures of the given size; in the current
+   context. `interpolates`: interpolate states within a fixed step (app/session/between.h). On failure call
+   shoot_close as well. */
 bool shoot_open(Shoot *shoot, const ShootPanel panels[], int count, bool interpolates, int width, int height,
                 Error *error);
 void shoot_close(Shoot *shoot); /* a zeroed one is allowed */
 
-/* To be called before each step of a session that may be the last one before the time of a picture. */
+/* Call before each step of a session that may be the last before the time of a picture. */
 bool shoot_keep(Shoot *shoot, const Session *session, Error *error);
 
-/* To be called before each step: overlays that follow particles see states between pictures too
-   (OverlayKind.every); `time` (s) is that of the next picture. */
+/* Call before each step: overlays following particles see states between pictures too (OverlayKind.every);
+   `time` (s): of the next picture. */
 bool shoot_watch(Shoot *shoot, const Session *session, double time, Error *error);
 
-/* Whether pictures of the session are interpolated. */
+/* True if pictures of the session are interpolated. */
 bool shoot_interpolates(const Shoot *shoot, const Session *session);
 
-/* Takes the states of the picture at `time` (s), then draws it into shoot->image: not anew where no state has
-   changed since the last one. */
+/* shoot_take: takes the states of the picture at `time` (s). shoot_draw: draws into shoot->image, unless
+   no state has changed since the last picture. */
 bool shoot_take(Shoot *shoot, double time, Error *error);
 bool shoot_draw(Shoot *shoot, Error *error);
 
-/* From the earliest to the latest state of the last picture, s; runs apart. */
+/* Returns the time between the earliest and the latest state of the last picture, s; runs are ignored. */
 double shoot_spread(const Shoot *shoot);
 
-/* Whether two panels of the last picture are the same below their titles, of which there is one a panel. */
+/* True if two panels of the last picture are equal below their titles, given one title per panel. */
 bool shoot_same(const Shoot *shoot, int a, int b, const Title titles[]);
 
-/* What stands in the panel's corner from the next picture on. */
+/* Sets the title in the panel's corner, from the next picture on. */
 bool shoot_set_title(Shoot *shoot, int panel, const Title *title, Error *error);
 
 #endif
