@@ -20,17 +20,17 @@
 #include <stdio.h>
 #include <string.h>
 
-static const size_t KEPT_BYTES = 256U << 20; /* of steps in memory */
+static const size_t KEPT_BYTES = 256U << 20; /* for steps in memory */
 
-/* A run that panels show: the file itself, and those beside it (`file` of a view). */
+/* A shown run: the file itself, or a run beside the file (`file` of a view). */
 typedef struct ShownRun {
-    char name[BESIDE_WORDS]; /* without its folder */
+    char name[BESIDE_WORDS]; /* without the folder */
     Recorded recorded;       /* with its reader until there is a reel */
     unsigned attributes;
     Reel *reel;
     ReelStatus at;
     ParticleBuffers state;
-    size_t drawn; /* the step in the last picture */
+    size_t drawn; /* step in the last picture */
     ReelWatch watch;
 } ShownRun;
 
@@ -38,18 +38,18 @@ typedef struct FileRender {
     const Args *args;
     Scene scene;
     Headless *context;
-    Panels *panels; /* one for each of the scene's views */
+    Panels *panels; /* per view of the scene */
     Lacks lacks;
     int run_count;
     ShownRun runs[PANELS_MAX + 1]; /* the file first */
-    int run_of[PANELS_MAX];        /* of each panel */
+    int run_of[PANELS_MAX];        /* index of each panel's run */
     Pictures *pictures;
     Image image;               /* the last picture */
     size_t particles, steps;   /* of the file */
-    double first, interval;    /* times of the pictures, s: first, first + interval, ... */
+    double first, interval;    /* picture times, s: first, first + interval, ... */
     size_t wanted, taken;      /* pictures */
-    double time;               /* of the step of the last picture, s */
-    double began_ms, first_ms; /* wall time of the start, of the first picture */
+    double time;               /* of the step in the last picture, s */
+    double began_ms, first_ms; /* wall time of the start and of the first picture */
 } FileRender;
 
 /* ---- the command line ---- */
@@ -78,7 +78,8 @@ static bool check_output(const Args *args, PicturesKind *kind, Error *error)
            error_set(error, "--frames makes no sense for one picture, %s", args->output);
 }
 
-/* One picture: at --time, or of the last step. More: from the first step to --time, or to the last. */
+/* A single picture: at --time, or of the last step. Several: from the first step to --time, or to the last
+   step. */
 static bool choose_times(FileRender *render, const Recorded *recorded, PicturesKind kind, Error *error)
 {
     const Args *args = render->args;
@@ -101,7 +102,7 @@ static bool choose_times(FileRender *render, const Recorded *recorded, PicturesK
                      recorded->last, (int)args->frames, last);
 }
 
-/* The run that the view shows: of a panel before, or one more. */
+/* Finds the view's run: the run of an earlier panel, or a new one. */
 static bool find_run(FileRender *render, int panel, Notes *notes, Error *error)
 {
     const ViewDef *view = scene_view(&render->scene, panel);
@@ -153,7 +154,8 @@ static bool understand(FileRender *render, PicturesKind *kind, Error *error)
 
 /* ---- pictures ---- */
 
-/* Those beside the file show their first step at or after its time. What their scenes say stays here. */
+/* Opens the reels. Runs beside the file show their first step at or after the file's time. The scenes'
+   data stays here. */
 static bool open_reels(FileRender *render, Error *error)
 {
     for (int i = 0; i < render->run_count; i++) {
@@ -204,12 +206,12 @@ static void close_all(FileRender *render)
     panels_destroy(render->panels);
     for (int i = 0; i < render->run_count; i++) {
         reel_destroy(render->runs[i].reel);
-        recorded_close(&render->runs[i].recorded); /* where the reel has not taken it over */
+        recorded_close(&render->runs[i].recorded); /* if not taken over by a reel */
     }
     headless_destroy(render->context);
 }
 
-/* A run, for overlays. */
+/* A run watched for overlays. */
 typedef struct Watched {
     FileRender *render;
     ShownRun *run;
@@ -222,10 +224,10 @@ static void see(void *user, const ParticleBuffers *particles)
     for (int i = 0; i < panels_count(render->panels); i++)
         if (&render->runs[render->run_of[i]] == watched->run)
             panels_take(render->panels, i, particles);
-    watched->run->drawn = SIZE_MAX; /* its buffers hold this step now */
+    watched->run->drawn = SIZE_MAX; /* the buffers now hold the seen step */
 }
 
-/* `fresh`: it shows another step than before. */
+/* Takes a run's state; `fresh` is set if the step has changed. */
 static bool take(FileRender *render, ShownRun *run, double time, bool *fresh, Error *error)
 {
     Watched watched = {render, run};
@@ -255,7 +257,7 @@ static PanelFacts facts_of(const ShownRun *run, bool own, double time)
                         .wanted = time};
 }
 
-/* Where there is more than one run. */
+/* Sets titles if there is more than one run. */
 static bool set_titles(const FileRender *render, Error *error)
 {
     const int count = panels_count(render->panels);
@@ -272,12 +274,12 @@ static bool set_titles(const FileRender *render, Error *error)
     return ok;
 }
 
-/* A step that serves two pictures is drawn once. */
+/* Draws a picture; a step used for two pictures is drawn once. */
 static bool draw(FileRender *render, double time, Error *error)
 {
     const ParticleBuffers *states[PANELS_MAX];
     bool fresh = false;
-    for (int i = 0; i < render->run_count; i++) /* the others at the time of the file's step */
+    for (int i = 0; i < render->run_count; i++) /* the runs beside use the time of the file's step */
         if (!take(render, &render->runs[i], i == 0 ? time : render->runs[0].at.time, &fresh, error))
             return false;
     if (!fresh)
@@ -295,7 +297,7 @@ static bool draw(FileRender *render, double time, Error *error)
     return true;
 }
 
-/* After a signal only a file that has no picture yet gets one. */
+/* After a signal, stops as soon as there is one picture. */
 static bool take_pictures(FileRender *render, Error *error)
 {
     Progress progress;
@@ -312,7 +314,7 @@ static bool take_pictures(FileRender *render, Error *error)
     return ok;
 }
 
-/* ---- what is said ---- */
+/* ---- report ---- */
 
 static json_t *summary(const FileRender *render)
 {

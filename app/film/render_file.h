@@ -6,7 +6,7 @@
 /* `slosh render FILE.h5part`: pictures of a recorded run. Returns the exit code. */
 int render_file(const Args *args);
 
-/* The same of a recorded session, which is simulated again: render_session.c. */
+/* `slosh render` of a recorded session, which is simulated again: render_session.c. Returns the exit code. */
 int render_session(const Args *args);
 
 #endif

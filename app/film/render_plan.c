@@ -9,13 +9,13 @@
 
 #include <string.h>
 
-/* Whether a key is of the view alone: then one world serves all its values. */
+/* True if a key belongs to the view: a single world then serves all values. */
 static bool of_view(const char *key)
 {
     return strncmp(key, "view.", strlen("view.")) == 0 || strncmp(key, "views", strlen("views")) == 0;
 }
 
-/* What went wrong with a setting, unless the message names it already. */
+/* Adds the setting's name to the error, unless the message has it. */
 static bool blame(const RenderPlan *plan, int setting, Error *error)
 {
     const Error what = *error;
@@ -24,7 +24,7 @@ static bool blame(const RenderPlan *plan, int setting, Error *error)
                : false;
 }
 
-/* `view`: an entry of `views`, whose own settings come on top; NULL: none. */
+/* Loads a setting. `view`: an entry of `views` with settings applied on top; NULL: none. */
 static bool load(const RenderPlan *plan, int setting, const ViewDef *view, int entry, Scene *scene,
                  Notes *notes, Error *error)
 {
@@ -43,7 +43,7 @@ static bool load(const RenderPlan *plan, int setting, const ViewDef *view, int e
            blame(plan, setting, error);
 }
 
-/* What holds for all settings once, the rest with the name of its setting. */
+/* Prints notes common to all settings once, the rest with the setting's name. */
 static void tell_notes(const RenderPlan *plan, const Notes notes[])
 {
     for (int i = 0; i < plan->setting_count; i++)
@@ -63,7 +63,7 @@ static bool sets(const char *setting, const char *key)
     return strncmp(setting, key, length) == 0 && setting[length] == '=';
 }
 
-/* Whether a view has that key for itself: its value comes on top. */
+/* True if the view overrides the key. */
 static bool has_own(const ViewDef *view, const char *key)
 {
     for (const char *line = view->set; *line; line += strcspn(line, "\n"), line += *line != 0)
@@ -72,7 +72,7 @@ static bool has_own(const ViewDef *view, const char *key)
     return false;
 }
 
-/* Whether a world of that view is the same with two settings. */
+/* True if a world of the view is the same with two settings. */
 static bool same_world(const RenderPlan *plan, const ViewDef *view, int a, int b)
 {
     const Args *args = plan->args;
@@ -91,8 +91,8 @@ static void append(char name[TITLE_SIZE], const char *words)
         snprintf(name + used, TITLE_SIZE - used, "%s%s", used ? ", " : "", words);
 }
 
-/* Of the setting, but for what the view has for itself, and of the view. `of_views`: with keys of the view.
- */
+/* Makes a panel's name: the setting without keys overridden by the view, then the view's settings.
+   `of_views`: include keys of the view. */
 static void name_panel(const RenderPlan *plan, int panel, bool of_views, char name[TITLE_SIZE])
 {
     const Args *args = plan->args;
@@ -115,7 +115,7 @@ void render_plan_name(const RenderPlan *plan, int panel, char name[TITLE_SIZE])
     name_panel(plan, panel, true, name);
 }
 
-/* The first panel before this one that shows the same states; the panel itself where there is none. */
+/* Returns the first earlier panel with the same states; the panel itself if there is none. */
 static int first_alike(const RenderPlan *plan, int panel)
 {
     for (int i = 0; i < panel; i++)
@@ -149,7 +149,7 @@ static bool add_world(RenderPlan *plan, int panel, Notes *notes, Error *error)
     return load(plan, setting, view, panel / plan->setting_count, &plan->own[panel], notes, error);
 }
 
-/* The states of a panel before it, which may lack what only this one reads. */
+/* Shares the states of an earlier panel; attributes read only by this panel may be missing. */
 static bool share(RenderPlan *plan, int panel, int first, Error *error)
 {
     const ViewDef *view = plan->views[panel];
@@ -173,7 +173,7 @@ static int find_leader(const RenderPlan *plan, int panel)
     return -1;
 }
 
-/* What each panel shows; what is new to be said goes into `notes`. */
+/* Finds the states of all panels; new notes go into `notes`. */
 static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
 {
     for (int i = 0; i < plan->panel_count; i++) {
@@ -189,7 +189,7 @@ static bool find_states(RenderPlan *plan, Notes notes[PANELS_MAX], Error *error)
     return true;
 }
 
-/* Settings beside one another, the views of each below one another. */
+/* Arranges settings side by side, the views of each in a column. */
 static bool lay_out(RenderPlan *plan, Error *error)
 {
     const int views = scene_view_count(&plan->scenes[0]);
@@ -210,7 +210,7 @@ static bool lay_out(RenderPlan *plan, Error *error)
     return true;
 }
 
-/* Each world for itself fits, as the loader has seen. */
+/* Checks the memory for all worlds together; the loader has checked each alone. */
 static bool fit_together(const RenderPlan *plan, Error *error)
 {
     double particles = 0;
@@ -225,7 +225,7 @@ static bool fit_together(const RenderPlan *plan, Error *error)
                      plan->world_count, particles);
 }
 
-/* The same twice would be a panel twice, or one that shows another value than its name says. */
+/* Rejects repeated keys and values: they would give equal panels, or panels with wrong names. */
 static bool check_sweeps(const Args *args, Error *error)
 {
     for (int i = 0; i < args->sweep_count; i++) {
@@ -242,7 +242,7 @@ static bool check_sweeps(const Args *args, Error *error)
     return true;
 }
 
-/* What the command line sets besides, where each panel has its own. */
+/* Reports settings of the command line overridden by --compare. */
 static void tell_idle(const Args *args)
 {
     const SceneSettings *settings = &args->settings;
@@ -259,14 +259,14 @@ static void tell_idle(const Args *args)
     }
 }
 
-/* What is to be said of panels beside the scene, and not of the scene. */
+/* Prints notes on panels beside the scene, unless also noted for the scene. */
 static void tell_own(const RenderPlan *plan, const Notes notes[], const Notes own[])
 {
     for (int i = 0; i < plan->panel_count; i++)
         for (int k = 0; k < own[i].count; k++) {
             char words[BESIDE_WORDS];
             beside_words(plan->views[i], words);
-            if (plan->file_of[i] >= 0) /* it names its file */
+            if (plan->file_of[i] >= 0) /* the note names the file */
                 fprintf(stderr, "%s\n", own[i].line[k]);
             else if (!notes_have(&notes[plan->setting_of[i]], own[i].line[k]))
                 fprintf(stderr, "%s: %s\n", words, own[i].line[k]);

@@ -1,5 +1,5 @@
-/* What `slosh render` shows: the views of a scene; with --compare two or four settings of it side by side,
-   the views of each below one another. */
+/* Contents of `slosh render`: the views of a scene; with --compare two or four settings of the scene side
+   by side, each with its views in a column. */
 #ifndef SLOSH_RENDER_PLAN_H
 #define SLOSH_RENDER_PLAN_H
 
@@ -12,28 +12,28 @@ typedef struct RenderPlan {
     const Args *args;
     int setting_count; /* of --compare; 1 without */
     int panel_count, world_count;
-    Scene scenes[PANELS_MAX];           /* of each setting */
-    char names[PANELS_MAX][TITLE_SIZE]; /* of each setting: "particles 2000"; "" of a single one */
-    int setting_of[PANELS_MAX];         /* of each panel */
-    const ViewDef *views[PANELS_MAX];   /* of each panel, in its setting's scene */
-    int world_of[PANELS_MAX];    /* of each panel; what differs in keys of the view alone shares one; -1: a
-                                    file's */
-    Scene own[PANELS_MAX];       /* of panels whose view has settings of its own */
-    Scene *scene_of[PANELS_MAX]; /* of each world, among those */
-    char worlds[PANELS_MAX][TITLE_SIZE]; /* of each world: its settings' name without keys of the view */
-    int file_of[PANELS_MAX];             /* of each panel; -1: simulated */
-    int leader_of[PANELS_MAX]; /* of each panel: the world of its setting's scene itself; -1: nobody shows it
-                                */
+    Scene scenes[PANELS_MAX];           /* per setting */
+    char names[PANELS_MAX][TITLE_SIZE]; /* per setting: "particles 2000"; "" for a single setting */
+    int setting_of[PANELS_MAX];         /* per panel */
+    const ViewDef *views[PANELS_MAX];   /* per panel, in the scene of its setting */
+    int world_of[PANELS_MAX];    /* per panel; settings differing only in keys of the view share a world;
+                                    -1: a file */
+    Scene own[PANELS_MAX];       /* for panels whose view has own settings */
+    Scene *scene_of[PANELS_MAX]; /* per world: pointer into `scenes` or `own` */
+    char worlds[PANELS_MAX][TITLE_SIZE]; /* per world: name of its settings without keys of the view */
+    int file_of[PANELS_MAX];             /* per panel; -1: simulated */
+    int leader_of[PANELS_MAX]; /* per panel: the world of the setting's scene without view settings; -1:
+                                  not shown by any panel */
     int file_count;
-    Recorded files[PANELS_MAX]; /* recorded runs; the shoot takes over what it reads of them */
+    Recorded files[PANELS_MAX]; /* recorded runs; the shoot takes over their readers */
 } RenderPlan;
 
-/* Loads each setting, and says what is to be said of it; starts and writes nothing. False with the reason and
-   the setting at fault; render_plan_close is needed in either case. */
+/* Loads all settings and prints notes; starts and writes nothing. Returns false with the reason and the
+   faulty setting; call render_plan_close in either case. */
 bool render_plan_make(const Args *args, RenderPlan *plan, Error *error);
-void render_plan_close(RenderPlan *plan); /* a zeroed one is allowed */
+void render_plan_close(RenderPlan *plan); /* zeroed is allowed */
 
-/* The panel's name, of its setting and of what its view has of its own; "": none. */
+/* Fills in the panel's name, from the setting and the view's own settings; "": none. */
 void render_plan_name(const RenderPlan *plan, int panel, char name[TITLE_SIZE]);
 
 #endif

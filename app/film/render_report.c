@@ -27,7 +27,7 @@ static void tell_alike(const RenderPlan *plan, int one, int other)
                 *plan->names[a] ? ": " : "", one / plan->setting_count, other / plan->setting_count);
 }
 
-/* Whether two settings reach neither panel: their view says it all itself. */
+/* True if two settings reach neither panel: the views override all keys. */
 static bool one_name(const RenderPlan *plan, int a, int b)
 {
     char names[2][TITLE_SIZE];
@@ -36,7 +36,7 @@ static bool one_name(const RenderPlan *plan, int a, int b)
     return plan->setting_of[a] != plan->setting_of[b] && strcmp(names[0], names[1]) == 0;
 }
 
-/* What people would take for a mistake, if it were not said. */
+/* Reports equal panels, which could be taken for a mistake. */
 static void tell_same(const RenderPlan *plan, const RenderFigures *figures)
 {
     for (int a = 0; a < plan->panel_count; a++)
@@ -45,7 +45,7 @@ static void tell_same(const RenderPlan *plan, const RenderFigures *figures)
                 tell_alike(plan, b, a);
 }
 
-/* Whether panels of several worlds have one range that follows their states. */
+/* True if panels of several worlds share one automatic range. */
 static bool shares_range(const RenderPlan *plan, int panel)
 {
     bool shares = false;
@@ -68,7 +68,7 @@ static void tell_range(const RenderPlan *plan)
                         "each picture\n");
 }
 
-/* Where fixed steps of different lengths meet. */
+/* Reports time differences between panels with fixed steps of different lengths. */
 static void tell_apart(const RenderPlan *plan, const RenderFigures *figures)
 {
     if (!figures->stopped && figures->apart > 1e-6 * plan->scenes[0].world.dt)
@@ -121,7 +121,7 @@ void render_report(const RenderPlan *plan, const Session sessions[], const Rende
         session_report(&sessions[0], plan->args, &summary);
 }
 
-/* What the panel's states come from. */
+/* Adds the source of the panel's states. */
 static void add_source(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures,
                        int panel, json_t *json)
 {

@@ -1,4 +1,4 @@
-/* What `slosh render` says when it is done. */
+/* Report of `slosh render` at the end. */
 #ifndef SLOSH_RENDER_REPORT_H
 #define SLOSH_RENDER_REPORT_H
 
@@ -8,19 +8,20 @@
 typedef struct RenderFigures {
     size_t pictures;
     double step_seconds[PANELS_MAX];     /* wall time of each world's steps */
-    bool differ[PANELS_MAX][PANELS_MAX]; /* [a][b], b < a: the panels did so in some picture */
-    double apart;                        /* most seconds between the states of a picture */
+    bool differ[PANELS_MAX][PANELS_MAX]; /* [a][b], b < a: the panels differed in some picture */
+    double apart;                        /* greatest time between the states of a picture, s */
     bool stopped;                        /* by a signal */
 } RenderFigures;
 
-/* Of a run that failed: so many whole frames stay in the folder; 0: nothing is said. */
+/* Reports, after a failure, the count of complete frames in the folder; prints nothing for 0. */
 void render_tell_staying(const Args *args, size_t frames);
 
-/* The closing lines on standard error; of several panels also which were the same in every picture. */
+/* Prints the closing lines on standard error; for several panels also which panels were equal in all
+   pictures. */
 void render_report(const RenderPlan *plan, const Session sessions[], const RenderFigures *figures);
 
-/* Writes --json FILE, if asked for: of a scene as session_write_json, of several panels what docs/compare.md
-   says. */
+/* Writes --json FILE, if given: for a scene as session_write_json, for several panels as in
+   docs/compare.md. */
 bool render_write_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
                        const RenderFigures *figures, Error *error);
 

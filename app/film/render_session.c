@@ -14,21 +14,21 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A recorded session, filmed: simulated as slosh replay does, with pictures of the states on the way. */
+/* Films a recorded session: simulated like slosh replay, with pictures of the states on the way. */
 typedef struct Film {
     const Args *args;
     PicturesKind kind;
     Recording recording;
     RecordingPlay play;
     Session session;
-    const World *world; /* that the shoot reads: the session may move to another backend */
+    const World *world; /* used by the shoot: the session may move to another backend */
     Shoot shoot;
     Pictures *pictures;
     Progress progress;
-    double until;         /* s: of the last picture; INFINITY: the end of the session */
-    size_t taken, wanted; /* pictures; wanted 0: to the end */
+    double until;         /* time of the last picture, s; INFINITY: end of the session */
+    size_t taken, wanted; /* pictures; wanted 0: up to the end */
     bool ended;           /* the session is over */
-    uint64_t hash;        /* at the end */
+    uint64_t hash;        /* world_hash at the end */
 } Film;
 
 static bool refuse(const Args *args, const char *option, const char *why, Error *error)
@@ -61,13 +61,13 @@ static bool choose_times(Film *film, Error *error)
     return true;
 }
 
-/* When the next picture is due, s. */
+/* Returns the time of the next picture, s. */
 static double next_time(const Film *film)
 {
     return film->kind == PICTURES_PNG ? film->until : (double)film->taken / film->args->fps;
 }
 
-/* Panels of what is beside the scene are left out: nobody recorded it. */
+/* Opens the shoot, without panels beside the scene: their states were not recorded. */
 static bool open_shoot(Film *film, Error *error)
 {
     const Scene *scene = &film->session.scene;
@@ -102,7 +102,7 @@ static bool is_full(const Film *film)
     return film->wanted > 0 && film->taken == film->wanted;
 }
 
-/* One state: its commands, and its picture if one is due. */
+/* Handles a state: applies the commands, and takes a picture if due. */
 static bool look(Film *film, Error *error)
 {
     const double due = next_time(film);
@@ -110,14 +110,14 @@ static bool look(Film *film, Error *error)
            (is_full(film) || !session_reached(&film->session, due) || take_picture(film, error));
 }
 
-/* Whether the film is as long as it is to be: by the end of the session, or before. */
+/* True if the film is complete, by the end of the session or earlier. */
 static bool is_over(Film *film)
 {
     film->ended = recording_play_ended(&film->play, &film->session);
     return film->ended || is_full(film) || interrupted();
 }
 
-/* The state of the end too, where it is the one that was asked for. */
+/* Takes a picture of the last state, if there is none yet. */
 static bool take_last(Film *film, Error *error)
 {
     film->hash = world_hash(film->session.world);
