@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define GRAVITY 9.80665 /* m/s2 in a g, what calibration takes it for */
+#define GRAVITY 9.80665 /* m/s2 per g, as assumed by the calibration */
 #define RADIANS (M_PI / 180)
 
 static const double gyro_counts = 16, acceleration_counts = 8192; /* per degree/s, per g */
@@ -43,7 +43,7 @@ static bool plausible(double scale, double nominal)
     return scale > nominal / 2 && scale < nominal * 2;
 }
 
-/* The gyro turned at +speed and -speed read `plus` and `minus`. */
+/* `plus` and `minus`: readings of the gyro turned at +speed and -speed. */
 static void read_gyro(const uint8_t *bytes, bool interleaved, int axis, double *scale)
 {
     const int bias = little_i16(bytes + 1 + 2 * axis);
@@ -55,7 +55,7 @@ static void read_gyro(const uint8_t *bytes, bool interleaved, int axis, double *
     *scale = plausible(read, *scale) ? read : *scale;
 }
 
-/* The accelerometer's axis held up and down, at +g and -g, read `plus` and `minus`. */
+/* `plus` and `minus`: readings of the axis at +g and -g. */
 static void read_acceleration(const uint8_t *bytes, int axis, double *zero, double *scale)
 {
     const int plus = little_i16(bytes + 23 + 4 * axis), minus = little_i16(bytes + 25 + 4 * axis);

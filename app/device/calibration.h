@@ -1,5 +1,5 @@
-/* What a PlayStation controller knows about its own sensors: from numbers of its reports to rad/s and m/s2.
-   Pure. After the feature reports that Linux' drivers/hid/hid-playstation.c and SDL_hidapi_ps4.c read. */
+/* Calibration of a PlayStation controller's sensors: converts report numbers to rad/s and m/s2. Pure
+   functions. After the feature reports read by Linux' drivers/hid/hid-playstation.c and SDL_hidapi_ps4.c. */
 #ifndef SLOSH_CALIBRATION_H
 #define SLOSH_CALIBRATION_H
 
@@ -10,28 +10,27 @@
 enum { CALIBRATION_BYTES_MAX = 64 };
 
 typedef struct Calibration {
-    double gyro_scale[3];         /* rad/s a count, about the sensor's x y z */
+    double gyro_scale[3];         /* rad/s per count, around the sensor's x y z */
     double acceleration_zero[3];  /* counts */
-    double acceleration_scale[3]; /* m/s2 a count */
+    double acceleration_scale[3]; /* m/s2 per count */
 } Calibration;
 
-/* 16 counts per degree/s and 8192 per g. */
+/* Returns the nominal calibration: 16 counts per degree/s and 8192 per g. */
 Calibration calibration_nominal(void);
 
-/* The feature report that holds it. */
+/* The feature report with the calibration. */
 typedef struct CalibrationReport {
-    uint8_t
-        wake; /* a feature report to be read before: over Bluetooth reports are short until then; 0: none */
+    uint8_t wake; /* feature report to read first: before, Bluetooth reports are short; 0: none */
     uint8_t id;
-    uint8_t size; /* bytes, the id among them; 0: this layout has no calibration */
+    uint8_t size; /* bytes including the id; 0: no calibration in this layout */
 } CalibrationReport;
 
 CalibrationReport calibration_report(ReportLayout layout);
 
-/* Parses such a report. False, and the nominal one, when id, length or (Bluetooth) checksum are wrong. An
-   axis whose numbers make no sense (a scale that is not within a factor of two of the nominal one, a zero
-   more than half a g away) is nominal. The gyro's bias is a part of its scale and is not subtracted from
-   reports, as in the maker's own driver: what is left at rest is the business of who integrates. */
+/* Parses a feature report. Returns false and the nominal calibration if id, length or (Bluetooth) checksum
+   are wrong. An axis with implausible numbers stays nominal: a scale not within a factor of two of
+   nominal, or a zero more than half a g away. The gyro's bias only enters the scale and is not subtracted
+   from reports, as in the maker's own driver: the integrating code must remove the remaining bias at rest. */
 bool calibration_parse(ReportLayout layout, const uint8_t *bytes, size_t size, Calibration *out);
 
 #endif

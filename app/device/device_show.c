@@ -3,10 +3,10 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Values that belong together. */
+/* A group of related values. */
 typedef struct Group {
-    const char *label, *names, *unit; /* names: a letter a value */
-    size_t offset;                    /* of double[] in DeviceState */
+    const char *label, *names, *unit; /* names: one letter per value */
+    size_t offset;                    /* of a double[] in DeviceState */
     int count;
     double least, most; /* ends of the bars */
 } Group;
@@ -36,7 +36,7 @@ static const Group *groups_of(const DeviceRow *row)
 static double value_of(const Group *group, const DeviceState *state, int k)
 {
     const double *values = (const double *)((const char *)state + group->offset);
-    return values[k] + 0.0; /* not -0 */
+    return values[k] + 0.0; /* turns -0 into 0 */
 }
 
 static void show_buttons(FILE *file, const DeviceRow *row, uint32_t buttons)
@@ -63,10 +63,10 @@ void device_show_line(FILE *file, const DeviceRow *row, const DeviceState *state
     show_buttons(file, row, state->buttons);
 }
 
-/* "[   ##|      ]": from the zero to the value. */
+/* Prints a bar such as "[ ##| ]" from zero to the value. */
 static void show_bar(FILE *file, const Group *group, double value)
 {
-    enum { CELLS = 10 }; /* three bars and their values fit into 80 columns */
+    enum { CELLS = 10 }; /* for three bars with values in 80 columns */
     char bar[CELLS + 1];
     const double span = group->most - group->least;
     const int zero = (int)lround(-group->least / span * CELLS);

@@ -6,10 +6,10 @@
 
 #include <stdio.h>
 
-/* One line, without its newline: "turn +0.10 -0.02 +0.00 rad/s, ... , buttons cross l1". */
+/* Prints one line, without newline: "turn +0.10 -0.02 +0.00 rad/s, ... , buttons cross l1". */
 void device_show_line(FILE *file, const DeviceRow *row, const DeviceState *state);
 
-/* A line a group of values, each value with a bar: always the same number of lines for a family. */
+/* Prints one line per group of values, each value with a bar; the count of lines is constant per family. */
 void device_show_bars(FILE *file, const DeviceRow *row, const DeviceState *state);
 
 #endif

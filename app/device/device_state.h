@@ -1,5 +1,5 @@
-/* A motion device as the rest of the program sees it: what its last valid report said. Pure data; who parses
-   is device/report.h, who asks the hardware device/devices.h. */
+/* State of a motion device for the rest of the program, from its last valid report. Pure data. Parser:
+   device/report.h; hardware access: device/devices.h. */
 #ifndef SLOSH_DEVICE_STATE_H
 #define SLOSH_DEVICE_STATE_H
 
@@ -15,21 +15,21 @@ typedef enum DeviceFamily {
     DEVICE_FAMILY_COUNT
 } DeviceFamily;
 
-/* The frame of every device, whatever its maker's: +x to the user's right, +y up, +z towards the user, the
-   device lying before him as it is meant to; turns are right-handed about these axes. */
+/* All devices use one frame: +x to the user's right, +y up, +z towards the user, with the device held in
+   front of the user in its normal position; turns are right-handed around these axes. */
 typedef struct DeviceState {
-    uint64_t reports; /* valid ones so far */
-    uint64_t refused; /* of another length, id or checksum; they changed nothing else */
-    double time;      /* s, of the last valid report, on the clock of wall_ms (a replay's: as recorded) */
-    double cap[6];    /* SpaceMouse: x y z, turns about x y z; -1 .. 1; 0 for other families */
-    double left[2], right[2];   /* sticks, -1 .. 1: right and down positive, as WindowGamepad */
+    uint64_t reports; /* count of valid reports */
+    uint64_t refused; /* count of reports of wrong length, id or checksum; ignored */
+    double time;      /* s, of the last valid report, on the clock of wall_ms (in a replay: as recorded) */
+    double cap[6];    /* SpaceMouse: x y z, turns around x y z; -1 .. 1; 0 for other families */
+    double left[2], right[2];   /* sticks, -1 .. 1: right and down positive, like WindowGamepad */
     double triggers[2];         /* left, right; 0 .. 1 */
-    uint32_t buttons;           /* as the family's report orders them: device/device_table.h names them */
-    bool has_motion;            /* the two below were in the report */
-    double angular_velocity[3]; /* rad/s about x y z, calibrated */
-    double acceleration[3];     /* m/s2, what the accelerometer feels: +9.81 on y at rest */
-    double late;                /* s from their measurement to `time`, by the device's own clock */
-    SensorClock clock;          /* that */
+    uint32_t buttons;           /* bits in the order of the family's report; names in device/device_table.h */
+    bool has_motion;            /* the report had the two values below */
+    double angular_velocity[3]; /* rad/s around x y z, calibrated */
+    double acceleration[3];     /* m/s2, accelerometer reading: +9.81 on y at rest */
+    double late;                /* s from the measurement to `time`, by the device's own clock */
+    SensorClock clock;          /* state of the device's clock */
 } DeviceState;
 
 #endif

@@ -4,9 +4,9 @@
 
 enum { LOGITECH = 0x046d, CONNEXION = 0x256f, SONY = 0x054c };
 
-/* The cap's own frame is +x right, +y towards the user, +z down, turns right-handed about these: so the
-   defaults of spacenavd, devices.toml of PySpaceMouse and captured reports agree, where each names its axes
-   and signs in its own way. */
+/* The cap's own frame is +x right, +y towards the user, +z down, with right-handed turns. The defaults of
+   spacenavd, devices.toml of PySpaceMouse and captured reports agree on this frame, each with its own
+   names and signs of axes. */
 static const DeviceAxis cap_axes[6] = {{0, 1}, {2, -1}, {1, 1}, {3, 1}, {5, -1}, {4, 1}};
 
 /* Sony's sensors have the frame of device_state.h: SDL_sensor.h. */
@@ -43,10 +43,10 @@ static Buttons pilot_buttons = {"1",    "2",     "3",     "4",    "5",        "6
 static Buttons explorer_buttons = {"1",     "2",    "top", "left",  "right", "front", "esc", "alt",
                                    "shift", "ctrl", "fit", "panel", "plus",  "minus", "2d"};
 
-/* Of those whose buttons no source names. */
+/* Buttons without known names. */
 static Buttons numbered_buttons = {"1", "2", "3", "4", "5", "6", "7", "8", "9", "10", "11", "12"};
 
-/* The hat comes first, one bit a direction; then the report's bytes. */
+/* The hat comes first, one bit per direction; then the report's bytes. */
 #define PAD_BUTTONS(SHARE)                                                                                   \
     "up", "right", "down", "left", "square", "cross", "circle", "triangle", "l1", "r1", "l2", "r2", SHARE,   \
         "options", "l3", "r3", "ps", "touchpad"
@@ -73,8 +73,8 @@ static Buttons edge_buttons = {
             sensor_axes, buttons                                                                             \
     }
 
-/* Left out on purpose are the mice, keyboards and number pads of 3Dconnexion: c650, c651, c653 to c658,
-   c664, c665, c668. */
+/* Deliberately left out: 3Dconnexion's mice, keyboards and number pads: c650, c651, c653 to c658, c664,
+   c665, c668. */
 const DeviceRow device_rows[] = {
     CAP(LOGITECH, 0xc603, "SpaceMouse Plus XT", W, numbered_buttons),
     CAP(LOGITECH, 0xc605, "CadMan", W, numbered_buttons),

@@ -1,16 +1,16 @@
-/* The motion devices that slosh knows, as data: which product sends which reports, and how its axes lie. */
+/* Table of the known motion devices: product, report layout, orientation of axes. */
 #ifndef SLOSH_DEVICE_TABLE_H
 #define SLOSH_DEVICE_TABLE_H
 
 #include "app/device/device_state.h"
 
-/* What a report looks like; report.h parses them. */
+/* Layout of reports; report.h has the parsers. */
 typedef enum ReportLayout {
-    LAYOUT_SPACEMOUSE_W,   /* id 1 has the translation, id 2 the rotation */
-    LAYOUT_SPACEMOUSE_S,   /* id 1 has both */
-    LAYOUT_SPACEMOUSE_ANY, /* one of the two: no source says which */
+    LAYOUT_SPACEMOUSE_W,   /* id 1: translation, id 2: rotation */
+    LAYOUT_SPACEMOUSE_S,   /* id 1: both */
+    LAYOUT_SPACEMOUSE_ANY, /* W or S: no source is known */
     LAYOUT_DUALSHOCK4_USB,
-    LAYOUT_DUALSHOCK4_DONGLE, /* the same, with a bit for the absent controller */
+    LAYOUT_DUALSHOCK4_DONGLE, /* the same, with a bit for an absent controller */
     LAYOUT_DUALSHOCK4_BLUETOOTH,
     LAYOUT_DUALSENSE_USB,
     LAYOUT_DUALSENSE_BLUETOOTH,
@@ -28,8 +28,8 @@ typedef struct DeviceRow {
     const char *name;
     DeviceFamily family;
     ReportLayout usb, bluetooth;
-    const DeviceAxis *axes; /* 6: a SpaceMouse's cap; else the gyro's and then the accelerometer's x y z */
-    const char *const *buttons; /* DEVICE_BUTTONS_MAX names, NULL where the device has none */
+    const DeviceAxis *axes;     /* 6: a SpaceMouse's cap; else x y z of the gyro, then of the accelerometer */
+    const char *const *buttons; /* DEVICE_BUTTONS_MAX names, NULL for missing buttons */
 } DeviceRow;
 
 enum { DEVICE_BUTTONS_MAX = 32 }; /* bits of DeviceState.buttons */
@@ -37,9 +37,10 @@ enum { DEVICE_BUTTONS_MAX = 32 }; /* bits of DeviceState.buttons */
 /* Ended by a row without a name. */
 extern const DeviceRow device_rows[];
 
-const DeviceRow *device_row(uint16_t vendor, uint16_t product); /* NULL: no motion device, or none known */
+const DeviceRow *device_row(uint16_t vendor, uint16_t product); /* NULL: no known motion device */
 
-/* "spacemouse", "dualshock4", "dualsense": for files; and as people call it. */
+/* device_family_word: "spacemouse", "dualshock4", "dualsense", for files. device_family_title: name for
+   people. */
 const char *device_family_word(DeviceFamily family);
 const char *device_family_title(DeviceFamily family);
 

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Whether udev reads the rules of that folder by itself: udev(7). */
+/* True if udev reads rules in the folder without installation: udev(7). */
 static bool read_by_udev(const char *rule)
 {
     static const char *const prefixes[] = {"/usr/lib/udev/", "/usr/local/lib/udev/", "/lib/udev/"};
@@ -43,7 +43,7 @@ const DeviceRow *device_match(const HidInfo *info)
     return motion ? device_row(info->vendor, info->product) : NULL;
 }
 
-/* Whether the file has that one line. */
+/* True if the file's first line equals `line`. */
 static bool has_line(const char *path, const char *line)
 {
     char text[64] = "";
@@ -72,7 +72,7 @@ long device_process(const char *folder, const char *name)
     return found;
 }
 
-/* The process that reads every SpaceMouse for other programs: its number, or 0. */
+/* Returns the id of spacenavd, which reads every SpaceMouse for other programs, or 0. */
 static long device_spacenavd(void)
 {
     return access("/run/spnav.sock", F_OK) == 0 || access("/var/run/spnav.sock", F_OK) == 0

@@ -1,4 +1,4 @@
-/* Why a device that is there may not be opened, in words, and what would help. */
+/* Explains why a device may not be opened, with advice. */
 #ifndef SLOSH_DEVICE_TROUBLE_H
 #define SLOSH_DEVICE_TROUBLE_H
 
@@ -7,22 +7,23 @@
 
 enum { DEVICE_PROBLEM_SIZE = 512, DEVICE_COMMAND_SIZE = 384 };
 
-/* The one command that lets the users of this machine open the devices: it installs tools/70-slosh.rules, or
-   applies it to what is plugged in where it is installed. False: the rule did not come with the program. */
+/* Makes the command to let users of this machine open the devices: installs tools/70-slosh.rules, or
+   applies an installed rule to plugged in devices. Returns false if the rule did not come with the
+   program. */
 bool device_rules_command(char command[DEVICE_COMMAND_SIZE]);
 
-/* The row of what was found; NULL where it is no motion device. A controller may have several places where
-   reports come from: a mouse or a keyboard in it is none. */
+/* Returns the row of a found device; NULL if not a motion device. A controller may have several HID
+   interfaces: a mouse or keyboard inside is not a motion device. */
 const DeviceRow *device_match(const HidInfo *info);
 
-/* The words for a device that was not opened. `reason`: the port's. */
+/* Describes why a device was not opened. `reason`: text from the port. */
 void device_trouble(const DeviceRow *row, HidRefusal why, const char *reason,
                     char problem[DEVICE_PROBLEM_SIZE]);
 
-/* What else a user should know of a device that may be opened: that spacenavd reads it too. "" as a rule. */
+/* Adds a note for a device that may be opened: spacenavd also reads the device. Usually "". */
 void device_note(const DeviceRow *row, char note[DEVICE_PROBLEM_SIZE]);
 
-/* The number of a process with that name in `folder` ("/proc"); 0: there is none. */
+/* Returns the id of a process by name in `folder` ("/proc"); 0: none. */
 long device_process(const char *folder, const char *name);
 
 #endif

@@ -10,7 +10,7 @@
 
 static const double stop_patience_ms = 500;
 
-/* The part of "file:PATH" behind the colon. */
+/* Returns the part of "file:PATH" after the colon. */
 static const char *source_path(const char *source, Error *error)
 {
     static const char prefix[] = "file:";
@@ -88,7 +88,7 @@ void devices_unplugged(Device *device)
 
 static void wait_for_wake(Devices *devices, double until_ms)
 {
-    /* wall_ms is CLOCK_MONOTONIC, as the condition's clock is */
+    /* wall_ms is CLOCK_MONOTONIC, like the condition's clock */
     const double second = floor(until_ms / 1000);
     const struct timespec until = {.tv_sec = (time_t)second,
                                    .tv_nsec = (long)((until_ms / 1000 - second) * 1e9)};
@@ -152,7 +152,7 @@ static Devices *create(const DevicesSetup *setup, Error *error)
     return devices;
 }
 
-/* The recording that the setup names, at its start. */
+/* Loads the recording named by the setup, and rewinds to its start. */
 static bool load_recording(Devices *devices, Error *error)
 {
     if (!read_source(devices->setup.source, &devices->log, error))
@@ -195,7 +195,7 @@ bool devices_ended(const Devices *devices)
     return atomic_load(&devices->played);
 }
 
-/* Those that have ended are joined at once; the rest are in a read that the system does not give back. */
+/* Joins a finished thread; detaches a thread blocked in a read. */
 static void let_go(pthread_t thread, bool began, bool ended)
 {
     if (began && ended)

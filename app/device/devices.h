@@ -1,7 +1,6 @@
-/* The motion devices that are plugged in, or a recording that stands in for them: threads of their own read
-   their reports, notice what comes and goes, and tell a listener. A recording is played once, as fast as it
-   was recorded; at its end, what is still plugged in is unplugged, as if the cable were drawn: what it moved
-   stays where it is. */
+/* The plugged in motion devices, or a recording in their place: own threads read reports, notice plugged
+   and unplugged devices, and call a listener. A recording is played once, at its recorded speed. At its
+   end the remaining devices are unplugged, as if the cable were pulled: the box stays in place. */
 #ifndef SLOSH_DEVICES_H
 #define SLOSH_DEVICES_H
 
@@ -10,66 +9,65 @@
 
 typedef enum DeviceEventKind {
     DEVICE_PLUGGED,   /* the state is all zero */
-    DEVICE_REPORTED,  /* a valid report has come */
-    DEVICE_UNPLUGGED, /* or it no longer answers; a refused one too */
-    DEVICE_REFUSED /* it is there and may not be opened: `problem` says why and what would help; once a plug
-                    */
+    DEVICE_REPORTED,  /* a valid report has arrived */
+    DEVICE_UNPLUGGED, /* or the device no longer answers; also for a refused device */
+    DEVICE_REFUSED    /* the device may not be opened: `problem` has the reason and advice; once per plug */
 } DeviceEventKind;
 
-/* Everything in it is valid during the call only. */
+/* All pointers are valid only during the call. */
 typedef struct DeviceEvent {
     DeviceEventKind kind;
-    int number; /* of the device, from 1 on; what is plugged in again gets a new one */
+    int number; /* of the device, from 1; a device plugged in again gets a new number */
     DeviceFamily family;
     uint16_t vendor, product;
-    const char *name;         /* as device/device_table.h has it */
+    const char *name;         /* from device/device_table.h */
     const char *problem;      /* DEVICE_REFUSED; or "" */
     const DeviceState *state; /* after the report */
 } DeviceEvent;
 
-/* Called on a thread of the devices, one call at a time; it must not block, nor call devices_stop. */
+/* Called on a thread of the devices, one call at a time. Must not block or call devices_stop. */
 typedef void (*DeviceListener)(void *user, const DeviceEvent *event);
 
-struct HidPort;         /* device/hid_port.h: what reads bytes */
+struct HidPort;         /* device/hid_port.h: access to hardware */
 struct ReportLog;       /* device/report_log.h */
-struct ReportLogWriter; /* the same */
+struct ReportLogWriter; /* device/report_log.h */
 
 typedef struct DevicesSetup {
     const struct HidPort *port; /* NULL: hidapi */
-    const char *source;         /* of --device: "file:PATH" replays a recording; NULL: what is plugged in */
+    const char *source;         /* of --device: "file:PATH" replays a recording; NULL: plugged in devices */
     DeviceListener listener;
     void *user;
-    struct ReportLogWriter
-        *record; /* NULL, or where every raw report goes, valid or not, until devices_stop */
+    struct ReportLogWriter *record; /* NULL, or gets every raw report, valid or not, until devices_stop */
 } DevicesSetup;
 
 typedef struct Devices Devices;
 
-/* Whether devices_start could take `source`: before anything else is begun. False with the reason. */
+/* Returns true if devices_start could use `source`; call before any other work. Returns false with the
+   reason. */
 bool devices_check(const char *source, Error *error);
 
-/* NULL with the reason: the source is missing or no recording, no memory, no thread. Without any device it
-   succeeds and waits for one. It does not wait for the devices: each is told to the listener when it is
-   ready. */
+/* Starts the threads. Returns NULL with the reason: source missing or no recording, no memory, no thread.
+   Succeeds without any device, and waits for devices. Does not block: the listener is called for each
+   device when ready. */
 Devices *devices_start(const DevicesSetup *setup, Error *error);
 
-/* The recording that setup->source names, in a time that the caller keeps: no thread and no clock. The
-   listener is called by devices_play_next. To be ended by devices_stop; NULL with the reason. */
+/* Opens the recording named by setup->source, without thread and clock: devices_play_next calls the
+   listener. End with devices_stop. Returns NULL with the reason. */
 Devices *devices_open(const DevicesSetup *setup, Error *error);
 
-/* Of such: the time of the next event, s; INFINITY when all has been told. The last event, at the time of the
-   one before, unplugs what is still plugged in. */
+/* Returns the time of a recording's next event, s; INFINITY at the end. The last event, at the time of the
+   event before, unplugs the remaining devices. */
 double devices_due(const Devices *devices);
 void devices_play_next(
-    Devices *devices); /* tells it, if there is one; a report that is not valid is not told */
+    Devices *devices); /* calls the listener for the next event, if any; invalid reports are skipped */
 const struct ReportLog *devices_recording(const Devices *devices);
-void devices_rewind(Devices *devices); /* to the start, without a word to the listener */
+void devices_rewind(Devices *devices); /* to the start, without calling the listener */
 
-/* Whether a recording has been played to its end, and all has been told. Any thread may ask. */
+/* Returns true if a recording has been played to its end. Callable from any thread. */
 bool devices_ended(const Devices *devices);
 
-/* NULL is allowed; no call of the listener comes after it. Takes 0.1 s as a rule, and at most half a second:
-   a thread that the system holds in a read is left to end by itself. */
+/* Stops all threads; the listener is not called afterwards. NULL is allowed. Takes usually 0.1 s, at most
+   half a second: a thread blocked by the system in a read is left to end later. */
 void devices_stop(Devices *devices);
 
 #endif

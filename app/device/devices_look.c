@@ -7,10 +7,10 @@
 
 enum {
     INFOS_MAX = 256,
-    READ_MS = 100,         /* of a read without a report: so long a stop may take */
-    NAP_MS = 10,           /* after a read that came back at once with nothing */
-    CALIBRATION_TRIES = 3, /* over Bluetooth a report may be damaged */
-    DENIALS_TOLD = 2       /* udev gives a new device its rights a moment after it appears */
+    READ_MS = 100,         /* timeout of a read: the longest delay of a stop */
+    NAP_MS = 10,           /* wait after a read that returned at once without report */
+    CALIBRATION_TRIES = 3, /* Bluetooth may damage a report */
+    DENIALS_TOLD = 2       /* udev sets access rights shortly after a device appears */
 };
 
 static bool feature(const Device *device, uint8_t id, uint8_t bytes[CALIBRATION_BYTES_MAX], int *size)
@@ -21,8 +21,9 @@ static bool feature(const Device *device, uint8_t id, uint8_t bytes[CALIBRATION_
     return *size > 0 && *size <= CALIBRATION_BYTES_MAX;
 }
 
-/* Reads the device's own calibration, and so wakes one that sends short reports until then. Returns its
-   bytes' number; 0: it has none, and is taken for a nominal one. Not under the lock: it may take a while. */
+/* Reads the device's own calibration; also switches a device with short reports to full reports. Returns
+   the count of bytes; 0: none, and a nominal calibration is used. Call without the lock, as reading may
+   take a while. */
 static size_t read_calibration(const Device *device, uint8_t bytes[CALIBRATION_BYTES_MAX],
                                Calibration *calibration)
 {
@@ -38,7 +39,7 @@ static size_t read_calibration(const Device *device, uint8_t bytes[CALIBRATION_B
     return 0;
 }
 
-/* Calibrates it and tells that it is there. */
+/* Calibrates a device, and reports it as plugged in. */
 static void introduce(Device *device)
 {
     Devices *devices = device->devices;
@@ -55,7 +56,7 @@ static void introduce(Device *device)
     pthread_mutex_unlock(&devices->lock);
 }
 
-/* Whether the thread shall go on; what was read is told. */
+/* Forwards a report. Returns true if the thread must go on. */
 static bool take_report(Device *device, const uint8_t *bytes, int size, double time)
 {
     Devices *devices = device->devices;
@@ -70,7 +71,7 @@ static bool take_report(Device *device, const uint8_t *bytes, int size, double t
     return on;
 }
 
-/* The thread of one device: each report goes from the read to the listener without any wait in between. */
+/* Thread of one device: each report goes from the read to the listener without waiting. */
 static void *read_device(void *data)
 {
     Device *device = data;
@@ -116,7 +117,7 @@ static Device *add(Devices *devices, const HidInfo *info, const DeviceRow *row)
     return device;
 }
 
-/* Opens it, which is done without the lock, and gives it a thread. */
+/* Opens a device, with the lock released, and starts its thread. */
 static void try_open(Device *device, bool first_look)
 {
     Devices *devices = device->devices;
@@ -141,7 +142,7 @@ static void try_open(Device *device, bool first_look)
     devices_tell(device, DEVICE_REFUSED, problem);
 }
 
-/* Tells that it is gone, though its thread may not have noticed yet. */
+/* Reports a device as unplugged, even if its thread has not noticed yet. */
 static void lose(Device *device)
 {
     if (!device->gone && device->plugged)
@@ -151,7 +152,7 @@ static void lose(Device *device)
     device->gone = true;
 }
 
-/* Those whose thread has ended, or that never had one. */
+/* Removes unplugged devices whose thread has ended, or that never had a thread. */
 static void drop_gone(Devices *devices)
 {
     for (Device **place = &devices->list; *place;) {
@@ -174,7 +175,7 @@ static void take_look(Devices *devices, const HidInfo *infos, int count, bool fi
     for (int i = 0; i < count && !devices->stopping; i++) {
         const DeviceRow *row = device_match(&infos[i]);
         Device *device = row ? find(devices, infos[i].path) : NULL;
-        if (device && device->format.row != row) { /* another one has got its path */
+        if (device && device->format.row != row) { /* another device has the path now */
             lose(device);
             device = NULL;
         }

@@ -75,7 +75,7 @@ void devices_rewind(Devices *devices)
         devices->replayed[k] = (Device){.devices = devices};
 }
 
-/* Each event at its time; one that is late is told as soon as can be, none is left out. */
+/* Plays each event at its time; a late event is played as soon as possible, none is left out. */
 static void play_all(Devices *devices)
 {
     const double start = wall_ms();

@@ -19,21 +19,21 @@ typedef struct Shown {
     int number;
     bool plugged, refused;
     uint64_t reports;
-    double line_ms; /* when its last line was written */
+    double line_ms; /* wall time of the last printed line */
     char line[LINE_SIZE];
 } Shown;
 
 typedef struct Watcher {
-    pthread_mutex_t lock; /* of `now` and `count`: the listener's */
+    pthread_mutex_t lock; /* guards `now` and `count`, written by the listener */
     WatchedDevice now[WATCH_DEVICES_MAX];
     int count;
     Watch *watch;
     Shown shown[WATCH_DEVICES_MAX];
-    double start; /* s; 0 on the clock of a recording */
-    int lines;    /* of bars, on the terminal */
+    double start; /* s; 0 for the clock of a recording */
+    int lines;    /* count of lines with bars on the terminal */
 } Watcher;
 
-/* A new one, or that of the first which is no longer there: a loose cable plugs in often. */
+/* Returns a new place, or the place of the oldest unplugged device: a loose cable plugs in often. */
 static WatchedDevice *place_for_one(Watcher *watcher)
 {
     WatchedDevice *oldest = NULL;
@@ -87,12 +87,12 @@ static void say_plugged(FILE *file, const WatchedDevice *device)
             device->row->vendor, device->row->product, note[0] ? "; " : "", note);
 }
 
-/* What has come and gone since the last look. */
+/* Prints devices plugged in or unplugged since the last look. */
 static void say_changes(const Watcher *watcher, const WatchedDevice *device, Shown *shown)
 {
     FILE *file = watcher->watch->messages;
     const bool refused = device->problem[0] != 0, was = shown->plugged;
-    /* one that came and went between two looks has reports, or nothing to be told */
+    /* a device plugged and unplugged between two looks has reports, or is not worth a message */
     const bool came = !was && (device->plugged || device->state.reports > shown->reports);
     shown->plugged = device->plugged;
     if (!file)
@@ -113,7 +113,7 @@ static void say_gone(const Watcher *watcher, const WatchedDevice *device, bool w
                 plural((size_t)device->state.reports), (unsigned long long)device->state.refused);
 }
 
-/* A line where it says something else than the last one, not too often; the last of all is never left out. */
+/* Prints a line if it differs from the last line, at a limited rate; the final line is always printed. */
 static void show_line(const Watcher *watcher, const WatchedDevice *device, Shown *shown, bool last)
 {
     char line[LINE_SIZE] = "";
@@ -147,8 +147,8 @@ static void write_bars(const Watch *watch, FILE *text)
     }
 }
 
-/* As much as the terminal has room for: a line that is broken in two, or that has gone at the top, cannot be
-   taken back by the next picture. */
+/* Prints the bars, cut to the terminal's size: a wrapped or scrolled line could not be overwritten by the
+   next picture. */
 static void show_bars(Watcher *watcher)
 {
     char *text = NULL;

@@ -1,4 +1,4 @@
-/* Shows what motion devices say: bars on a terminal, else a line a change. */
+/* Shows the values of motion devices: bars on a terminal, else one line per change. */
 #ifndef SLOSH_DEVICES_WATCH_H
 #define SLOSH_DEVICES_WATCH_H
 
@@ -9,23 +9,23 @@
 
 enum { WATCH_DEVICES_MAX = 32 };
 
-/* One that was there. */
+/* A present or past device. */
 typedef struct WatchedDevice {
     int number;
     const DeviceRow *row;
     DeviceState state; /* the last */
     bool plugged;
-    char problem[512]; /* why it may not be opened; "" */
+    char problem[512]; /* why the device may not be opened; or "" */
 } WatchedDevice;
 
 typedef struct Watch {
     const char *source;      /* of --device, or NULL */
     ReportLogWriter *record; /* or NULL */
-    FILE *out;               /* where values go; NULL: nowhere */
-    FILE *messages;          /* what comes and goes; NULL: nowhere */
+    FILE *out;               /* for values; NULL: not shown */
+    FILE *messages;          /* for plugged and unplugged devices; NULL: not shown */
     bool bars;               /* out is a terminal */
     /* set at the end */
-    int out_error; /* errno where out took no more; 0 */
+    int out_error; /* errno of a failed write to out; or 0 */
     int count;
     WatchedDevice devices[WATCH_DEVICES_MAX];
 } Watch;

@@ -27,7 +27,7 @@ static int enumerate(void *self, HidInfo *out, int max)
     return count;
 }
 
-/* hidapi tells a failure in words only: the file itself is asked once more. */
+/* hidapi reports failures only as text: finds the reason by opening the file. */
 static void explain(const char *path, HidRefusal *why, char reason[HID_REASON_SIZE])
 {
     const wchar_t *words = hid_error(NULL);

@@ -1,4 +1,4 @@
-/* Numbers as HID reports have them. */
+/* Numbers in HID reports. */
 #ifndef SLOSH_LITTLE_ENDIAN_H
 #define SLOSH_LITTLE_ENDIAN_H
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A cap's springs come to rest within a few hundredths, worn sticks within a tenth. */
+/* A cap's springs return within a few hundredths, worn sticks within a tenth. */
 static const double CAP_DEAD_ZONE = 0.05, STICK_DEAD_ZONE = 0.1;
 
 typedef struct ButtonDefault {
@@ -28,14 +28,14 @@ static const char *const cap_axes[MAPPING_AXES] = {"x", "y", "z", "turn_x", "tur
 static const char *const pad_axes[MAPPING_AXES] = {"left_x",  "left_y",       "right_x",
                                                    "right_y", "left_trigger", "right_trigger"};
 
-/* The box goes and turns with the cap for as long as it is pushed. */
+/* Box speeds while the cap is deflected. */
 static const AxisMap cap_defaults[MAPPING_AXES] = {
     {.to = MAP_MOVE_X, .gain = 1}, {.to = MAP_MOVE_Y, .gain = 1}, {.to = MAP_MOVE_Z, .gain = 1},
     {.to = MAP_TURN_X, .gain = 1}, {.to = MAP_TURN_Y, .gain = 1}, {.to = MAP_TURN_Z, .gain = 1},
 };
 
-/* The pose tilts the box, the left stick shakes it, the right one and the triggers have the camera. A stick's
-   y is positive towards the user. */
+/* The pose tilts the box, the left stick shakes the box, the right stick and the triggers move the camera.
+   A stick's y is positive towards the user. */
 static const AxisMap pad_defaults[MAPPING_AXES] = {
     {.to = MAP_MOVE_X, .as = MAP_OFFSET, .gain = 1},
     {.to = MAP_MOVE_Z, .as = MAP_OFFSET, .gain = 1},
@@ -53,7 +53,7 @@ ButtonMap *device_map_button(DeviceMap *map, const char *name)
     return NULL;
 }
 
-/* The names of all buttons that a product of the family has. */
+/* Collects the button names of all products of the family. */
 static void collect_buttons(DeviceMap *map)
 {
     for (const DeviceRow *row = device_rows; row->name; row++)
@@ -138,8 +138,8 @@ double mapping_shape(const DeviceMap *map, int axis, double value)
     return (value < 0) == row->invert ? shaped : -shaped;
 }
 
-/* HandInput counts away from the user what z counts towards him, and leans the top where turns about z and x
-   take it the other way. */
+/* Signs: HandInput counts away from the user, while z counts towards the user; turns around z and x lean
+   the top the opposite way. */
 static void add_axis(const AxisMap *row, double value, HandInput *hand, double camera[3])
 {
     const bool rate = row->as == MAP_RATE;
@@ -183,7 +183,7 @@ void mapping_add(const DeviceMap *map, const DeviceState *state, HandInput *hand
 void mapping_pose(const DeviceMap *map, const double turned[4], double out[4])
 {
     const double sine = sqrt(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2]);
-    const double side = turned[3] < 0 ? -1 : 1; /* of the two ways round the shorter */
+    const double side = turned[3] < 0 ? -1 : 1; /* the shorter of both ways round */
     const double angle = 2 * atan2(sine, side * turned[3]) * map->gain * map->pose_gain;
     double rotation[3] = {0};
     for (int k = 0; k < 3 && sine > 0; k++)

@@ -1,4 +1,4 @@
-/* From a mapping file to what devices do. */
+/* Reads a mapping file. */
 #include "app/base/place.h"
 #include "app/base/read_file.h"
 #include "app/base/suggest.h"
@@ -18,7 +18,7 @@ typedef struct Reading {
     Error *error;
 } Reading;
 
-/* The names that may stand in a mapping. */
+/* The valid names in a mapping. */
 typedef struct Names {
     int count;
     const char *names[NAMES_MAX];
@@ -52,7 +52,7 @@ static bool is_mapping(const Reading *reading, const Node *node, const char *sho
            tree_error(reading->tree, node, reading->error, "%s must be a mapping such as %s", shown, example);
 }
 
-/* Only names of the list stand in it. */
+/* Checks that all keys are in the list. */
 static bool check_names(const Reading *reading, const Node *mapping, const Names *names)
 {
     for (const Node *child = mapping->first; child; child = child->next) {
@@ -65,7 +65,7 @@ static bool check_names(const Reading *reading, const Node *mapping, const Names
     return true;
 }
 
-/* The values of the rows that are there. */
+/* Reads the values of the present rows. */
 static bool read_rows(const Reading *reading, const Node *mapping, const Key *rows, const char *shown,
                       void *base)
 {
@@ -175,7 +175,7 @@ static bool read_device(const Reading *reading, const Node *node, DeviceMap *map
     return !pose || read_whole(reading, pose, mapping_pose_keys, path, "{to: box, gain: 1}", map);
 }
 
-/* "256f:c635"; false when it is none. */
+/* Parses "256f:c635"; returns false on failure. */
 static bool is_product(const char *key, unsigned *vendor, unsigned *product)
 {
     int end = 0;
@@ -184,7 +184,7 @@ static bool is_product(const char *key, unsigned *vendor, unsigned *product)
            sscanf(key, "%4x:%4x%n", vendor, product, &end) == 2 && end == 9;
 }
 
-/* Begins with what its family has. */
+/* Reads a product's entry, starting with its family's values. */
 static bool read_own(const Reading *reading, const Node *node, unsigned vendor, unsigned product,
                      Mapping *mapping)
 {
@@ -196,7 +196,7 @@ static bool read_own(const Reading *reading, const Node *node, unsigned vendor, 
         return tree_error_key(reading->tree, node, reading->error,
                               "more than %d products; write what they share under %s", MAPPING_OWN_MAX,
                               device_family_word(row->family));
-    for (int i = 0; i < mapping->own_count; i++) /* in other letters: 256F:C635 */
+    for (int i = 0; i < mapping->own_count; i++) /* different case: 256F:C635 */
         if (mapping->own[i].vendor == vendor && mapping->own[i].product == product)
             return tree_error_key(reading->tree, node, reading->error,
                                   "%.9s stands here twice; keep one of the two", node->key);

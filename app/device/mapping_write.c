@@ -1,4 +1,4 @@
-/* What devices do, as a file and in words. */
+/* Writes mappings as a file and in words. */
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
 #include "sim/base/key_text.h"
@@ -6,7 +6,7 @@
 #include <errno.h>
 #include <string.h>
 
-/* "{to: move_x, as: rate, gain: 1, invert: false}" */
+/* Writes "{to: move_x, as: rate, gain: 1, invert: false}". */
 static void write_rows(const Key *rows, const void *base, FILE *file)
 {
     fputc('{', file);
@@ -23,7 +23,7 @@ static const char *command_name(int command)
     return command == PLAY_NONE ? "nothing" : mapping_command_name(command);
 }
 
-/* Those that do something, here or in what the reader begins with; the others by name. */
+/* Writes the buttons with a command, here or in the reader's default; names the rest in a comment. */
 static void write_buttons(const DeviceMap *map, const DeviceMap *begin, FILE *file)
 {
     int others = 0;

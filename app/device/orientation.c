@@ -7,10 +7,10 @@
 
 static const double radians = M_PI / 180, standard_gravity = 9.80665;
 
-/* Beyond these deviations from gravity the accelerometer counts fully, and not at all. */
+/* Relative deviation from gravity, below which the accelerometer counts fully, and above which not at all. */
 static const double felt_sure = 0.02, felt_unsure = 0.15;
 
-enum { RESTS_MOST = 20 }; /* the bias is the mean of so many last windows: it changes with the temperature */
+enum { RESTS_MOST = 20 }; /* the bias is the mean of at most so many rests: it drifts with temperature */
 
 Orientation orientation_start(void)
 {
@@ -22,7 +22,7 @@ static double length(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Turns the pose by a rotation vector of the device's frame. */
+/* Turns the pose by a rotation vector in the device's frame. */
 static void turn_by(const double rotation[3], double pose[4])
 {
     double outside[3];
@@ -30,25 +30,25 @@ static void turn_by(const double rotation[3], double pose[4])
     quat_turn(outside, pose);
 }
 
-/* 1: what is felt is gravity alone; 0: the device is shaken, or falls. */
+/* Returns 1 if only gravity is felt, 0 if the device is shaken or falls. */
 static double trust(const Orientation *o, const double felt[3])
 {
     const double off = fabs(length(felt) / o->gravity - 1);
     return off <= felt_sure ? 1 : off >= felt_unsure ? 0 : (felt_unsure - off) / (felt_unsure - felt_sure);
 }
 
-/* The turn, about a level axis, that would bring what is felt upright. */
+/* Computes the turn around a level axis that brings the felt gravity upright. */
 static void to_upright(const Orientation *o, const double felt[3], double rotation[3])
 {
     double up[3];
     quat_rotate(o->pose, felt, up);
     const double level = hypot(up[0], up[2]), angle = atan2(level, up[1]);
-    rotation[0] = level > 0 ? -angle * up[2] / level : angle; /* upside down: any axis */
+    rotation[0] = level > 0 ? -angle * up[2] / level : angle; /* upside down: any axis will do */
     rotation[1] = 0;
     rotation[2] = level > 0 ? angle * up[0] / level : 0;
 }
 
-/* At first what was felt counts as a mean of all so far, then with the time constant. */
+/* Corrects the tilt: at first by the mean of all readings, later with the time constant. */
 static void level_pose(Orientation *o, double dt, const double felt[3])
 {
     double rotation[3];
@@ -62,8 +62,8 @@ static void level_pose(Orientation *o, double dt, const double felt[3])
     quat_turn(rotation, o->pose);
 }
 
-/* Which way the pose's right side points, as a turn about the vertical alone. Where that is up or down, what
-   points away from the user tells. */
+/* Returns the heading of the pose's right side, as a turn around the vertical. If the right side points up
+   or down, the side away from the user is used. */
 static void heading_of(const double pose[4], double out[4])
 {
     double right[3], near[3];
@@ -115,7 +115,7 @@ static bool window_still(const Orientation *o)
     return still;
 }
 
-/* It lay still: what the gyro said was its bias, and what that had turned the pose by was no turn. */
+/* Updates the bias after a rest, and undoes the pose's drift during the rest. */
 static void learn(Orientation *o)
 {
     const RestWindow *window = &o->window;
@@ -147,7 +147,7 @@ static void watch_for_rest(Orientation *o, double dt, const double rate[3], cons
         o->window = (RestWindow){0};
 }
 
-/* By the mean of the rates at both ends of the step. */
+/* Integrates with the mean of the rates at both ends of the step. */
 static void integrate(Orientation *o, double dt, const double rate[3])
 {
     double rotation[3], unbiased[3];
@@ -159,7 +159,7 @@ static void integrate(Orientation *o, double dt, const double rate[3])
     memcpy(o->rate, unbiased, sizeof unbiased);
 }
 
-/* What was turned in a gap is lost; the accelerometer says at once how the device is tilted now. */
+/* After a gap the turn is lost; the accelerometer gives the new tilt at once. */
 static void bridge(Orientation *o)
 {
     o->levelled_s = 0;
@@ -167,7 +167,7 @@ static void bridge(Orientation *o)
     o->resting = false;
 }
 
-/* The first report, or one whose time does not go on: nothing to integrate over. */
+/* Handles the first report, or a time that does not advance: no integration. */
 static void restart(Orientation *o, const double rate[3], const double felt[3])
 {
     if (!o->begun)
@@ -179,7 +179,7 @@ static void restart(Orientation *o, const double rate[3], const double felt[3])
 bool orientation_update(Orientation *o, double time, const double rate[3], const double felt[3])
 {
     const double absurd = 1e6;
-    if (!isfinite(time) || !(length(rate) < absurd) || !(length(felt) < absurd)) /* NaN is not less */
+    if (!isfinite(time) || !(length(rate) < absurd) || !(length(felt) < absurd)) /* false for NaN */
         return false;
     const double dt = time - o->time, step = fmin(dt, ORIENTATION_GAP);
     o->time = time;
@@ -200,7 +200,7 @@ void orientation_neutral(Orientation *o)
     memcpy(o->neutral, o->pose, sizeof o->neutral);
 }
 
-/* As seen by who looks the way that the neutral pose does: heading^-1 pose neutral^-1 heading */
+/* Turn as seen by a user looking along the neutral pose: heading^-1 pose neutral^-1 heading */
 void orientation_turned(const Orientation *o, double out[4])
 {
     double heading[4], back[4], turn[4];

@@ -1,24 +1,23 @@
-/* How a device with gyro and accelerometer is turned: a complementary filter. Pure: numbers in, numbers out.
+/* Orientation of a device with gyro and accelerometer: a complementary filter. Pure functions.
 
-   Turns are the gyro's, integrated; which way is up comes from the accelerometer, slowly, and not at all
-   while the device is shaken. Which way the device looks (its turn about the vertical) nothing but the gyro
-   tells, so its bias matters: it is learned whenever the device lies still, and what it had turned the pose
-   by meanwhile is taken back. Frames as in device_state.h. After: Mahony, Hamel and Pflimlin, "Nonlinear
-   complementary filters on the special orthogonal group", 2008, with an explicit rest detector in place of
-   their integral. */
+   Turns are integrated from the gyro. The vertical comes from the accelerometer, slowly, and not while the
+   device is shaken. The heading (turn around the vertical) is known from the gyro alone, so its bias
+   matters: the bias is measured whenever the device lies still, and the pose's drift during the rest is
+   undone. Frames as in device_state.h. After: Mahony, Hamel and Pflimlin, "Nonlinear complementary filters
+   on the special orthogonal group", 2008, with an explicit rest detector in place of their integral. */
 #ifndef SLOSH_ORIENTATION_H
 #define SLOSH_ORIENTATION_H
 
 #include <stdbool.h>
 
-#define ORIENTATION_LEVELS    2.0 /* s: time constant by which the accelerometer's up prevails */
-#define ORIENTATION_GAP       0.1 /* s: longer ones are not integrated over: nobody knows what was in them */
-#define ORIENTATION_REST      0.5 /* s: so long it must lie still */
-#define ORIENTATION_BIAS_MOST 2.0 /* degrees/s: a steady turn faster than this is no bias */
-#define ORIENTATION_STEADY    1.5 /* degrees/s, least to greatest while it lies still; a hand trembles more */
-#define ORIENTATION_STILL     0.05 /* g, the same of the accelerometer */
+#define ORIENTATION_LEVELS    2.0  /* s: time constant of the accelerometer's correction */
+#define ORIENTATION_GAP       0.1  /* s: longer gaps are not integrated: the motion is unknown */
+#define ORIENTATION_REST      0.5  /* s: duration of a rest */
+#define ORIENTATION_BIAS_MOST 2.0  /* degrees/s: a faster steady turn is not a bias */
+#define ORIENTATION_STEADY    1.5  /* degrees/s, range of readings at rest; a hand trembles more */
+#define ORIENTATION_STILL     0.05 /* g, the same for the accelerometer */
 
-/* What a rest of ORIENTATION_REST is judged by. */
+/* Statistics over a window of ORIENTATION_REST, to detect a rest. */
 typedef struct RestWindow {
     double seconds;
     int reports;
@@ -26,35 +25,35 @@ typedef struct RestWindow {
 } RestWindow;
 
 typedef struct Orientation {
-    double pose[4];    /* unit quaternion x y z w: from the device's frame to one whose y is up */
-    double neutral[4]; /* the pose that counts as not turned */
-    double bias[3];    /* rad/s, learned */
-    double gravity;    /* m/s2, as this accelerometer has it */
+    double pose[4];    /* unit quaternion x y z w: from the device's frame to a frame with y up */
+    double neutral[4]; /* the pose counted as not turned */
+    double bias[3];    /* rad/s, measured at rests */
+    double gravity;    /* m/s2, as read by the device's accelerometer */
     bool begun;
-    bool resting;      /* it lay still in the last ORIENTATION_REST */
+    bool resting;      /* at rest during the last ORIENTATION_REST */
     double time;       /* s, of the last report */
-    double rate[3];    /* rad/s, of it, without the bias */
-    double levelled_s; /* how long the accelerometer has been heard */
-    int rests;         /* windows of rest so far */
+    double rate[3];    /* rad/s, at the last report, without the bias */
+    double levelled_s; /* total time of accelerometer corrections, s */
+    int rests;         /* count of rests so far */
     RestWindow window;
 } Orientation;
 
-/* Before the first report: level, and that is the neutral pose. */
+/* Returns the state before the first report: level and neutral. */
 Orientation orientation_start(void);
 
-/* Takes a report in: time (s), angular velocity (rad/s), what the accelerometer feels (m/s2). The first one
-   gives the tilt at once, and which way the device looks then counts as away from the user. False: a number
-   was not finite, and nothing has changed. A time that does not go on turns nothing. */
+/* Processes a report: time (s), angular velocity (rad/s), accelerometer reading (m/s2). The first report
+   sets the tilt at once; the heading then counts as away from the user. Returns false, with nothing
+   changed, if a number is not finite. If time does not advance, nothing turns. */
 bool orientation_update(Orientation *orientation, double time, const double rate[3], const double felt[3]);
 
-/* The present pose becomes the neutral one, and the way it looks now is away from the user. */
+/* Makes the present pose the neutral pose, with the present heading away from the user. */
 void orientation_neutral(Orientation *orientation);
 
-/* The turn from the neutral pose to the present one, unit quaternion x y z w, in the user's frame: x to the
-   right, y up, z towards him. */
+/* Fills in the turn from the neutral to the present pose, a unit quaternion x y z w, in the user's frame:
+   x to the right, y up, z towards the user. */
 void orientation_turned(const Orientation *orientation, double out[4]);
 
-/* Which way gravity points in the device's frame: a unit vector. */
+/* Fills in the direction of gravity in the device's frame: a unit vector. */
 void orientation_down(const Orientation *orientation, double out[3]);
 
 #endif

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* A parser of one layout: false, and *state in any state, when the report is none of it. state->time is that
-   of this report. */
+/* Parser of one layout. Returns false, with *state undefined, if the report does not fit. state->time is
+   the report's time. */
 typedef bool Parser(const ReportFormat *format, const uint8_t *bytes, size_t size, DeviceState *state);
 
 static double within(double value, double limit)
@@ -14,7 +14,7 @@ static double within(double value, double limit)
     return fmin(fmax(value, -limit), limit);
 }
 
-/* `count` axes of the report, from its axis `first` on, into those of the cap that come from them. */
+/* Reads `count` axes of the report, from axis `first` on, into the cap's axes. */
 static void read_cap(const ReportFormat *format, const uint8_t *bytes, int first, int count,
                      DeviceState *state)
 {
@@ -63,7 +63,7 @@ static bool parse_cap_any(const ReportFormat *format, const uint8_t *bytes, size
     return parse_cap_w(format, bytes, size, state) || parse_cap_s(format, bytes, size, state);
 }
 
-/* Centred at 128, where it is exactly 0; both ends are reached. */
+/* 0 exactly at 128; both ends are reached. */
 static double stick(uint8_t byte)
 {
     return within((byte - 128) / 127.0, 1);
@@ -77,8 +77,8 @@ static void read_sticks(const uint8_t *bytes, DeviceState *state)
     }
 }
 
-/* Three bytes of buttons: the hat counts clockwise from up in eighths, 8 and more is none. `mask`: what of
-   the last byte is buttons. */
+/* Three bytes of buttons: the hat counts clockwise from up in eighths, 8 and more is none. `mask`: button
+   bits of the last byte. */
 static uint32_t buttons(const uint8_t *bytes, uint8_t mask)
 {
     static const uint8_t hats[16] = {1, 3, 2, 6, 4, 12, 8, 9}; /* up 1, right 2, down 4, left 8 */
@@ -107,7 +107,7 @@ static void read_dualshock4(const ReportFormat *format, const uint8_t *payload, 
     read_sticks(payload, state);
     state->triggers[0] = payload[7] / 255.0;
     state->triggers[1] = payload[8] / 255.0;
-    state->buttons = buttons(payload + 4, 0x03); /* above them is a counter */
+    state->buttons = buttons(payload + 4, 0x03); /* the upper bits are a counter */
     read_sensors(format, payload + 12, state);
     state->late = sensor_clock_late(&state->clock, state->time, little_u16(payload + 9), 16, 16e-6 / 3);
 }
@@ -117,7 +117,7 @@ static void read_dualsense(const ReportFormat *format, const uint8_t *payload, D
     read_sticks(payload, state);
     state->triggers[0] = payload[4] / 255.0;
     state->triggers[1] = payload[5] / 255.0;
-    state->buttons = buttons(payload + 7, 0xf7); /* the Edge's are the upper half */
+    state->buttons = buttons(payload + 7, 0xf7); /* the upper half: buttons of the Edge */
     read_sensors(format, payload + 15, state);
     state->late = sensor_clock_late(&state->clock, state->time, little_u32(payload + 27), 32, 1e-6 / 3);
 }
@@ -131,7 +131,7 @@ static bool parse_dualshock4_usb(const ReportFormat *format, const uint8_t *byte
     return true;
 }
 
-/* Without a controller the adaptor goes on reporting, with a bit that says so. */
+/* Without a controller the adaptor goes on reporting, with a status bit. */
 static bool parse_dualshock4_dongle(const ReportFormat *format, const uint8_t *bytes, size_t size,
                                     DeviceState *state)
 {

@@ -1,22 +1,22 @@
-/* From the bytes of a report to the state of a device: pure, no I/O. */
+/* Parses the bytes of a report into a device's state: pure, no I/O. */
 #ifndef SLOSH_REPORT_H
 #define SLOSH_REPORT_H
 
 #include "app/device/calibration.h"
 
-/* More than any report of a layout has; longer ones, of audio, are cut to this and refused. */
+/* Longer than any report of a layout; longer reports, of audio, are cut and refused. */
 enum { REPORT_BYTES_MAX = 128 };
 
-/* What is needed to read the reports of one device. */
+/* Data needed to parse the reports of a device. */
 typedef struct ReportFormat {
     const DeviceRow *row;
     ReportLayout layout; /* row->usb or row->bluetooth */
     Calibration calibration;
 } ReportFormat;
 
-/* Reads one report, `bytes` with its id first, at `time` (s). True: `state` is what it says; what the report
-   has nothing about stays. False when id, length or checksum are not of the layout: nothing but
-   state->refused is changed. */
+/* Parses one report, `bytes` with its id first, at `time` (s). Returns true and updates `state`; values
+   missing in the report stay. Returns false if id, length or checksum do not fit the layout: only
+   state->refused changes. */
 bool report_parse(const ReportFormat *format, const uint8_t *bytes, size_t size, double time,
                   DeviceState *state);
 

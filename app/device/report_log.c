@@ -7,15 +7,15 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A line in parts. */
+/* Parser of a line. */
 typedef struct Line {
     Reader *reader;
-    const char *at, *end; /* what is not yet taken */
+    const char *at, *end; /* the remaining text */
 } Line;
 
 enum { WORD_SIZE = 32 };
 
-/* The next word, up to a blank or the end; false when none is left, or it is longer than any. */
+/* Takes the next word, up to a blank or the end; returns false if there is none, or the word is too long. */
 static bool take_word(Line *line, char word[WORD_SIZE])
 {
     const size_t left = (size_t)(line->end - line->at);
@@ -34,7 +34,7 @@ static bool all_of(const char *word, const char *set)
     return *word && !word[strspn(word, set)];
 }
 
-/* Room for one more of `size` bytes each. */
+/* Grows an array for `more` more elements of `size` bytes. */
 static bool grow(void **array, size_t count, size_t *capacity, size_t more, size_t size)
 {
     if (count + more <= *capacity)
@@ -48,7 +48,7 @@ static bool grow(void **array, size_t count, size_t *capacity, size_t more, size
     return true;
 }
 
-/* The next line, without the carriage return that a mail on its way may have got. */
+/* Reads the next line, without a carriage return possibly added by mail. */
 static bool next_line(Reader *reader)
 {
     if (!reader_next(reader))
@@ -75,7 +75,7 @@ static bool take_time(Line *line, double before, double *time)
            reader_fail(line->reader, "%s s is before the line above; put them in order", word);
 }
 
-/* The number of the device, which the file counts from 1 on. */
+/* Takes the device's number, counted from 1 in the file. */
 static bool take_device(Line *line, int count, int *device)
 {
     char word[WORD_SIZE];
@@ -132,7 +132,7 @@ static int digit(char c)
                                   : -1;
 }
 
-/* The rest of the line: a report in hexadecimal digits. */
+/* Takes the rest of the line: a report in hexadecimal digits. */
 static bool take_bytes(Line *line, ReportLog *out, ReportLogEntry *entry)
 {
     const size_t digits = (size_t)(line->end - line->at), size = digits / 2;
@@ -168,7 +168,7 @@ static bool take_kind(Line *line, ReportLogEntry *entry)
                        word);
 }
 
-/* What follows the kind of event. */
+/* Takes the rest of a line after the kind of event. */
 static bool take_rest(Line *line, ReportLog *out, ReportLogEntry *entry, int device)
 {
     if (entry->kind == REPORT_LOG_PLUGGED)
@@ -199,7 +199,7 @@ static bool read_entry(Reader *reader, ReportLog *out)
     return true;
 }
 
-/* The two first lines. */
+/* Reads the first two lines. */
 static bool read_head(Reader *reader)
 {
     reader->number = 1;
@@ -229,7 +229,7 @@ bool report_log_parse(const char *path, const char *bytes, size_t size, ReportLo
     return ok;
 }
 
-/* It is read twice, to be checked and to be played: what flows by is none. */
+/* The file is read twice, for checking and for playing: a pipe is refused. */
 static bool stays_there(const char *path, Error *error)
 {
     struct stat status;

@@ -1,5 +1,5 @@
-/* Raw reports of motion devices with their times, as a file: to be replayed (`--device file:PATH`), tested
-   with and sent with a bug report. Text, a line an event, in order of time:
+/* Raw reports of motion devices with their times, in a file for replays (`--device file:PATH`), tests and bug
+   reports. Text, one event per line, in the order of time:
 
      slosh device recording 1
      program 0.1
@@ -8,9 +8,9 @@
      0.004012 1 report 017f80...               id first, in hexadecimal digits
      9.250000 1 unplugged
 
-   Each begins with the time in s since the start and the number of the device: 1, 2, ... in the order in
-   which they are plugged in; what is plugged in again gets a new one. The name at the end of a line is for
-   people. A file that ends within a line, because its writer was killed, is read as far as it is whole. */
+   A line begins with the time since the start, s, and the device's number: 1, 2, ... in the order of plugging
+   in; a device plugged in again gets a new number. The name at the end of a line is for people. If a killed
+   writer left an incomplete last line, the complete lines are read. */
 #ifndef SLOSH_REPORT_LOG_H
 #define SLOSH_REPORT_LOG_H
 
@@ -33,11 +33,11 @@ typedef enum ReportLogKind {
 } ReportLogKind;
 
 typedef struct ReportLogEntry {
-    double time; /* s, never less than that of the entry before */
+    double time; /* s, never less than in the entry before */
     size_t offset;
     uint16_t size;  /* the report is bytes[offset], ...; 0: none */
     uint8_t kind;   /* ReportLogKind */
-    uint8_t device; /* devices[device]: one less than its number in the file */
+    uint8_t device; /* index into devices: number in the file less 1 */
 } ReportLogEntry;
 
 typedef struct ReportLogDevice {
@@ -54,31 +54,31 @@ typedef struct ReportLog {
     size_t count, capacity, byte_count, byte_capacity;
 } ReportLog;
 
-/* Reads the bytes of a file; pure. False, and nothing to destroy, with "path:line: what is wrong; what would
-   be right". */
+/* Parses the bytes of a file; pure. Returns false, with nothing to destroy, and "path:line: problem;
+   advice". */
 bool report_log_parse(const char *path, const char *bytes, size_t size, ReportLog *out, Error *error);
 bool report_log_read(const char *path, ReportLog *out, Error *error);
 void report_log_destroy(ReportLog *log); /* a zeroed one is allowed */
 
 typedef struct ReportLogWriter ReportLogWriter;
 
-/* Begins a new file; one that is there stays, for no hand does the same again. Each line is handed to the
-   system at once, so that a killed program leaves all that came before. NULL with the reason. */
+/* Creates a new file; fails if the file exists, as nobody can repeat the recorded motion. Each line is
+   written to the system at once, so that a killed program loses nothing. Returns NULL with the reason. */
 ReportLogWriter *report_log_create(const char *path, Error *error);
 
-/* The number of the device that is plugged in now; 0 when there are too many: its lines are left out. */
+/* Returns the number of the device plugged in; 0 if there are too many: its lines are left out. */
 int report_log_plugged(ReportLogWriter *writer, const DeviceRow *row, bool bluetooth);
 
-/* `number` as from report_log_plugged. `time`: of wall_ms, in s. More than REPORT_LOG_REPORT_MAX bytes are
- * left out. */
+/* `number`: from report_log_plugged. `time`: of wall_ms, in s. Reports over REPORT_LOG_REPORT_MAX bytes
+   are left out. */
 void report_log_calibration(ReportLogWriter *writer, int number, const uint8_t *bytes, size_t size);
 void report_log_report(ReportLogWriter *writer, int number, double time, const uint8_t *bytes, size_t size);
 void report_log_unplugged(ReportLogWriter *writer, int number);
 
-/* Whether a line could not be written: the disk is full. */
+/* Returns true if a line could not be written: the disk is full. */
 bool report_log_broken(const ReportLogWriter *writer);
 
-/* False with the reason where a line is missing. NULL is allowed. */
+/* Returns false with the reason if a line is missing. NULL is allowed. */
 bool report_log_close(ReportLogWriter *writer, Error *error);
 
 #endif

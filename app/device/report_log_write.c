@@ -12,9 +12,9 @@
 struct ReportLogWriter {
     FILE *file;
     char path[1024];
-    double start, last; /* s of wall_ms; s since then, of the last line */
+    double start, last; /* wall_ms at the start, s; time since then of the last line, s */
     int devices;
-    int number; /* errno of the first line that failed; 0: none */
+    int number; /* errno of the first failed line; 0: none */
 };
 
 static double now(void)
@@ -33,8 +33,8 @@ static void keep_failure(ReportLogWriter *writer)
         writer->number = errno ? errno : EIO;
 }
 
-/* The time and the device, with which each line begins. Two devices are read side by side: a report may be
-   told after one that came later. False: a line before was not written whole, and nothing can follow it. */
+/* Begins a line with time and device. Two devices are read in parallel: a report may arrive after a later
+   one. Returns false after an incomplete line, as no line can follow. */
 static bool begin_line(ReportLogWriter *writer, int number, double time)
 {
     if (report_log_broken(writer))
@@ -53,7 +53,7 @@ static void end_line(ReportLogWriter *writer)
         keep_failure(writer);
 }
 
-/* The head goes into a file beside, so that one with this name always is a recording. */
+/* The head goes into a temporary file first, so that a file of this name always is a recording. */
 ReportLogWriter *report_log_create(const char *path, Error *error)
 {
     Output output = {0};
