@@ -15,14 +15,13 @@ static uint64_t add_log(uint64_t hash, const ReportLog *log)
                                  device->row->vendor, device->row->product, device->bluetooth};
         hash = hash_add(hash, &entry->time, sizeof entry->time);
         hash = hash_add(hash, what, sizeof what);
-        if (entry->size > 0) /* a log of reports without a byte has no bytes at all */
+        if (entry->size > 0) /* log->bytes is NULL if no report has a byte */
             hash = hash_add(hash, log->bytes + entry->offset, entry->size);
     }
     return hash;
 }
 
-/* Comments are for people: they name a path of this user's, and their words change from version to version.
- */
+/* Skips comments: they contain the user's path and may change between versions. */
 static uint64_t add_yaml(uint64_t hash, const char *text)
 {
     while (*text) {

@@ -1,5 +1,4 @@
-/* What tells a recording of motion devices, with its mapping and its camera, from any other: so that a run is
-   resumed with the same one. */
+/* Hash of a recording of motion devices, its mapping and its camera: a resumed run must use the same. */
 #ifndef SLOSH_HAND_MARK_H
 #define SLOSH_HAND_MARK_H
 
@@ -8,7 +7,8 @@
 
 enum { HAND_MARK_SIZE = 17 };
 
-/* 16 hexadecimal digits, equal for equal entries, mappings and axes (right, up, away). False: no memory. */
+/* Fills in 16 hexadecimal digits, equal for equal entries, mappings and axes (right, up, away). Returns
+   false if memory is short. */
 bool hand_mark(const ReportLog *log, const Mapping *mapping, const HandInput *axes,
                char mark[HAND_MARK_SIZE]);
 

@@ -16,13 +16,13 @@ struct HandPost {
     void (*wake)(void);
     HandSend *send; /* NULL: closed */
     void *user;
-    HeldDevices held; /* `own`: of the window at its last look, without what counts once; a box_size of 0: it
-                         has not looked yet */
+    HeldDevices held; /* `own`: the window's last input, without parts that count once; box_size 0: before
+                         the first look */
     double looked_ms; /* wall time of the last update */
     HandNews news;
     uint64_t reports;
     size_t latencies;
-    float latency_ms[LATENCIES_MAX]; /* a ring */
+    float latency_ms[LATENCIES_MAX]; /* ring buffer */
 };
 
 HandPost *hand_post_create(const Mapping *mapping, void (*wake)(void))
@@ -63,7 +63,7 @@ void hand_post_close(HandPost *post)
     pthread_mutex_unlock(&post->lock);
 }
 
-/* Sends where the box shall be now; 0: nothing new, or nobody to send it to. */
+/* Sends the present target; returns 0 if nothing is new, or nobody to receive it. */
 static uint64_t update(HandPost *post)
 {
     const double now = wall_ms(), dt = fmin(1e-3 * (now - post->looked_ms), HAND_DT_MOST);
@@ -199,7 +199,7 @@ double hand_post_latency(HandPost *post, double fraction)
     return count ? (double)sorted[(size_t)(fraction * (double)(count - 1) + 0.5)] : 0;
 }
 
-/* From here on: what happens on the devices' thread. */
+/* From here on: functions of the devices' thread. */
 
 static void say(HandPost *post, bool wrong, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
@@ -234,7 +234,7 @@ static void remove_device(HandPost *post, int number)
             held_device_in_use(&gone) ? "; the box stays where it is" : "");
 }
 
-/* False: of no device that is held. */
+/* Returns false if the device is not held. */
 static bool take_report(HandPost *post, const DeviceEvent *event)
 {
     PlayCommand pressed[HELD_BUTTONS_MAX];
@@ -251,7 +251,7 @@ static bool take_report(HandPost *post, const DeviceEvent *event)
 static void sent(HandPost *post, double when_ms, uint64_t number)
 {
     HandNews *news = &post->news;
-    if (news->sent_count == NEWS_SENT_MAX) /* a picture lasted long: the oldest tell least */
+    if (news->sent_count == NEWS_SENT_MAX) /* after a long picture: drop the oldest */
         memmove(&news->sent[0], &news->sent[1], (size_t)--news->sent_count * sizeof *news->sent);
     news->sent[news->sent_count].when_ms = when_ms;
     news->sent[news->sent_count++].number = number;

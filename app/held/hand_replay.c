@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is held goes on between two reports, as it does from picture to picture in the window. */
+/* Held inputs are integrated between two reports, like between pictures in the window. */
 static const double LOOKS_A_SECOND = 60;
 
 struct HandReplay {
@@ -27,12 +27,12 @@ struct HandReplay {
 static void update(HandReplay *replay, double time)
 {
     double camera[3] = {0};
-    BoxTarget target; /* hand.told has it */
+    BoxTarget target; /* unused: also in hand.told */
     held_devices_update(&replay->held, time - replay->now, camera, &target);
     replay->now = time;
 }
 
-/* Buttons: what concerns the box; the rest is a window's affair. */
+/* Handles the buttons for the box; remaining buttons matter only in a window. */
 static void take_report(HandReplay *replay, const DeviceEvent *event)
 {
     PlayCommand pressed[HELD_BUTTONS_MAX];
@@ -69,7 +69,7 @@ static void hear(void *user, const DeviceEvent *event)
     }
 }
 
-/* The camera as it is before anything moves. Its size does not matter: which way it looks does. */
+/* Axes of the initial camera; only its direction matters. */
 static HandInput camera_axes(const Scene *scene)
 {
     const BoxState home = {.orientation = {0, 0, 0, 1}};
@@ -124,7 +124,7 @@ const char *hand_replay_mark(const HandReplay *replay)
     return replay ? replay->mark : "";
 }
 
-/* The next event or look, whichever is first, where it is not after `time`. */
+/* Plays the next event or look, whichever is first; returns false if later than `time`. */
 static bool play_next(HandReplay *replay, double time)
 {
     const double due = devices_due(replay->devices), look = (replay->looks + 1) / LOOKS_A_SECOND;

@@ -1,8 +1,7 @@
-/* A recording of motion devices moves the box of a world that is stepped without a window (`render`, `run`,
-   `bench`), in simulated time: what was reported t seconds after the recording's start is in the hand at time
-   t, by the way of app/held/held_devices.h, mapping and all. Where the box shall be depends on the recording
-   and on the time alone, and not on steps, threads or clocks: so two runs give the same bits, and a run that
-   is resumed gives those of one without a break. */
+/* A recording of motion devices moves the box of a world without a window (`render`, `run`, `bench`), in
+   simulated time: reports from t seconds after the recording's start are applied at time t, with the
+   mapping, by app/held/held_devices.h. The target depends only on recording and time, not on steps,
+   threads or clocks: two runs give the same bits, also if a run is resumed. */
 #ifndef SLOSH_HAND_REPLAY_H
 #define SLOSH_HAND_REPLAY_H
 
@@ -12,20 +11,21 @@
 
 typedef struct HandReplay HandReplay;
 
-/* `source` is that of --device, `mapping` that of --mapping, or NULL (mapping_load). Right, left and away are
-   those of the scene's camera. NULL with the reason: the recording or the mapping is missing or wrong. */
+/* Opens a recording. `source`: of --device. `mapping`: of --mapping, or NULL (mapping_load). Right, left
+   and away are those of the scene's camera. Returns NULL with the reason: recording or mapping missing or
+   wrong. */
 HandReplay *hand_replay_open(const char *source, const char *mapping, const Scene *scene, Error *error);
 void hand_replay_close(HandReplay *replay); /* NULL is allowed */
 
-/* 16 digits that tell this recording, its mapping and the camera from others: app/held/hand_mark.h. NULL: "".
- */
+/* Returns 16 digits identifying the recording, its mapping and the camera: app/held/hand_mark.h. NULL: "". */
 const char *hand_replay_mark(const HandReplay *replay);
 
-/* Where a box of that size (m) shall be at `time` (s). Before the first report it is at home, after the
-   recording's end it stays where it is. A time before that of the last call begins again from the start. */
+/* Returns the target of a box of the given size (m) at `time` (s). Before the first report the box is at
+   home, after the recording's end the box stays. A time earlier than in the last call restarts the
+   recording. */
 BoxTarget hand_replay_at(HandReplay *replay, const double box_size[3], double time);
 
-/* world_set_target of that, before a step of the world. NULL: nothing. */
+/* Calls world_set_target for the present time; call before a step of the world. NULL: does nothing. */
 void hand_replay_move(HandReplay *replay, World *world);
 
 #endif

@@ -20,7 +20,7 @@ static bool turns_box(const HeldDevice *device)
     return device->map.pose && device->orientation.begun;
 }
 
-/* The devices' turns one on top of the other, in the order in which they came. */
+/* Combines the devices' turns, in the order of plugging in. */
 static void add_turn(const HeldDevice *device, HandInput *sum)
 {
     double turned[4], of_box[4];
@@ -34,7 +34,7 @@ static void add_turn(const HeldDevice *device, HandInput *sum)
         quat_multiply(of_box, sum->turned, sum->turned);
 }
 
-/* One that has fallen silent holds what it holds, and takes nothing further. */
+/* Adds a device's axes. A silent device keeps its offsets, and its rates are ignored. */
 static void add_axes(const HeldDevice *device, HandInput *sum, double camera[3])
 {
     HandInput all = *sum;
@@ -50,7 +50,7 @@ static void add_axes(const HeldDevice *device, HandInput *sum, double camera[3])
     *sum = all;
 }
 
-/* What the devices and all else say, together. */
+/* Sums up the input of devices and everything else. */
 static HandInput sum_up(const HeldDevices *held, double camera[3])
 {
     HandInput sum = held->own;
@@ -111,7 +111,7 @@ static HeldDevice *find(HeldDevices *held, int number)
     return NULL;
 }
 
-/* Closes the gap, so that the order stays that of coming. */
+/* Removes a device and closes the gap, to keep the order. */
 static void forget(HeldDevices *held, const HeldDevice *device)
 {
     const size_t at = (size_t)(device - held->list);
@@ -119,7 +119,7 @@ static void forget(HeldDevices *held, const HeldDevice *device)
     held->list[HELD_DEVICES_MAX - 1] = (HeldDevice){.number = 0};
 }
 
-/* One that was refused and is plugged in again, or may be opened now, is no longer the refused one. */
+/* Removes a refused device once it is plugged in again, or may be opened. */
 static void forget_refused(HeldDevices *held, const DeviceEvent *event)
 {
     for (int i = HELD_DEVICES_MAX - 1; i >= 0; i--) {
@@ -156,8 +156,8 @@ static bool is_as_left(const HeldDevices *held)
     return same;
 }
 
-/* The box stays where it was last told to be. Where a device before has left it so, that turn is still to be
-   taken back too. */
+/* Leaves the box at its last target. If an earlier unplugged device left the box there, that device's turn
+   must be undone later, too. */
 static void leave_box(HeldDevices *held, bool turned)
 {
     const BoxTarget told = held->hand.told;

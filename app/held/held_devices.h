@@ -1,6 +1,6 @@
-/* Motion devices in the hand: from what one of them reports to where the box shall be. The one way for those
-   in the window (app/held/hand_post.h) and for recordings in simulated time (app/held/hand_replay.h). Pure:
-   no lock, no thread, no clock. */
+/* Motion devices in the hand: from reports to a target of the box. Used for devices in the window
+   (app/held/hand_post.h) and for recordings in simulated time (app/held/hand_replay.h). Pure: no lock,
+   thread or clock. */
 #ifndef SLOSH_HELD_DEVICES_H
 #define SLOSH_HELD_DEVICES_H
 
@@ -11,16 +11,16 @@
 
 enum { HELD_DEVICES_MAX = 8, HELD_PROBLEM_SIZE = 512, HELD_BUTTONS_MAX = 32 };
 
-/* s without a report after which a device's rates count as none, as if it had been let go: one that is held
-   off its rest reports all the time, so its link is broken. 3Dconnexion's own example programs do so too. */
+/* s without a report until a device's rates count as zero, as if released: a deflected device reports all
+   the time, so the link is broken. 3Dconnexion's example programs do the same. */
 #define HELD_SILENCE 0.5
 
 typedef struct HeldDevice {
-    int number; /* of DeviceEvent; 0: none is here */
+    int number; /* of DeviceEvent; 0: unused entry */
     DeviceFamily family;
     uint16_t vendor, product;
     char name[64];
-    char problem[HELD_PROBLEM_SIZE]; /* it may not be opened: why, and what would help; "" */
+    char problem[HELD_PROBLEM_SIZE]; /* why the device may not be opened, with advice; or "" */
     DeviceState state;
     DeviceMap map;
     Orientation orientation;
@@ -30,45 +30,45 @@ typedef struct HeldDevice {
 typedef struct HeldDevices {
     Mapping mapping;
     Hand hand;
-    HandInput own;      /* all else that moves the box, and the picture's axes; its dt does not count */
-    double box_size[3]; /* m */
-    HeldDevice list[HELD_DEVICES_MAX]; /* in the order in which they came, without gaps */
-    double left[4], without[4]; /* how the box was held when a device that turned it was last unplugged, by
-                                   that turn and without it */
+    HandInput own;                     /* all other input for the box, and the picture's axes; without dt */
+    double box_size[3];                /* m */
+    HeldDevice list[HELD_DEVICES_MAX]; /* in the order of plugging in, without gaps */
+    double left[4], without[4]; /* box orientation at the unplugging of the last turning device: with and
+                                   without the device's turn */
 } HeldDevices;
 
-/* None is there, and the box is at home. */
+/* Starts without devices, the box at home. */
 void held_devices_start(HeldDevices *held, const Mapping *mapping);
 
-/* DEVICE_PLUGGED and DEVICE_REFUSED: one more; in place of those of its kind that were refused. False: there
-   are too many. */
+/* Handles DEVICE_PLUGGED and DEVICE_REFUSED: adds a device, replacing refused devices of its kind. Returns
+   false if there are too many. */
 bool held_devices_add(HeldDevices *held, const DeviceEvent *event);
 
-/* DEVICE_UNPLUGGED: the box stays where it was last told to be, though nothing holds it there any more.
-   False, and *gone as it was: there is no such device. */
+/* Handles DEVICE_UNPLUGGED: the box stays at its last target, though no longer held there. Returns false,
+   with *gone unchanged, if there is no such device. */
 bool held_devices_remove(HeldDevices *held, int number, HeldDevice *gone);
 
-/* DEVICE_REPORTED: takes the state over. The first pose of a device takes the place of one that was left by
-   an unplugged device, so that it doesn't count twice when the same is plugged in again. False: there is no
-   such device. `pressed` gets the commands of the
-   buttons that went down. The pose follows with the next held_devices_update. */
+/* Handles DEVICE_REPORTED: takes over the state. A device's first pose replaces the pose left by an
+   unplugged device, so that a device plugged in again does not count twice. Returns false if there is no
+   such device. `pressed` gets the commands of newly pressed buttons. The pose takes effect in the next
+   held_devices_update. */
 bool held_devices_report(HeldDevices *held, const DeviceEvent *event, PlayCommand pressed[HELD_BUTTONS_MAX],
                          int *pressed_count);
 
-/* dt seconds on. True: *target is where the box shall be, and is news. `camera` gains the rates of orbit
+/* Advances by dt seconds. Returns true if *target has a new target. `camera` gains the rates of orbit
    right, up and zoom times dt. */
 bool held_devices_update(HeldDevices *held, double dt, double camera[3], BoxTarget *target);
 
-void held_devices_neutral(HeldDevices *held); /* the present poses become the neutral ones */
-void held_devices_home(HeldDevices *held);    /* that too, and the box goes home, upright */
+void held_devices_neutral(HeldDevices *held); /* makes the present poses neutral */
+void held_devices_home(HeldDevices *held);    /* likewise, and moves the box home, upright */
 
-/* hand_let_go of all but the devices, which go on. */
+/* hand_let_go of all input except the devices, which go on. */
 void held_devices_let_go(HeldDevices *held, const BoxTarget *now);
 
-/* The same, and that it is there is no news. */
+/* Likewise, without reporting the new target as news. */
 void held_devices_follow(HeldDevices *held, const BoxTarget *target);
 
-/* Whether it moves the box. */
+/* True if the device moves the box. */
 bool held_device_in_use(const HeldDevice *device);
 
 #endif
