@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* How far along the ray it meets the solid, m; INFINITY: nowhere. Goes on by the distance to the surface. */
+/* Distance along the ray to the solid, m; INFINITY: no hit. Steps by the distance to the surface. */
 static double meets(const SolidDef *solid, const BoxState *pose, int dimensions, const SightRay *ray)
 {
     enum { GOES = 256 };
@@ -26,7 +26,7 @@ static double meets(const SolidDef *solid, const BoxState *pose, int dimensions,
     return INFINITY;
 }
 
-/* In two dimensions the ray is where it meets the plane of the fluid. */
+/* In two dimensions: tests the point where the ray meets the plane of the fluid. */
 static double meets_flat(const SolidDef *solid, const BoxState *pose, const SightRay *ray)
 {
     static const double across[3] = {0, 0, 1}, origin[3] = {0};
@@ -81,7 +81,7 @@ bool hold_press(Hold *hold, const WorldDef *def, double time, const BoxState *fl
     return true;
 }
 
-/* It rolls under the mouse as a ball does under a hand. */
+/* The solid rolls under the mouse like a ball under a hand. */
 static void roll(const Hold *hold, const double way[3], double turn[4])
 {
     double by[3];

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double NOTCH = 1.15; /* five of them double it */
+static const double NOTCH = 1.15; /* five notches double the value */
 
 FingerWay touch_other(FingerWay way)
 {
@@ -74,7 +74,7 @@ Handle touch_ring(const TouchTool *tool, const TouchDef *def, double spacing, co
     Handle ring = {.look = HANDLE_RING};
     const FingerWay way = tool->holds ? tool->way : (FingerWay)(def->way + 1);
     const double *f = forward, radius = touch_radius(def, way, spacing);
-    double beside[3] = {f[2], 0, -f[0]}; /* across `forward`, level */
+    double beside[3] = {f[2], 0, -f[0]}; /* across `forward`, horizontal */
     const double length = hypot(beside[0], beside[2]);
     if (length < 1e-6)
         memcpy(beside, (double[3]){1, 0, 0}, sizeof beside);

@@ -1,5 +1,5 @@
-/* The touch tool: the finger that a drag of the mouse puts into the fluid. Pure: no window, no GL. Places are
-   in the box's frame, m. */
+/* The touch tool: a finger put into the fluid by a mouse drag. Pure: no window, no GL. Positions are in
+   the box's frame, m. */
 #ifndef SLOSH_APP_TOUCH_H
 #define SLOSH_APP_TOUCH_H
 
@@ -9,50 +9,50 @@
 
 #include <stdbool.h>
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct TouchTool {
-    bool on;          /* drags are for it */
-    bool holds;       /* a drag has a place: */
-    bool spent;       /* time has jumped under the drag: it does nothing more */
-    FingerWay way;    /* what it does */
-    double at[3];     /* where the pointer is; without a drag, where it would begin */
-    Finger told;      /* as it was last sent */
-    Hold hold;        /* a solid that is in the hand instead of it */
-    unsigned travels; /* jumps in time that were seen, */
-    bool scripted;    /* and whether a recorded session was played then */
+    bool on;          /* drags belong to the tool */
+    bool holds;       /* a drag has a position: */
+    bool spent;       /* time has jumped during the drag: the drag has no more effect */
+    FingerWay way;    /* effect of the finger */
+    double at[3];     /* position of the pointer; without a drag, where a drag would begin */
+    Finger told;      /* last sent */
+    Hold hold;        /* a grabbed solid, instead of the finger */
+    unsigned travels; /* count of time jumps seen */
+    bool scripted;    /* a recorded session was played at that time */
 } TouchTool;
 
-/* What the left button does beyond the ways of a finger: it takes solids. In the place of a FingerWay less
- * one. */
+/* A further effect of the left button, besides the ways of a finger: grabbing solids. Numbered like a
+   FingerWay less one. */
 enum { TOUCH_HOLD = FINGER_POUR };
 
-/* What the other button does than that which does `way`: pull, or push where that pulls. */
+/* Returns the effect of the second button: pull, or push if `way` is pull. */
 FingerWay touch_other(FingerWay way);
 
-/* From now on a drag does that, at a place. */
+/* Begins a drag with the given effect, at a position. */
 void touch_press(TouchTool *tool, FingerWay way, const double at[3]);
 
-/* No drag has it. `behind`: states of later times are kept, which its end as a command would cut off. */
+/* Ends the drag. `behind`: later states are kept, and would be cut off by an end command. */
 void touch_release(TouchTool *tool, bool behind);
 
-/* Nothing is in the fluid: the scene begins anew, or another one is open. */
+/* Removes the finger: the scene restarts, or another scene is open. */
 void touch_forget(TouchTool *tool);
 
-/* Time has jumped so many times: a drag does nothing more from then on. Where a recorded session is played
-   its commands count as jumps, and the drag takes over from it. */
+/* Reports the count of time jumps: after a jump a drag has no more effect. While a recorded session is
+   played, its commands count as jumps, and the drag takes over. */
 void touch_travel(TouchTool *tool, unsigned travels, bool scripted);
 
-/* Where `ray` meets the plane through the tool's place that faces the camera looking along `forward`, or that
-   of a fluid in two dimensions: the tool's place from now on. False where they do not meet. */
+/* Moves the tool to the point where `ray` meets the plane through the tool's position facing a camera
+   looking along `forward`, or the plane of a two-dimensional fluid. Returns false if the ray misses. */
 bool touch_move(TouchTool *tool, const SightRay *ray, const double forward[3], int dimensions);
 
-/* What is to be sent; false: what was sent still holds. */
+/* Fills in the finger to send; returns false if the last sent finger still applies. */
 bool touch_asks(TouchTool *tool, const TouchDef *def, double spacing, Finger *finger);
 
-/* The outline of the ball, or of what is poured, as it is seen along `forward`. */
+/* Returns the outline of the ball, or of the poured fluid, seen along `forward`. */
 Handle touch_ring(const TouchTool *tool, const TouchDef *def, double spacing, const double forward[3]);
 
-/* `value` after so many notches of the wheel, within the key's bounds. */
+/* Returns `value` changed by notches of the wheel, within the key's bounds. */
 double touch_notches(double value, double notches, double least, double most);
 
 #endif
