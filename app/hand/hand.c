@@ -46,8 +46,8 @@ static void move(const HandInput *input, const double way[3], double position[3]
     position[1] += way[1];
 }
 
-/* rotation += the rotation vector that leans the top to the right and away by these angles. The top goes to
-   the right about `away`, and away about what points to the left. */
+/* rotation += the rotation vector leaning the top to the right and away by the given angles. The top moves
+   to the right by turning around `away`, and away by turning around the left. */
 static void lean(const HandInput *input, double to_right, double off, double rotation[3])
 {
     for (int k = 0; k < 3; k++)
@@ -63,17 +63,17 @@ static void stay_within(double position[3], double reach)
 
 static void turn(const double rotation[3], double orientation[4])
 {
-    if (length(rotation) != 0) /* a box that is not turned keeps its bits; NaN goes on */
+    if (length(rotation) != 0) /* keeps the bits of an unturned box; NaN passes */
         quat_turn(rotation, orientation);
 }
 
-/* rotation += the rotation vector that takes the near face to the right by this angle */
+/* rotation += the rotation vector moving the near face to the right by the given angle */
 static void spin(double to_right, double rotation[3])
 {
     rotation[1] += to_right;
 }
 
-/* What stays when the device is let go: drags, and rates over their time. */
+/* Adds the permanent part of the input: drags, and rates over time. */
 static void hold(const HandInput *input, double side, BoxTarget *held)
 {
     const double dt = input->dt < 0 ? 0 : clamp(input->dt, HAND_DT_MOST), reach = HAND_REACH * side;
@@ -82,12 +82,12 @@ static void hold(const HandInput *input, double side, BoxTarget *held)
         way[k] = clamp(input->move_rate[k], 1) * HAND_SPEED * side * dt;
     move(input, way, held->position);
     for (int k = 0; k < 2; k++)
-        drag[k] = clamp(input->move_drag[k], 2 * reach); /* from one end of the reach to the other */
+        drag[k] = clamp(input->move_drag[k], 2 * reach); /* from end to end of the reach */
     for (int k = 0; k < 3; k++)
         held->position[k] += input->right[k] * drag[0] + input->up[k] * drag[1];
     stay_within(held->position, reach);
 
-    /* The near face goes to the right about `up`, and up about what points to the left. */
+    /* The near face moves to the right by turning around `up`, and up by turning around the left. */
     for (int k = 0; k < 3; k++)
         rotation[k] = input->up[k] * clamp(input->turn_drag[0], M_PI) -
                       input->right[k] * clamp(input->turn_drag[1], M_PI);
@@ -97,7 +97,7 @@ static void hold(const HandInput *input, double side, BoxTarget *held)
     turn(rotation, held->orientation);
 }
 
-/* The rotation vector of offsets. */
+/* Rotation vector of the offsets. */
 static void sway_turn(const HandInput *input, double rotation[3])
 {
     const double angle = HAND_LEAN * radians;
@@ -106,7 +106,7 @@ static void sway_turn(const HandInput *input, double rotation[3])
     spin(clamp(input->spin_offset, 1) * angle, rotation);
 }
 
-/* The way of offsets: `sign` 1, or back: -1. */
+/* Displacement of the offsets: `sign` 1, or -1 for the reverse. */
 static void sway_move(const HandInput *input, double side, double sign, double position[3])
 {
     double way[3];
@@ -115,8 +115,8 @@ static void sway_move(const HandInput *input, double side, double sign, double p
     move(input, way, position);
 }
 
-/* The turn of the device in the world: its axes are right, up and what points out of the picture. False: it
-   is not turned. */
+/* Turn of the device in the world: its axes are right, up and out of the picture. Returns false if there
+   is none. */
 static bool device_turn(const HandInput *input, double out[4])
 {
     const double *q = input->turned;
@@ -130,7 +130,8 @@ static bool device_turn(const HandInput *input, double out[4])
     return true;
 }
 
-/* What springs back, on top of what is held. The turn of a device is outermost: the box turns as it does. */
+/* Adds the temporary part of the input to the target. The turn of a device is outermost: the box turns
+   like the device. */
 static void sway(const HandInput *input, double side, BoxTarget *target)
 {
     double rotation[3], device[4];
@@ -142,7 +143,7 @@ static void sway(const HandInput *input, double side, BoxTarget *target)
         quat_multiply(device, target->orientation, target->orientation);
 }
 
-/* What must be held so that `target` comes of it. */
+/* Inverse of sway: computes the held target that sways to `target`. */
 static void unsway(const HandInput *input, double side, BoxTarget *target)
 {
     double rotation[3], device[4];
@@ -157,7 +158,7 @@ static void unsway(const HandInput *input, double side, BoxTarget *target)
     turn(rotation, target->orientation);
 }
 
-/* Whether the step from a to b is one that can be seen; smaller ones add up in `held` until it is. */
+/* True if the step from a to b is visible; smaller steps add up in `held`. */
 static bool differs(const BoxTarget *a, const BoxTarget *b, double side)
 {
     const double least = 1e-6;
@@ -206,7 +207,7 @@ void hand_stick(const double axes[2], double out[2])
     double scale = 0;
     if (way > HAND_DEAD_ZONE && way < INFINITY) {
         const double u = clamp((way - HAND_DEAD_ZONE) / (1 - HAND_DEAD_ZONE), 1);
-        scale = u * (0.4 + 0.6 * u * u) / way; /* slope 0.4 in the middle: small ways stay small */
+        scale = u * (0.4 + 0.6 * u * u) / way; /* slope 0.4 in the middle: small deflections stay small */
     }
     for (int k = 0; k < 2; k++)
         out[k] = scale > 0 ? scale * axes[k] : 0;

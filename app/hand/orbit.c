@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Short of the poles, where right and left change places, by a degree: nearer to them render/frame/camera.c
-   takes another way up. */
+/* Short of the poles, where right and left swap, by a degree: nearer to a pole render/frame/camera.c uses
+   another up direction. */
 static const double steepest = 89 * M_PI / 180;
 
 static double dot(const double a[3], const double b[3])
@@ -16,7 +16,7 @@ static double clamp(double value, double least, double most)
     return value < least ? least : value > most ? most : value;
 }
 
-/* back: from what is seen to the eye */
+/* back: from the seen point to the eye */
 static void picture_axes(const Orbit *orbit, double right[3], double up[3], double back[3])
 {
     const double cy = cos(orbit->yaw), sy = sin(orbit->yaw), cp = cos(orbit->pitch), sp = sin(orbit->pitch);
@@ -39,8 +39,8 @@ Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *
     double right[3], up[3], back[3], from_pivot[3];
     const double diagonal = sqrt(dot(box_size, box_size));
     camera_make(def, box_size, box, aspect, covered, &camera);
-    /* Rows of the view matrix are the picture's axes. The yaw comes from `right`, which is horizontal even
-       where the camera looks straight down. */
+    /* Rows of the view matrix are the picture's axes. The yaw comes from `right`, horizontal even if the
+       camera looks straight down. */
     const double right_x = camera.view[0], right_z = camera.view[8], up_y = camera.view[5],
                  back_y = camera.view[6];
     const double tangent = camera.tangent[1];
@@ -58,7 +58,7 @@ Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *
     orbit.distance = fmax(dot(from_pivot, back), 1e-3 * diagonal);
     orbit.shift[0] = dot(from_pivot, right) / orbit.distance;
     orbit.shift[1] = dot(from_pivot, up) / orbit.distance;
-    /* From inside the box to where it is a speck; a scene's own camera may be farther out. */
+    /* From inside the box to where the box is a speck; a scene's own camera may be farther out. */
     orbit.nearest = fmin(0.05 * diagonal, orbit.distance);
     orbit.farthest = fmax(50 * diagonal, orbit.distance);
     return orbit;
@@ -137,7 +137,7 @@ double orbit_metres_per_pixel(const Orbit *orbit, const double box_size[3], cons
     box_centre(box_size, box, centre);
     for (int k = 0; k < 3; k++)
         to_eye[k] = eye[k] - centre[k];
-    /* A box about or behind the eye still moves by something. */
+    /* A box around or behind the eye still moves a little. */
     const double distance = fmax(dot(to_eye, back), orbit->nearest);
     return picture_height(orbit, distance) / (height > 1 ? height : 1);
 }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the longest side: some pixels of a box that fills the picture; and a line's width. */
+/* Distances to show and hide, in longest sides: some pixels for a box filling the picture; a line's width. */
 static const double COMES = 0.02, GOES = 0.004;
 
 void outline_pose(const Motion motions[], int count, double box_height, double time, const BoxTarget *target,

@@ -11,8 +11,8 @@ enum { CTRL = GLFW_MOD_CONTROL, SHIFT = GLFW_MOD_SHIFT };
         GLFW_KEY_##NAME, 0                                                                                   \
     }
 
-/* Function keys where programs agree on one, a letter that stands for the word beside it: some keyboards hide
-   the function keys, others have no sign of that name. */
+/* Function keys by common convention, plus a letter of the command's word: some keyboards hide the
+   function keys, and some lack a sign. */
 const PlayCommandRow play_command_rows[] = {
     {.command = PLAY_PAUSE,
      .group = "Time",
@@ -361,7 +361,7 @@ const PlayCommandRow play_command_rows[] = {
     {.command = PLAY_NONE},
 };
 
-/* Axes and signs as HandInput has them: right, up, away. */
+/* Axes and signs of HandInput: right, up, away. */
 const PlayHeldKey play_held_keys[] = {
     {PLAY_MOVE_KEYS, GLFW_KEY_RIGHT, 0, 0, +1},
     {PLAY_MOVE_KEYS, GLFW_KEY_LEFT, 0, 0, -1},
@@ -376,11 +376,11 @@ const PlayHeldKey play_held_keys[] = {
     {PLAY_NONE, 0, 0, 0, 0},
 };
 
-/* Keys whose sign stands elsewhere on other layouts. */
+/* Keys whose sign is elsewhere on other layouts. */
 static const struct {
     int key;
     const char *name;   /* for people */
-    const char *labels; /* one of these on the key */
+    const char *labels; /* signs, any of which may be on the key */
 } signs[] = {
     {GLFW_KEY_MINUS, "-", "-"}, {GLFW_KEY_EQUAL, "+", "=+"},       {GLFW_KEY_PERIOD, ".", "."},
     {GLFW_KEY_COMMA, ",", ","}, {GLFW_KEY_LEFT_BRACKET, "[", "["}, {GLFW_KEY_RIGHT_BRACKET, "]", "]"},
@@ -450,7 +450,7 @@ PlayCommand play_command_of_gamepad(int button)
 
 int play_key_on_layout(int key, const char *label)
 {
-    /* Only keys that type something move from layout to layout, and not those of the keypad. */
+    /* Only typing keys vary between layouts, and keypad keys do not. */
     if (key <= GLFW_KEY_SPACE || key >= GLFW_KEY_ESCAPE || !label || strlen(label) != 1)
         return key;
     if (*label >= 'a' && *label <= 'z')
@@ -463,7 +463,7 @@ int play_key_on_layout(int key, const char *label)
     return key;
 }
 
-/* Adds to the text in `text`; what does not fit is cut. */
+/* Appends to `text`, cut at `size`. */
 static void add(char *text, size_t size, const char *more)
 {
     const size_t used = strlen(text);
@@ -508,7 +508,7 @@ void play_command_keys_text(const PlayCommandRow *row, char *text, size_t size)
     }
 }
 
-/* A table a group. */
+/* Prints one table per group. */
 void play_commands_print(FILE *file)
 {
     for (const PlayCommandRow *row = play_command_rows; row->name; row++) {

@@ -1,6 +1,5 @@
-/* The one list of what a user can do in the window. The window's bindings, the help overlay, the panel's
-   buttons and `slosh help window` come from it. Pure: of GLFW only the numbers of keys and buttons are
-   used. */
+/* The list of all user commands in the window, source of the window's bindings, the help overlay, the
+   panel's buttons and `slosh help window`. Pure: uses only GLFW's numbers of keys and buttons. */
 #ifndef SLOSH_PLAY_COMMANDS_H
 #define SLOSH_PLAY_COMMANDS_H
 
@@ -9,7 +8,7 @@
 
 typedef enum PlayCommand {
     PLAY_NONE = -1,
-    /* done once by a press of a key, a gamepad's button or the panel's button */
+    /* single commands: press of a key, a gamepad button or the panel's button */
     PLAY_PAUSE,
     PLAY_STEP,
     PLAY_STEP_BACK,
@@ -62,16 +61,16 @@ typedef enum PlayCommand {
     PLAY_PIN,
     PLAY_UNPIN,
     PLAY_TRAIL,
-    PLAY_QUIT, /* Escape closes the help first when it is open: the window's affair */
-    /* done for as long as it lasts: drags, the wheel, sticks, and the keys of play_held_keys */
+    PLAY_QUIT, /* an open help is closed by Escape first, in the window */
+    /* continuous commands: drags, the wheel, sticks, and the keys of play_held_keys */
     PLAY_ORBIT,
     PLAY_PAN,
-    PLAY_PICK, /* does what PLAY_TRAIL does */
+    PLAY_PICK, /* same effect as PLAY_TRAIL */
     PLAY_ZOOM,
     PLAY_MOVE_DRAG,
     PLAY_TURN_DRAG,
     PLAY_GRAVITY_DRAG,
-    PLAY_WALL_DRAG, /* a handle's: app/play/grip.h */
+    PLAY_WALL_DRAG, /* of a handle: app/play/grip.h */
     PLAY_TOUCH_DRAG,
     PLAY_TOUCH_OTHER,
     PLAY_TOUCH_SIZE,
@@ -86,32 +85,32 @@ typedef enum PlayCommand {
 
 enum {
     PLAY_BUTTON = 1,   /* has a button in the panel */
-    PLAY_REPEATS = 2,  /* goes on while its key is held (GLFW_REPEAT) */
-    PLAY_SIMULATED = 4 /* has no meaning where a recorded run is shown */
+    PLAY_REPEATS = 2,  /* repeats while the key is held (GLFW_REPEAT) */
+    PLAY_SIMULATED = 4 /* has no meaning for a recorded run */
 };
 
 typedef struct PlayKey {
     int key;       /* GLFW_KEY_*; 0: none */
-    int modifiers; /* GLFW_MOD_SHIFT, _CONTROL, _ALT, _SUPER: exactly these */
+    int modifiers; /* GLFW_MOD_SHIFT, _CONTROL, _ALT, _SUPER: exact match */
 } PlayKey;
 
 typedef struct PlayCommandRow {
     PlayCommand command;
-    const char *group;   /* heading over this row and those below; NULL: that of the row above */
-    const char *example; /* with a group: one thing to try, and what happens */
-    const char *name;    /* a word, or words with hyphens between */
+    const char *group;   /* heading over this row and the rows below; NULL: as the row above */
+    const char *example; /* with a group: a suggestion to try, and the effect */
+    const char *name;    /* a word, or hyphenated words */
     const char *help;    /* one plain line */
     PlayKey keys[2];
-    const char *gamepad; /* name of the gamepad's button that does it; NULL: none */
-    const char *gesture; /* how, for what is no single press: "Shift + left drag"; NULL: a press */
+    const char *gamepad; /* name of the gamepad button; NULL: none */
+    const char *gesture; /* description of a gesture: "Shift + left drag"; NULL: a press */
     unsigned flags;
 } PlayCommandRow;
 
-/* In the order of PlayCommand, so that play_command_rows[PLAY_PAUSE] is the row of PLAY_PAUSE; ended by a row
-   whose name is NULL. */
+/* In the order of PlayCommand, so that play_command_rows[PLAY_PAUSE] is the row of PLAY_PAUSE; ended by a
+   row with a NULL name. */
 extern const PlayCommandRow play_command_rows[];
 
-/* A key that moves (PLAY_MOVE_KEYS) or tilts (PLAY_TILT_KEYS) the box while it is down. */
+/* A key moving (PLAY_MOVE_KEYS) or tilting (PLAY_TILT_KEYS) the box while held. */
 typedef struct PlayHeldKey {
     PlayCommand command;
     int key, modifiers; /* as in PlayKey */
@@ -121,23 +120,24 @@ typedef struct PlayHeldKey {
 
 extern const PlayHeldKey play_held_keys[]; /* ended by key 0 */
 
-/* The command of a pressed key (GLFW_KEY_*, as play_key_on_layout gives it) with its modifiers (GLFW_MOD_*;
-   the locks do not count), or PLAY_NONE. A sign is found with Shift too, so that "+" is one whether it is
-   typed with Shift or without. */
+/* Returns the command of a key press (GLFW_KEY_*, from play_key_on_layout) with modifiers (GLFW_MOD_*;
+   locks are ignored), or PLAY_NONE. Signs match with Shift too: "+" works whether typed with Shift or
+   without. */
 PlayCommand play_command_of_key(int key, int modifiers);
 
-/* The command of a pressed GLFW_GAMEPAD_BUTTON_*, or PLAY_NONE. */
+/* Returns the command of a GLFW_GAMEPAD_BUTTON_* press, or PLAY_NONE. */
 PlayCommand play_command_of_gamepad(int button);
 
-/* GLFW numbers keys by their place on a US keyboard. This gives the number of the key that bears that letter
-   or sign on the user's keyboard; `label` is glfwGetKeyName's for the key, NULL allowed. Other keys, and
-   labels that are no Latin letter, stay what they are. */
+/* GLFW numbers keys by their position on a US keyboard. Returns the number of the key with that letter or
+   sign on the user's keyboard; `label`: from glfwGetKeyName, may be NULL. Remaining keys, and labels other
+   than Latin letters, stay unchanged. */
 int play_key_on_layout(int key, const char *label);
 
-/* How to give the command: "Space, Pause or gamepad Start", "Ctrl+S", "Shift + left drag"; cut at `size`. */
+/* Describes how to give the command: "Space, Pause or gamepad Start", "Ctrl+S", "Shift + left drag"; cut
+   at `size`. */
 void play_command_keys_text(const PlayCommandRow *row, char *text, size_t size);
 
-/* The list as Markdown, a table a group: `slosh help window`. */
+/* Prints the list as Markdown, one table per group: `slosh help window`. */
 void play_commands_print(FILE *file);
 
 #endif
