@@ -4,12 +4,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* An edit on its way down the path. */
+/* State of an edit while following the path. */
 typedef struct Edit {
     Tree *tree;
-    const char *said; /* as in Node */
+    const char *said; /* see Node.said */
     const char *path;
-    int done; /* letters of the path that were gone down */
+    int done; /* bytes of the path already followed */
     Error *error;
 } Edit;
 
@@ -34,7 +34,7 @@ static void node_append(Node *parent, Node *child)
     *last = child;
 }
 
-/* What stands empty (`box:`) becomes the mapping or list that the path wants. */
+/* Turns an empty node (`box:`) into the mapping or list required by the path. */
 static bool become(const Edit *edit, Node *node, NodeKind kind)
 {
     if (node->kind == NODE_SCALAR && node->plain && !node->text) {
@@ -44,7 +44,7 @@ static bool become(const Edit *edit, Node *node, NodeKind kind)
     return node->kind == kind;
 }
 
-/* In a list of mappings the index is what lacks. */
+/* Reports a missing mapping; in a list of mappings the index is missing. */
 static bool no_mapping(const Edit *edit, const Node *node, const char *key)
 {
     const Node *first = node->kind == NODE_SEQUENCE ? node->first : NULL;
@@ -93,7 +93,7 @@ static bool step_index(const Edit *edit, Node *node, size_t index, Node **child)
     return true;
 }
 
-/* `place` becomes `value`, but keeps its key and its neighbours. */
+/* Replaces `place` by `value`, keeping key and siblings. */
 static void node_replace(Node *place, const Node *value)
 {
     Node node = *value;
@@ -112,7 +112,7 @@ static bool read_value(const Edit *edit, const char *text, Node **value)
     return *value || fail(edit, "no memory");
 }
 
-/* What is wrong with an index, `at` its '['. */
+/* Reports a faulty index; `at` points to its '['. */
 static bool fail_index(const Edit *edit, const char *at)
 {
     const int length = (int)strcspn(at + 1, "]"), digits = (int)strspn(at + 1 + (at[1] == '-'), "0123456789");
@@ -134,7 +134,7 @@ static bool fail_index(const Edit *edit, const char *at)
     return error_set(edit->error, "%s: [%.*s] is beyond the end of any list", edit->said, length, at + 1);
 }
 
-/* What is wrong where no part of a path is. */
+/* Reports a faulty part of a path. */
 static bool fail_part(const Edit *edit, const char *at)
 {
     if (*at == '[')
@@ -147,7 +147,7 @@ static bool fail_part(const Edit *edit, const char *at)
     return error_set(edit->error, "%s: '%.*s' is longer than any key", edit->said, (int)length, at);
 }
 
-/* "--set path=value", for as long as the tree lives. */
+/* Returns "--set path=value", living as long as the tree. */
 static const char *said_by_set(Tree *tree, const char *setting)
 {
     const size_t size = sizeof "--set " + strlen(setting);

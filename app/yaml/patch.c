@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A text that is to become another one. */
+/* A text being changed. */
 typedef struct Patch {
     const char *path, *text, *setting;
     size_t size;
-    Tree before, after; /* of the text; with the setting: what is wanted */
+    Tree before, after; /* tree of the text; wanted tree, with the setting */
 } Patch;
 
-/* Whether they say the same, in whatever order. */
+/* True if two nodes have the same contents, in any order of keys. */
 static bool same(const Node *a, const Node *b)
 {
     if (!a || !b || a->kind != b->kind || !a->text != !b->text || node_count(a) != node_count(b) ||
@@ -30,7 +30,7 @@ static bool same(const Node *a, const Node *b)
     return true;
 }
 
-/* Whether it is read as what is wanted; NULL is not. */
+/* True if the text gives the wanted tree; false for NULL. */
 static bool is_right(const Patch *patch, const char *text)
 {
     Tree tree = {.path = NULL};
@@ -41,7 +41,7 @@ static bool is_right(const Patch *patch, const char *text)
     return right;
 }
 
-/* The text with `length` bytes at `at` replaced. */
+/* Returns the text with `length` bytes at `at` replaced. */
 static char *replaced(const Patch *patch, size_t at, size_t length, const char *by)
 {
     char *out = NULL;
@@ -51,7 +51,7 @@ static char *replaced(const Patch *patch, size_t at, size_t length, const char *
     return out;
 }
 
-/* Where a line and a column, counted in letters, begin. */
+/* Returns the offset of a line and column; columns count characters. */
 static size_t offset_of(const Patch *patch, int line, int column)
 {
     size_t at = 0;
@@ -67,7 +67,7 @@ static size_t offset_of(const Patch *patch, int line, int column)
     return at;
 }
 
-/* How many bytes a quoted text has that begins there; 0: it does not end. */
+/* Returns the length of a quoted text, bytes; 0: no end. */
 static size_t quoted_length(const char *text)
 {
     for (size_t i = 1; text[i]; i++) {
@@ -79,7 +79,7 @@ static size_t quoted_length(const char *text)
     return 0;
 }
 
-/* The same of brackets. 0 also where a comment is within, which would be lost. */
+/* Returns the length of a bracketed value; 0 also if it contains a comment, which would be lost. */
 static size_t bracket_length(const char *text)
 {
     int depth = 0;
@@ -100,7 +100,7 @@ static size_t bracket_length(const char *text)
     return 0;
 }
 
-/* Of a value; 0: it is none of one line or of brackets. */
+/* Returns the length of a value; 0: neither on one line nor in brackets. */
 static size_t value_length(const Node *node, const char *text)
 {
     if (*text == '[' || *text == '{')
@@ -111,9 +111,9 @@ static size_t value_length(const Node *node, const char *text)
     return plain && strncmp(text, node->text, strlen(node->text)) == 0 ? strlen(node->text) : 0;
 }
 
-/* ---- in its place ---- */
+/* ---- in place ---- */
 
-/* `parent` gets "key: value". */
+/* Inserts "key: value" into `parent`. */
 static char *inserted(const Patch *patch, const Node *parent, const char *key, const char *value)
 {
     const Node *first = parent->first;
@@ -136,7 +136,7 @@ static char *inserted(const Patch *patch, const Node *parent, const char *key, c
     return out;
 }
 
-/* "b.c", "1" as "b: {c: 1": what lacks of a path, as mappings within each other. */
+/* Turns "b.c", "1" into "{b: {c: 1}}": the missing part of a path as nested mappings. */
 static char *nested(const char *rest, const char *value)
 {
     PathPart part;
@@ -176,7 +176,7 @@ static char *in_place(const Patch *patch)
 
 /* ---- the block of the first key ---- */
 
-/* A comment behind each value is for settings that somebody looks at. */
+/* Removes the comments after values: they are meant for readers of printed settings. */
 static void silence(Node *node)
 {
     for (; node; node = node->next) {
@@ -202,7 +202,7 @@ static char *block_of(Node *child)
     return NULL;
 }
 
-/* Where the comment above a line begins, or the line. */
+/* Returns the start of the comment above a line, or of the line. */
 static size_t above(const Patch *patch, size_t at)
 {
     while (at > 0) {
@@ -254,7 +254,7 @@ static char *by_tree(const Patch *patch)
     return NULL;
 }
 
-/* ---- all ways, one after another ---- */
+/* ---- all methods in turn ---- */
 
 static char *patched(Patch *patch, bool *lost)
 {

@@ -1,4 +1,4 @@
-/* Settings put into the text of a scene, so that comments and layout stay. */
+/* Writes settings into the text of a scene, keeping comments and layout. */
 #ifndef SLOSH_YAML_PATCH_H
 #define SLOSH_YAML_PATCH_H
 
@@ -7,10 +7,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The text with "path=value" in it, ended by a 0, which the caller frees; it is read as what tree_set makes
-   of the one given. NULL with the reason: that is no scene, or such a setting has no place in it. A value is
-   replaced where it stands, a new key comes into its mapping. Where that cannot be done the block of the
-   first key of the path is written anew, and its comments are gone: then *lost (may be NULL) becomes true. */
+/* Returns the text with "path=value" written in, ended by a 0; the caller frees the text. Reading the
+   result gives the same tree as tree_set on the given text. Returns NULL with the reason if the text is no
+   scene or the setting has no place. An existing value is replaced in place, a new key is added to its
+   mapping. If impossible, the block of the path's first key is rewritten without its comments: then *lost
+   (may be NULL) becomes true. */
 char *yaml_patch(const char *path, const char *text, size_t size, const char *setting, bool *lost,
                  Error *error);
 

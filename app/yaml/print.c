@@ -3,9 +3,9 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { WIDTH = 100, INDENT = 2 }; /* letters of a line that stays one */
+enum { WIDTH = 100, INDENT = 2 }; /* WIDTH: longest one-line value, bytes */
 
-/* Letters that mean something in YAML, in a scalar without quotes. */
+/* True if the scalar needs no quotes: no characters with a meaning in YAML. */
 static bool is_plain(const Node *node)
 {
     return node->plain && node->text && *node->text && !strpbrk(node->text, "\n\"'#:,[]{}&*!|>%@`");
@@ -51,7 +51,7 @@ void node_print(const Node *node, FILE *file)
     fputc(mapping ? '}' : ']', file);
 }
 
-/* How wide it is on one line; more than WIDTH: it has a comment within. */
+/* Returns the width on one line; more than WIDTH if there is a comment inside. */
 static int width(const Node *node)
 {
     int sum = node->text ? (int)strlen(node->text) + 2 : 2;
@@ -64,7 +64,7 @@ static int width(const Node *node)
 
 static void print_children(const Node *node, int indent, bool inline_first, FILE *file);
 
-/* Behind "key:" or "-"; `top`: below the root, where mappings have lines of their own. */
+/* Prints a value after "key:" or "-"; `top`: child of the root, where mappings have their own lines. */
 static void print_value(const Node *node, int indent, bool top, bool in_list, FILE *file)
 {
     const bool nothing = node->kind == NODE_SCALAR && node->plain && !node->text;
@@ -83,7 +83,7 @@ static void print_value(const Node *node, int indent, bool top, bool in_list, FI
     fputc('\n', file);
 }
 
-/* `inline_first`: the first stands behind the "-" of a list. */
+/* `inline_first`: the first child follows the "-" of a list. */
 static void print_children(const Node *node, int indent, bool inline_first, FILE *file)
 {
     for (const Node *child = node->first; child; child = child->next) {

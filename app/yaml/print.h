@@ -1,4 +1,4 @@
-/* A tree as YAML again. What the file's own text had besides, its comments and its layout, is gone. */
+/* Prints a tree as YAML. Comments and layout of the original text are lost. */
 #ifndef SLOSH_YAML_PRINT_H
 #define SLOSH_YAML_PRINT_H
 
@@ -6,11 +6,11 @@
 
 #include <stdio.h>
 
-/* Read again it gives the same tree. Behind a value that the command line said stands what its `said` is, as
-   a comment. */
+/* Prints a tree; reading the output gives the same tree. Values from the command line are followed by
+   `said` as a comment. */
 void tree_print(const Tree *tree, FILE *file);
 
-/* The same of one node, on one line: [1, {a: b}]. */
+/* Prints a node on one line: [1, {a: b}]. */
 void node_print(const Node *node, FILE *file);
 
 #endif

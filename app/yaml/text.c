@@ -1,10 +1,10 @@
-/* What must hold of a text before YAML is asked. */
+/* Checks of a text before parsing. */
 #include "app/yaml/yaml.h"
 
-/* One character of UTF-8. */
+/* A UTF-8 character. */
 typedef struct Character {
     unsigned code;
-    size_t length; /* 0: none that YAML takes: a control character, or not UTF-8 */
+    size_t length; /* 0: not allowed in YAML: a control character, or not UTF-8 */
 } Character;
 
 static Character character_at(const unsigned char *at, size_t left)
@@ -27,7 +27,8 @@ static Character character_at(const unsigned char *at, size_t left)
     return (Character){code, code >= least[length] && code < 0x110000 && !surrogate ? length : 0};
 }
 
-/* After which a line, and so a directive, may begin: YAML's line breaks and the byte order mark. */
+/* True if a line, and so a directive, may begin after the character: YAML's line breaks and the byte order
+   mark. */
 static bool begins_line(unsigned code)
 {
     return code == '\n' || code == '\r' || code == 0x85 || code == 0x2028 || code == 0x2029 || code == 0xfeff;
@@ -42,7 +43,7 @@ bool yaml_text_check(const Tree *tree, const char *said, const char *bytes, size
         if (character.length == 0)
             return tree_error(tree, &place, error, "byte 0x%02x is no text; write YAML in UTF-8",
                               (unsigned char)bytes[i]);
-        /* libfyaml 0.7 never returns from a directive that the text ends with. */
+        /* libfyaml 0.7 hangs on a directive at the end of the text. */
         if (character.code == '%' && begins_line(before))
             return tree_error(tree, &place, error,
                               "a directive (%%NAME), which means nothing here; leave the line out");

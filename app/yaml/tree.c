@@ -27,7 +27,7 @@ void *tree_alloc(Tree *tree, size_t size)
         tree->blocks = block;
     }
     void *bytes = block->bytes + block->used;
-    /* A block of its own for something large counts as full. */
+    /* A large allocation's own block counts as full. */
     block->used = size > BLOCK_BYTES ? BLOCK_BYTES : block->used + size;
     return bytes;
 }

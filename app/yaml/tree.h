@@ -1,8 +1,8 @@
-/* A YAML text as a tree in which every node knows its place: what the scene loader reads and `--set` edits.
+/* A YAML text as a tree with positions of all nodes, for the scene loader and for `--set`.
 
-   It is built from libfyaml's events, because these carry the marks of mappings and sequences, which the
-   nodes of libfyaml's own documents do not; and because one arena then frees whatever was read, also after an
-   error. Aliases, tags, several documents and duplicate keys are refused. */
+   Built from libfyaml's events: they have positions of mappings and sequences, missing in libfyaml's own
+   documents; and a single arena frees all memory, also after an error. Aliases, tags, several documents
+   and duplicate keys are refused. */
 #ifndef SLOSH_SCENE_TREE_H
 #define SLOSH_SCENE_TREE_H
 
@@ -18,28 +18,28 @@ typedef enum NodeKind { NODE_SCALAR, NODE_MAPPING, NODE_SEQUENCE } NodeKind;
 typedef struct Node Node;
 struct Node {
     NodeKind kind;
-    bool plain;       /* scalar without quotes: may be a number, a boolean or nothing at all */
+    bool plain;       /* scalar without quotes: may be a number, a boolean or empty */
     int line, column; /* counted from 1 */
     const char
-        *said; /* where the command line said it: "--set path=value", "--backend cpu"; NULL: the file */
-    const char *text; /* scalar; NULL: nothing stands there */
-    const char *key;  /* as a child of a mapping */
+        *said; /* setting on the command line: "--set path=value", "--backend cpu"; NULL: from the file */
+    const char *text; /* scalar; NULL: empty */
+    const char *key;  /* key of a child of a mapping */
     int key_line, key_column;
-    Node *first, *next; /* children; siblings, in the order of the text */
+    Node *first, *next; /* children; siblings, in text order */
 };
 
 typedef struct Tree {
-    const char *path; /* what messages name; not owned */
+    const char *path; /* for messages; not owned */
     int dimensions;   /* of the scene: 2 allows vectors of two numbers; 0 or 3: three */
     Node *root;
     struct TreeBlock *blocks; /* owned: nodes and texts */
 } Tree;
 
-/* Zeroed memory that lives as long as the tree; NULL when there is none left. */
+/* Returns zeroed memory living as long as the tree; NULL if memory is short. */
 void *tree_alloc(Tree *tree, size_t size);
 void tree_free(Tree *tree);
 
-/* The child of a mapping by key, of a sequence by index; NULL when there is none. */
+/* Child of a mapping by key, or of a sequence by index; NULL if there is none. */
 const Node *node_child(const Node *mapping, const char *key);
 const Node *node_element(const Node *sequence, size_t index);
 size_t node_count(const Node *node);
@@ -49,21 +49,20 @@ typedef struct PathPart {
     char key[64];
 } PathPart;
 
-/* Takes the next part off a path like `fluids[0].density`; false when it is none. */
+/* Takes the next part of a path like `fluids[0].density`; returns false if faulty. */
 bool path_next(const char **path, PathPart *part);
 
-/* The node at a path like `fluids[0].fill`, or the nearest one above it: something that a message can point
- * at. */
+/* Returns the node at a path like `fluids[0].fill`, or its nearest ancestor, for messages. */
 const Node *tree_near(const Tree *tree, const char *path);
 
-/* The node at the path itself; NULL when nothing stands there. The path ends in a key. */
+/* Returns the node at the exact path; NULL if there is none. The path ends in a key. */
 const Node *tree_at(const Tree *tree, const char *path);
 
 /* Writes "place: message" and returns false. */
 bool tree_error(const Tree *tree, const Node *node, Error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
-/* The same, pointing at the node's key where it has one. */
+/* The same, at the position of the node's key if there is a key. */
 bool tree_error_key(const Tree *tree, const Node *node, Error *error, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double TIME_MOST = 1e6; /* s: as of motions */
+static const double TIME_MOST = 1e6; /* s: same limit as for motions */
 
-/* A value on its way into its field. */
+/* A value being read. */
 typedef struct Value {
     const Tree *tree;
     const Key *key;
@@ -29,7 +29,7 @@ static const char *with_unit(const Value *value)
     return *value->key->unit ? " " : "";
 }
 
-/* "box.size must be WANTED, not GOT". */
+/* Reports "box.size must be WANTED, not GOT". */
 static bool wrong(const Value *value, const Node *node, const char *wanted)
 {
     const char *got = node->kind == NODE_MAPPING    ? "a mapping"
@@ -42,7 +42,7 @@ static bool wrong(const Value *value, const Node *node, const char *wanted)
                       wanted, *key->unit ? " in " : "", key->unit, quote, got, quote);
 }
 
-/* YAML's numbers; strtod alone would take hexadecimal, "infinity" and what follows them. */
+/* Parses numbers as in YAML; strtod alone would accept hexadecimal, "infinity" and trailing text. */
 static bool number_parse(const Node *node, double *out)
 {
     if (node->kind != NODE_SCALAR || !node->plain || !node->text)
@@ -107,7 +107,7 @@ static bool read_boolean(const Value *value)
     return true;
 }
 
-/* The words of a list, a space between two. */
+/* Reads a list of words, joined by spaces. */
 static bool read_words(const Value *value)
 {
     size_t used = 0;
@@ -169,7 +169,7 @@ static bool read_choice(const Value *value)
                       near.best ? "'? " : "", names);
 }
 
-/* The place of a node's name in the list; -1 with the reason. */
+/* Returns the index of a node's name in the list; -1 with the reason. */
 static int name_of(const Value *value, const Node *node, const char *names)
 {
     const char *name, *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
@@ -225,7 +225,7 @@ static bool read_numbers(const Value *value, size_t count, const char *wanted, d
     return true;
 }
 
-/* Rows [x, y] on their way into two arrays. */
+/* Rows [x, y], read into two arrays. */
 typedef struct Rows {
     const char *wanted, *places, *unit, *what; /* "times", " s", "a table" */
     double x_most;
@@ -250,7 +250,7 @@ static bool read_row(const Value *value, const Node *row, const Rows *rows, int 
     return read_number(value, row->first->next, rows->wanted, &rows->y[k]);
 }
 
-/* How many rows there are; 0 with the reason. */
+/* Returns the count of rows; 0 with the reason. */
 static int read_rows(const Value *value, const Rows *rows)
 {
     const Node *node = value->node;
@@ -267,7 +267,7 @@ static int read_rows(const Value *value, const Rows *rows)
     return k;
 }
 
-/* A number, or rows of time and number; the field then has the value at time 0. */
+/* Reads a number, or rows of time and number; the field then gets the value at time 0. */
 static bool read_curve(const Value *value, TimeTable *table)
 {
     static const char wanted[] = "a number or rows [seconds, number], the numbers";
@@ -283,7 +283,7 @@ static bool read_curve(const Value *value, TimeTable *table)
     return true;
 }
 
-/* The name of a preset, or rows. */
+/* Reads the name of a preset, or rows. */
 static bool read_points(const Value *value)
 {
     ControlPoints *points = (ControlPoints *)value->field;
@@ -387,7 +387,7 @@ static bool add_setting(const Value *value, const Node *node, const char *path, 
     return true;
 }
 
-/* A line for each. */
+/* Reads a mapping of settings, one line each. */
 static bool read_settings(const Value *value)
 {
     const Node *node = value->node;
@@ -405,7 +405,7 @@ static bool read_settings(const Value *value)
                         value->shown, value->key->size - 1);
     if (ok)
         snprintf(value->field, value->key->size, "%.*s", (int)size - 1,
-                 text); /* without the last line's end */
+                 text); /* without the final line end */
     free(text);
     return ok;
 }
@@ -413,7 +413,7 @@ static bool read_settings(const Value *value)
 bool value_read(const Tree *tree, const Key *key, const Node *node, const char *shown, char *base,
                 Error *error)
 {
-    _Alignas(double) char nowhere[NAME_SIZE]; /* takes what has no field */
+    _Alignas(double) char nowhere[NAME_SIZE]; /* for keys without a field */
     const Value value = {tree, key, node, shown, key->offset == KEY_NOWHERE ? nowhere : base + key->offset,
                          error};
     switch (key->type) {

@@ -1,11 +1,11 @@
-/* From libfyaml's events to the scene tree. */
+/* Builds the scene tree from libfyaml's events. */
 #include "app/yaml/yaml.h"
 
 #include <libfyaml.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Looking for twins is quadratic: a bound keeps a megabyte of keys from taking minutes. */
+/* The search for duplicate keys is quadratic: the limit keeps a megabyte of keys from taking minutes. */
 enum { MAPPING_KEYS_MAX = 256 };
 
 typedef struct Reader {
@@ -13,7 +13,7 @@ typedef struct Reader {
     const char *said;
     struct fy_diag *diag;
     struct fy_parser *parser;
-    struct fy_event *event; /* the present one */
+    struct fy_event *event; /* the present event */
     Error *error;
 } Reader;
 
@@ -23,8 +23,8 @@ static bool fail_at(const Reader *reader, int line, int column, const char *what
     return tree_error(reader->tree, &place, reader->error, "%s", what);
 }
 
-/* Whether the mark of the present event is one character too far right: behind the quote or the '*' of an
- * alias. */
+/* True if the mark of the present event is one character too far right: after the quote, or after the '*'
+   of an alias. */
 static bool mark_is_behind(const Reader *reader)
 {
     if (reader->event->type == FYET_ALIAS)
@@ -35,7 +35,7 @@ static bool mark_is_behind(const Reader *reader)
     return style == FYSS_SINGLE_QUOTED || style == FYSS_DOUBLE_QUOTED;
 }
 
-/* `key:` with nothing behind: libfyaml 0.8 gives it a place, 0.7 none. */
+/* `key:` without a value: has a position in libfyaml 0.8, none in 0.7. */
 static bool is_nothing(const Reader *reader)
 {
     if (reader->event->type != FYET_SCALAR)
@@ -44,7 +44,7 @@ static bool is_nothing(const Reader *reader)
     return !token || (fy_token_scalar_style(token) == FYSS_PLAIN && fy_token_get_text_length(token) == 0);
 }
 
-/* Where the present event starts, counted from 1; as they were when it has no place. */
+/* Fills in the start of the present event, counted from 1; unchanged if the event has no position. */
 static void event_place(const Reader *reader, int *line, int *column)
 {
     const struct fy_mark *mark = fy_event_start_mark(reader->event);
@@ -68,7 +68,7 @@ static bool fail_tag(const Reader *reader, struct fy_token *tag)
                    "a tag (!name), which means nothing here; write the value alone");
 }
 
-/* libfyaml's own words, from the first error that it collected. */
+/* Reports libfyaml's text of the first collected error. */
 static bool fail_syntax(const Reader *reader)
 {
     void *iterator = NULL;
@@ -104,8 +104,8 @@ static bool events_skip(Reader *reader, int count)
     return true;
 }
 
-/* The length of a scalar's text, which is copied to `out` unless that is NULL; -1 on failure.
-   fy_token_get_text, in libfyaml 0.7, leaks and fails where its guess of the length is short (escaped quotes
+/* Returns the length of a scalar's text, and copies the text to `out` unless NULL; -1 on failure. In
+   libfyaml 0.7 fy_token_get_text leaks and fails if its guess of the length is too short (escaped quotes
    in a row). */
 static ssize_t text_walk(struct fy_token *token, char *out)
 {
@@ -167,7 +167,7 @@ static bool read_sequence(Reader *reader, int depth, Node *node)
     }
 }
 
-/* The present event is a key. */
+/* Reads a pair; the present event is the key. */
 static bool read_pair(Reader *reader, int depth, const Node *mapping, Node **out)
 {
     int line = mapping->line, column = mapping->column;
@@ -211,8 +211,7 @@ static bool read_mapping(Reader *reader, int depth, Node *node)
     }
 }
 
-/* The present event starts a node; line and column are where it is taken to stand if it has no place of its
- * own. */
+/* Reads a node starting at the present event; line and column are its position if the event has none. */
 static bool read_node(Reader *reader, int depth, int line, int column, Node **out)
 {
     if (depth > TREE_DEPTH_MAX)
