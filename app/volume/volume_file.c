@@ -161,13 +161,13 @@ void volume_values(const VolumeHeader *header, const unsigned char *raw, size_t 
     }
 }
 
-/* A raw file, and what its header says of it. */
+/* A raw file with its header. */
 typedef struct Raw {
     const char *path, *header_path;
     const VolumeHeader *header;
 } Raw;
 
-/* A device or a pipe has no length to compare, and may never end. */
+/* Checks the raw file: a device or pipe has no length to compare, and may never end. */
 static bool raw_is_right(const Raw *raw, Error *error)
 {
     struct stat status;
@@ -186,7 +186,7 @@ static bool raw_is_right(const Raw *raw, Error *error)
     return true;
 }
 
-/* Some at a time: raw values and floats are never both there in full. */
+/* Reads in chunks: raw values and floats are never both in memory as a whole. */
 static bool read_chunks(const Raw *raw, FILE *file, float *value, Error *error)
 {
     enum { CHUNK = 1 << 14 };
@@ -203,7 +203,7 @@ static bool read_chunks(const Raw *raw, FILE *file, float *value, Error *error)
     return true;
 }
 
-/* NULL with the reason. */
+/* Returns NULL with the reason. */
 static float *read_raw(const Raw *raw, Error *error)
 {
     const size_t count = count_of(raw->header), bytes = count * sizeof(float);
@@ -226,7 +226,7 @@ static float *read_raw(const Raw *raw, Error *error)
     return NULL;
 }
 
-/* No surface can be found where a value is no number. */
+/* Checks for finite values: elsewhere no surface can be found. */
 static bool all_finite(const char *path, const VolumeData *volume, Error *error)
 {
     const size_t wide = (size_t)volume->size[0], high = (size_t)volume->size[1],

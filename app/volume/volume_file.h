@@ -1,4 +1,4 @@
-/* Volume data as files: raw values, and a small YAML header beside them that says what they are:
+/* Volume data as files: raw values, and a small YAML header describing the raw file:
 
      file: engine.raw             # beside the header
      size: [256, 256, 128]        # values along x, y, z; x runs fastest
@@ -23,30 +23,30 @@ typedef enum VolumeType { VOLUME_UINT8, VOLUME_INT8, VOLUME_UINT16, VOLUME_INT16
 
 typedef struct VolumeHeader {
     char file[VOLUME_NAME_SIZE];
-    double size[3], spacing[3], corner[3]; /* values; m */
-    int type, big;                         /* VolumeType; whether the greatest byte comes first */
+    double size[3], spacing[3], corner[3]; /* size: counts of values; spacing, corner: m */
+    int type, big;                         /* VolumeType; big: true for big endian */
     double scale, offset;
 } VolumeHeader;
 
-/* Reads the bytes of a header; pure. False with "path:line:column: what is wrong; what would be right". */
+/* Parses the bytes of a header; pure. Returns false with "path:line:column: problem; advice". */
 bool volume_header_parse(const char *path, const char *bytes, size_t size, VolumeHeader *header,
                          Error *error);
 
-/* The path of the raw file that the header at `path` names: beside it, unless the name begins with '/'. */
+/* Fills in the path of the raw file named in the header at `path`: relative to the header, unless it
+   begins with '/'. */
 void volume_raw_path(const char *path, const VolumeHeader *header, char raw[VOLUME_PATH_SIZE]);
 
 size_t volume_header_bytes(const VolumeHeader *header); /* of the raw file */
 
-/* So many of its raw values as floats; pure. */
+/* Converts `count` raw values to floats; pure. */
 void volume_values(const VolumeHeader *header, const unsigned char *raw, size_t count, float *value);
 
-/* Reads the header of that path. False as volume_header_parse, or when it cannot be read. */
+/* Reads the header at `path`. Returns false as volume_header_parse, or if the file cannot be read. */
 bool volume_header_load(const char *path, VolumeHeader *header, Error *error);
 
-/* A header and its raw file. `volume` is what level_volume takes; its values belong to the caller, who frees
-   them. False when one of the files is not there, or the raw one is no regular file, is shorter or longer
-   than the header says, has a value that is no finite number, or more values than this machine has memory
-   for. */
+/* Loads a header and its raw file. `volume` is for level_volume; the caller frees *values. Returns false
+   if a file is missing, or the raw file is not a regular file, has another length than the header gives,
+   has a value that is not finite, or exceeds the machine's memory. */
 bool volume_file_load(const char *path, VolumeData *volume, float **values, Error *error);
 
 #endif

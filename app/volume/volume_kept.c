@@ -9,7 +9,7 @@
 #include <sys/types.h>
 #include <time.h>
 
-/* What a file is known by while nobody writes it. */
+/* Identifies an unmodified file. */
 typedef struct Stamp {
     dev_t device;
     ino_t number;
@@ -19,7 +19,7 @@ typedef struct Stamp {
 
 typedef struct Kept {
     struct Kept *next;
-    Stamp stamps[2]; /* of the header and the raw file that were read last */
+    Stamp stamps[2]; /* of the header and the raw file, when last read */
     RangedVolume data;
 } Kept;
 
@@ -30,7 +30,7 @@ static size_t values_of(const VolumeData *volume)
     return (size_t)volume->size[0] * (size_t)volume->size[1] * (size_t)volume->size[2];
 }
 
-/* False where it is not there. */
+/* Returns false if the file is missing. */
 static bool take_stamp(const char *path, Stamp *stamp)
 {
     struct stat status;

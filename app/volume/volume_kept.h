@@ -1,13 +1,13 @@
-/* Volume data that are read once and kept. */
+/* Cache of volume data. */
 #ifndef SLOSH_VOLUME_KEPT_H
 #define SLOSH_VOLUME_KEPT_H
 
 #include "sim/base/error.h"
 #include "sim/surface/ranged_volume.h"
 
-/* The data of a header and its raw file, which are read unless both are the files that were read before. What
-   was read lives as long as the program: scenes are copied, with nobody to own it; files with the same values
-   at the same places are kept once. NULL with the reason, as of volume_file_load. Of the main thread. */
+/* Returns the data of a header and its raw file, reading the files unless unchanged since the last read.
+   The data lives as long as the program, as scenes are copied and have no single owner; equal values at
+   equal positions are kept once. Returns NULL with the reason, as volume_file_load. Main thread only. */
 const RangedVolume *volume_kept(const char *path, Error *error);
 
 #endif
