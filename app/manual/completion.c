@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* The one of the option's values that has that place: of its list, or of "a|b|c"; false behind the last. */
+/* Fills in the option's value at `index`, from its list or from "a|b|c"; returns false past the last. */
 static bool value_at(const OptionRow *option, int index, char value[64])
 {
     const Key *key = option->path ? scene_key_find(option->path) : NULL;
@@ -28,7 +28,7 @@ static bool takes_setting(const OptionRow *option)
            (option->kind == OPTION_SETTING && !option->path);
 }
 
-/* What may follow the option: a line of the `case` over the word before. */
+/* Writes a shell `case` line over the preceding word, with the values of the option. */
 static void put_values(FILE *file, const OptionRow *option)
 {
     char value[64];
@@ -56,7 +56,7 @@ static void put_command(FILE *file, const CommandRow *row, const char *pattern)
     fputs("        esac\n        ;;\n", file);
 }
 
-/* Paths that --set takes as they are: those of lists have an index in them. */
+/* Writes the paths usable in --set; paths of lists need an index and are skipped. */
 static void put_keys(FILE *file)
 {
     int count;
@@ -84,8 +84,8 @@ static void put_lists(FILE *file)
     fputs("'\n", file);
 }
 
-/* Lists and the choice between them are the same for both shells. zsh has `commands`, `options` and `words`
-   of its own: ours have other names. */
+/* Writes lists and choice, equal for both shells. zsh reserves the names `commands`, `options` and
+   `words`, so different names are used. */
 static void put_choice(FILE *file, const char *verb)
 {
     put_lists(file);
@@ -105,7 +105,7 @@ void completion_print_bash(FILE *file)
           "    local offered='' values='' end=' '\n",
           file);
     put_choice(file, "${COMP_WORDS[1]}");
-    /* Without words to offer bash offers files: `-o default`. */
+    /* bash offers files if there are no words: `-o default`. */
     fputs("    if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
           "        values=\"$verbs --version --help\"\n"
           "    elif [ \"${COMP_WORDS[1]}\" = help ]; then\n"

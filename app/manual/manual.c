@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* Text for roff: nothing in it is a request, and a hyphen is the one that is typed. */
+/* Writes text for roff, without requests; hyphens are written as typed. */
 static void put_text(FILE *file, const char *text)
 {
     if (*text == '.' || *text == '\'')
