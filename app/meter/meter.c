@@ -6,8 +6,8 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Field 22 of /proc/self/stat, in clock ticks since the machine's start; the second field, in parentheses,
-   may hold anything. */
+/* Reads field 22 of /proc/self/stat, in clock ticks since system start; the second field, in parentheses,
+   may contain any characters. */
 double meter_process_age_ms(void)
 {
     char text[1024];
@@ -86,7 +86,7 @@ double meter_thread_cpu_ms(void)
     return clock_ms(CLOCK_THREAD_CPUTIME_ID);
 }
 
-/* The first picture behind a pause ends it. */
+/* The first picture after a pause ends the pause. */
 void meter_rest(PlayMeter *meter, bool rests)
 {
     meter->rests = rests;

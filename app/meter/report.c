@@ -65,7 +65,7 @@ static json_t *session_json(const PlayFigures *f)
     return NULL;
 }
 
-/* Of a recorded run. */
+/* Removes keys of the solver, for a recorded run. */
 static void leave_out_solver(json_t *json)
 {
     static const char *const keys[] = {"backend", "method", "threads", "dt", "substeps", "sim_ms", "limits"};
@@ -103,7 +103,7 @@ bool play_write_json_array(const PlayFigures *figures, size_t count, const char 
     return write_and_free(array, path, error);
 }
 
-/* The first of these that holds. */
+/* Returns the first applicable limit. */
 static const char *what_limits(const PlayFigures *f)
 {
     if (f->sim_ms > 950 * f->dt)
