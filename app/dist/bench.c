@@ -1,4 +1,4 @@
-/* What the parts of a step take, a rank: measured, and written for the model of cost. */
+/* Measures the time of a step's parts per rank, for the model of cost. */
 #include "app/lab/bench.h"
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
@@ -14,12 +14,12 @@
 
 enum { DEFAULT_FRAMES = 20 };
 
-/* Of one rank; all in double, so that MPI brings it as it is. Times in s, sent and messages: a step. */
+/* Figures of one rank, all double for MPI. Times in s; sent and messages per step. */
 typedef struct RankBench {
     double compute, exchange, balance, wait;
     double owned, ghosts, sent, messages, balances;
-    double bytes, resident; /* memory of the state; the most that the process had */
-    double cores;           /* its part of the processors at work on its machine */
+    double bytes, resident; /* memory of the state; peak memory of the process */
+    double cores;           /* its share of the busy processors of its machine */
 } RankBench;
 
 enum { FIGURES = sizeof(RankBench) / sizeof(double) };
@@ -33,7 +33,7 @@ typedef struct DistBench {
     Stand stand;
     uint64_t steps;
     double seconds;  /* of all steps */
-    RankBench *rank; /* of each; of the first rank */
+    RankBench *rank; /* one per rank; on the first rank */
     RankBench mean;
 } DistBench;
 
@@ -115,7 +115,7 @@ static bool gather(DistBench *bench, Error *error)
     return true;
 }
 
-/* Frames until the scene has that time, then those that are measured. 0, or the exit code. */
+/* Runs frames up to the requested time, then the measured frames. Returns 0, or the exit code. */
 static int measure(DistBench *bench, Error *error)
 {
     Stand *stand = &bench->stand;
@@ -224,7 +224,7 @@ static bool write_json(const DistBench *bench, Error *error)
     return ok;
 }
 
-/* The first rank's part; all end with its code. */
+/* Prints and writes on the first rank; all ranks return its exit code. */
 static int report(const DistBench *bench, Error *error)
 {
     int code = 0;

@@ -1,5 +1,5 @@
-/* --forces of slosh-dist run: all ranks sum them, the first one writes. All are collective, do nothing where
-   it was not asked for, and fail on all ranks or on none. */
+/* --forces of slosh-dist run: all ranks sum up, the first rank writes. All functions are collective, do
+   nothing without --forces, and fail on all ranks or on none. */
 #ifndef SLOSH_DIST_FORCES_H
 #define SLOSH_DIST_FORCES_H
 
@@ -7,15 +7,15 @@
 #include "app/output/forces_log.h"
 #include "app/session/probe_series.h"
 
-/* From now on the world sums them, also for probes that are forces. */
+/* Starts summing forces in the world, also for force probes. */
 bool dist_forces_feel(const Stand *stand, const Args *args, Error *error);
 
-/* Whether the file could be. */
+/* Checks if the file can be written. */
 bool dist_forces_check(const Stand *stand, const Args *args, Error *error);
 
 bool dist_forces_begin(ForcesLog *log, const Stand *stand, const Args *args, bool resumed, Error *error);
 
-/* At the end of a frame, and before the probes' end of it. */
+/* Call at the end of a frame, before dist_probes_frame. */
 bool dist_forces_frame(ForcesLog *log, ProbeSeries *probes, Stand *stand, const Args *args, Error *error);
 
 bool dist_forces_end(ForcesLog *log, Error *error);

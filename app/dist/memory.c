@@ -11,12 +11,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-/* Bytes, measured: of a particle its columns, lists and what goes back to, of the method that has most; of it
-   while the initial state is made, whole on each rank; of a cell; of the program with MPI. */
+/* Bytes, measured: per particle with columns, lists and saved states, for the method with most; extra per
+   particle while the initial state is made, whole on each rank; per cell; of the program with MPI. */
 static const double A_PARTICLE = 525, AT_THE_START = 25, A_CELL = 33, PROGRAM = 60e6;
 
-/* Ghosts of a rank: FACE n^(2/3) for each face towards others, of which a part in the middle of a pool has
-   FACES; and room for movers (sim/dist). */
+/* Ghosts of a rank: FACE n^(2/3) per face towards neighbours; FACES: faces of a rank in the middle of a
+   pool; MOVERS: room for moving particles (sim/dist). */
 static const double FACE = 2.2, FACES = 4, MOVERS = 1.125;
 
 static double particles_of(const WorldDef *world)
@@ -48,9 +48,9 @@ static double needed_by(const Scene *scene, double particles, int ranks)
            A_PARTICLE * (ranks > 1 ? MOVERS * own + ghosts : own);
 }
 
-/* ---- what it may have ---- */
+/* ---- allowed memory ---- */
 
-/* The least limit of the cgroups that this process is in; infinite where there is none. */
+/* Returns the least limit of the process's cgroups; infinite if there is none. */
 static double cgroup_bytes(void)
 {
     char line[512], path[700];
@@ -109,7 +109,7 @@ DistMemory memory_look(const Scene *scene, double physical, int here)
 
 bool memory_fits(const DistMemory *memory, int ranks, Error *error)
 {
-    enum { IDS = 31 }; /* bits of a place in the initial state, which each rank makes whole */
+    enum { IDS = 31 }; /* bits of an index in the initial state, which each rank makes as a whole */
     if (memory->particles >= ldexp(1, IDS))
         return error_set(error, "%.4g particles are more than slosh-dist counts (2^%d); use a larger spacing",
                          memory->particles, IDS);

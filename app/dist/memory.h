@@ -1,22 +1,22 @@
-/* Whether a scene fits the memory of the ranks, before anything of it is made. */
+/* Checks if a scene fits the memory of the ranks, before making any of it. */
 #ifndef SLOSH_DIST_MEMORY_H
 #define SLOSH_DIST_MEMORY_H
 
 #include "app/scene/scene.h"
 
 typedef struct DistMemory {
-    double particles; /* of all ranks, those of solids and what emitters may add included */
-    double needed;    /* bytes: what a rank needs about, its part of the particles and ghosts */
-    double allowed;   /* bytes: what the rank may have that may have least */
-    char machine[64]; /* where that one runs */
+    double particles; /* of all ranks, including solids and future emissions */
+    double needed;    /* bytes: approximate need of a rank, for its particles and ghosts */
+    double allowed;   /* bytes: least allowance of any rank */
+    char machine[64]; /* machine of that rank */
 } DistMemory;
 
-/* What a rank may have: its part of its machine's memory (of the cgroup's, where that is less), or the limit
-   that the shell or the batch system set (ulimit -v, -d). `physical`: bytes of this machine, which has
-   `here` ranks. Collective; the same on all ranks. */
+/* Finds the memory allowed to a rank: its share of the machine's memory (or of the cgroup's, if less), or
+   the limit of the shell or batch system (ulimit -v, -d). `physical`: bytes of this machine, with `here`
+   ranks. Collective; equal on all ranks. */
 DistMemory memory_look(const Scene *scene, double physical, int here);
 
-/* False with how much is missing, and what helps. */
+/* Returns false with the missing amount and advice. */
 bool memory_fits(const DistMemory *memory, int ranks, Error *error);
 
 #endif

@@ -11,7 +11,7 @@
 static const double FAR_PARTICLES = 1e9;
 enum { FAR_RANKS = 4096 };
 
-/* Files before "--beside", of which there are `fitted`, and behind it. */
+/* Reads the files before and after "--beside"; `fitted` gets the count before. */
 static int read_samples(int count, char *const paths[], Sample *samples, int *fitted, Error *error)
 {
     int read = 0;

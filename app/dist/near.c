@@ -13,7 +13,7 @@ typedef struct Record {
     float position[4], velocity[4], density, pressure;
 } Record;
 
-/* Memory for more entries than there is room for; what was there is lost. */
+/* Allocates memory for `room` entries; old contents are lost. */
 static void reserve(void *memory, size_t room, size_t size)
 {
     void *at;
@@ -59,7 +59,7 @@ static void read_own(Near *near, World *world)
     ranks_cells(near->cell);
 }
 
-/* How many records there are of this rank. */
+/* Collects this rank's records; returns their count. */
 static size_t choose(Near *near, const Probes *probes)
 {
     const Cloud *own = &near->own;

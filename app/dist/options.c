@@ -2,8 +2,8 @@
 
 #include <string.h>
 
-/* The value of `--NAME VALUE` or `--NAME=VALUE` at argv[*at], whose last word *at then is; NULL: another
-   option. A value that is missing is "". */
+/* Returns the value of `--NAME VALUE` or `--NAME=VALUE` at argv[*at], and moves *at to its last word;
+   NULL: another option. A missing value is "". */
 static const char *value_of(const char *name, char *argv[], int *at)
 {
     const size_t size = strlen(name);

@@ -1,4 +1,4 @@
-/* Options that slosh-dist has beside those of slosh. */
+/* Options of slosh-dist beyond slosh's. */
 #ifndef SLOSH_DIST_OPTIONS_H
 #define SLOSH_DIST_OPTIONS_H
 
@@ -7,11 +7,11 @@
 #include <stdbool.h>
 
 typedef struct DistOptions {
-    bool balance; /* --balance on|off: shares follow the time that ranks take; default on */
+    bool balance; /* --balance on|off: shares follow the ranks' times; default on */
 } DistOptions;
 
-/* Takes them out of argv, which ends with NULL, and leaves the rest for args_parse. False with what is wrong
-   and what would be right. */
+/* Removes these options from argv, which ends with NULL, and leaves the rest for args_parse. Returns false
+   with the problem and advice. */
 bool dist_options(int *argc, char *argv[], DistOptions *options, Error *error);
 
 #endif

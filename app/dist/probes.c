@@ -36,8 +36,8 @@ bool dist_probes_step(DistProbes *probes, const Stand *stand, Error *error)
     return dist_agree(stand->rank > 0 || probe_series_step(&probes->series, &stand->session, error), error);
 }
 
-/* The world has been asked behind the step whether it is sound: that it is asked again by one rank alone is
-   no collective call. */
+/* All ranks have already checked the step with world_sound; another check by a single rank is not
+   collective. */
 bool dist_probes_frame(DistProbes *probes, const Stand *stand, Error *error)
 {
     return !probes->probes ||

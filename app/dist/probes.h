@@ -1,5 +1,5 @@
-/* --probes of slosh-dist run: the first rank writes, from particles of all. All are collective, do nothing
-   where it was not asked for, and fail on all ranks or on none. */
+/* --probes of slosh-dist run: the first rank writes, from particles of all ranks. All functions are
+   collective, do nothing without --probes, and fail on all ranks or on none. */
 #ifndef SLOSH_DIST_PROBES_H
 #define SLOSH_DIST_PROBES_H
 
@@ -7,24 +7,24 @@
 #include "app/dist/stand.h"
 #include "app/session/probe_series.h"
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct DistProbes {
-    Probes *probes; /* NULL: it was not asked for */
+    Probes *probes; /* NULL: no --probes */
     Near near;
-    ProbeSeries series; /* of the first rank */
+    ProbeSeries series; /* on the first rank */
 } DistProbes;
 
-/* Whether the scene has some; whether the files could be. */
+/* Check if the scene has probes, and if the files can be written. */
 bool dist_probes_check(const Stand *stand, const Args *args, Error *error);
 bool dist_probes_check_table(const Stand *stand, const Args *args, bool resumed, Error *error);
 
 bool dist_probes_begin(DistProbes *probes, Stand *stand, const Args *args, bool resumed, Error *error);
 
-/* After each step; at the end of each frame. */
+/* Call dist_probes_step after each step, dist_probes_frame at the end of each frame. */
 bool dist_probes_step(DistProbes *probes, const Stand *stand, Error *error);
 bool dist_probes_frame(DistProbes *probes, const Stand *stand, Error *error);
 
-/* Closes the table, of which the figures stay, and draws the plot, also of a run that broke. */
+/* Closes the table, keeping its figures, and draws the plot, also after a broken run. */
 bool dist_probes_end(DistProbes *probes, const Stand *stand, const Args *args, Error *error);
 
 void dist_probes_free(DistProbes *probes);

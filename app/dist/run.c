@@ -21,14 +21,14 @@
 typedef struct DistRun {
     const Args *args;
     Stand stand;
-    Snapshot *file;      /* that all write */
+    Snapshot *file;      /* written by all ranks */
     double next;         /* number of the next snapshot */
-    double step_seconds; /* wall time of the steps, without what is written */
-    ForcesLog forces;    /* of --forces, at the first rank */
+    double step_seconds; /* wall time of the steps, without writing */
+    ForcesLog forces;    /* of --forces, on the first rank */
     DistProbes probes;   /* of --probes */
 } DistRun;
 
-/* What slosh run has and this has not. */
+/* Refuses options of slosh run missing here. */
 static bool check_options(const Args *args, Error *error)
 {
     if (args->device)
@@ -59,7 +59,7 @@ static bool frame(DistRun *run, Error *error)
            dist_probes_frame(&run->probes, &run->stand, error);
 }
 
-/* False when the simulation broke or a file cannot be written, on all ranks. */
+/* Returns false, on all ranks, if the simulation broke or a file cannot be written. */
 static bool simulate(DistRun *run, Progress *progress, Error *error)
 {
     const Session *session = &run->stand.session;
@@ -75,7 +75,7 @@ static bool simulate(DistRun *run, Progress *progress, Error *error)
     }
 }
 
-/* ---- what is said in the end, by the first rank ---- */
+/* ---- final report, by the first rank ---- */
 
 static Summary summary_of(const DistRun *run)
 {
@@ -125,10 +125,9 @@ static int fail(const DistRun *run, const Error *error)
     return EXIT_FAILED;
 }
 
-/* ---- its begin ---- */
+/* ---- start ---- */
 
-/* --resume, where the file is there: the world as it is at the file's end, whoever wrote it on how many
-   ranks. */
+/* --resume with an existing file: loads the state at the file's end, written on any count of ranks. */
 static bool resume(DistRun *run, Error *error)
 {
     WorldState state = {.count = 0};
@@ -148,7 +147,7 @@ static bool resume(DistRun *run, Error *error)
     return true;
 }
 
-/* As the first rank sees it. */
+/* As seen by the first rank. */
 static bool is_there(const DistRun *run)
 {
     int there = run->stand.rank == 0 && access(run->args->output, F_OK) == 0;

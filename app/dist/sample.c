@@ -12,7 +12,7 @@ bool sample_read(const char *path, Sample *sample, Error *error)
     const char *scene = "", *processor = "";
     *sample = (Sample){.path = path, .imbalance = 1};
     json_t *json = json_load_file(path, 0, &wrong);
-    if (!json && wrong.line < 1) /* no file: its name is in the text */
+    if (!json && wrong.line < 1) /* no file: the text has its name */
         return error_set(error, "%s; give files that slosh-dist bench --json wrote", wrong.text);
     if (!json)
         return error_set(error, "%s:%d: %s; give files that slosh-dist bench --json wrote", path, wrong.line,

@@ -1,4 +1,4 @@
-/* A run as slosh-dist bench --json wrote it. */
+/* A run from a file of slosh-dist bench --json. */
 #ifndef SLOSH_DIST_SAMPLE_H
 #define SLOSH_DIST_SAMPLE_H
 
@@ -9,11 +9,12 @@ typedef struct Sample {
     SeriesRun run;
     int dimensions;
     double imbalance;    /* greatest over mean compute */
-    char scene[256];     /* as the command line named it */
-    char processor[128]; /* "": the file does not say */
+    char scene[256];     /* as on the command line */
+    char processor[128]; /* "": not in the file */
 } Sample;
 
-/* `path` outlives it. False with the reason: no such file, or another program's. */
+/* Reads a sample; `path` must outlive it. Returns false with the reason: no such file, or another
+   program's. */
 bool sample_read(const char *path, Sample *sample, Error *error);
 
 #endif

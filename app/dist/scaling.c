@@ -1,4 +1,4 @@
-/* Strong and weak scaling of runs that slosh-dist bench measured: a table, JSON and a chart. */
+/* Strong and weak scaling from runs of slosh-dist bench: a table, JSON and a chart. */
 #include "app/base/exit_code.h"
 #include "app/base/json_file.h"
 #include "app/dist/cmd.h"
@@ -46,7 +46,7 @@ static bool read_all(Scaling *scaling, int count, char *const words[], Error *er
     return true;
 }
 
-/* One chart is of one scene on machines of one kind. */
+/* Checks that all runs have one scene and one kind of processor. */
 static bool one_kind(const Scaling *scaling, Error *error)
 {
     const Sample *first = &scaling->sample[0];

@@ -12,7 +12,7 @@ static int kind_count(const ScalingPicture *picture, SeriesKind kind)
     return count;
 }
 
-/* A data block a series: ranks, speed-up, efficiency in percent. */
+/* Writes one data block per series: ranks, speed-up, efficiency in percent. */
 static void series_data(const ScalingPicture *picture, FILE *gnuplot)
 {
     for (int s = 0; s < picture->count; s++) {
@@ -26,13 +26,14 @@ static void series_data(const ScalingPicture *picture, FILE *gnuplot)
     }
 }
 
-/* Whether its runs have bars: weak ones where there are no strong ones, for both have the same runs. */
+/* True if the series has bars: strong series, or weak series if there is no strong series, as both share
+   runs. */
 static bool has_bars(const ScalingPicture *picture, const Series *series)
 {
     return series->kind == SERIES_STRONG || kind_count(picture, SERIES_STRONG) == 0;
 }
 
-/* ms of compute, exchange, balance and wait, mean over ranks; a gap behind each series. */
+/* Writes compute, exchange, balance and wait in ms, mean over ranks; a gap after each series. */
 static void bar_data(const ScalingPicture *picture, FILE *gnuplot)
 {
     fputs("$bars << EOD\n", gnuplot);

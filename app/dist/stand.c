@@ -26,7 +26,7 @@ void stand_say(const Stand *stand, const char *words)
         fprintf(stderr, "%s\n", words);
 }
 
-/* mpirun binds ranks to processors of their own: those of all of them count. */
+/* mpirun binds ranks to different processors: counts the union over all ranks. */
 void stand_machine(int *ranks, int *processors)
 {
     MPI_Comm machine;
@@ -40,7 +40,7 @@ void stand_machine(int *ranks, int *processors)
     *processors = CPU_COUNT(&set) > 0 ? CPU_COUNT(&set) : 1;
 }
 
-/* Of the processors that the ranks of a machine share. */
+/* Threads per rank, from the processors shared by a machine's ranks. */
 static int threads_each(void)
 {
     int ranks, processors;
@@ -48,7 +48,7 @@ static int threads_each(void)
     return processors / ranks > 1 ? processors / ranks : 1;
 }
 
-/* Threads of a rank that is bound to fewer processors wait for each other. */
+/* Warns if a rank is bound to fewer processors than its threads: they would wait for each other. */
 static void tell_of_binding(const Stand *stand, int threads)
 {
     char words[160];
@@ -60,7 +60,7 @@ static void tell_of_binding(const Stand *stand, int threads)
     stand_say(stand, words);
 }
 
-/* What a rank will need, before it takes it. */
+/* Checks a rank's memory need before allocation. */
 static bool has_room(const Stand *stand, const Args *args, double physical, Error *error)
 {
     char words[256];

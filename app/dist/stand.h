@@ -1,5 +1,5 @@
-/* The scene of a command line as a world on all ranks. Zero-initialise it. All functions are collective but
-   stand_say. */
+/* The scene of a command line as a world on all ranks. Zero-initialise before use. All functions except
+   stand_say are collective. */
 #ifndef SLOSH_STAND_H
 #define SLOSH_STAND_H
 
@@ -7,27 +7,27 @@
 #include "app/session/session.h"
 
 typedef struct Stand {
-    Session session; /* as of slosh run on each rank: its scene has the backend that the file names */
+    Session session; /* like slosh run's on each rank; the scene has the backend named in the file */
     int rank, size;
 } Stand;
 
-/* Rank and size; Ctrl-C is polled from now on. */
+/* Finds rank and size; from now on Ctrl-C is polled. */
 void stand_begin(Stand *stand);
 
-/* 0, or the exit code and what is wrong. */
+/* Opens the scene. Returns 0, or the exit code with the reason. */
 int stand_open(Stand *stand, const Args *args, const char *command, Error *error);
 
-/* A step, and what the sentinel found in it; all steps of a frame. */
+/* Make one step, with the sentinel's check; all steps of a frame. */
 bool stand_substep(Stand *stand, Error *error);
 bool stand_frame(Stand *stand, Error *error);
 
-/* Whether any rank was told to stop. */
+/* Returns true if any rank got a stop signal. */
 bool stand_interrupted(void);
 
-/* On standard error, of the first rank alone. */
+/* Prints on standard error, on the first rank only. */
 void stand_say(const Stand *stand, const char *words);
 
-/* Ranks on this rank's machine, and the processors that they may use. */
+/* Counts the ranks on this rank's machine, and their usable processors. */
 void stand_machine(int *ranks, int *processors);
 
 #endif
