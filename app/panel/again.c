@@ -1,11 +1,11 @@
-/* What the scene begins anew with: its number of particles, and presets. */
+/* Settings needing a restart of the scene: number of particles, and presets. */
 #include "app/panel/panel_parts.h"
 #include "app/recipe/recipe.h"
 
 #include <math.h>
 #include <stdio.h>
 
-/* The number that is wished, while the slider is held, else that of the scene. */
+/* Shows the requested number while the slider is held, else the scene's. */
 static void draw_particles(Ui *ui, const PanelData *data, PanelEvents *events)
 {
     static const double LESS = 16, MORE = 16;

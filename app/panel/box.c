@@ -1,4 +1,4 @@
-/* The size of the box: wanted now, and reached as fast as its walls may go. */
+/* Box size: the requested size; walls move at limited speed. */
 #include "app/panel/panel_parts.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The overlay from which a scene is chosen. */
+/* Overlay for choosing a scene. */
 #include "app/hand/play_commands.h"
 #include "app/panel/panel.h"
 

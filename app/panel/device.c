@@ -1,4 +1,4 @@
-/* The motion devices: what they say now, what it does, and how much. */
+/* The motion devices: present values, their effects, and gains. */
 #include "app/panel/panel_parts.h"
 
 #include <math.h>
@@ -7,11 +7,11 @@
 
 static const float BAR_LETTERS = 1.35F, BAR_LEFT = 0.34F, BAR_RIGHT = 0.66F; /* of the width */
 
-/* A value as a bar from the middle, between its name and what it does. */
+/* A value as a bar from the middle, between its name and its effect. */
 typedef struct Bar {
     const char *name, *does;
     double value; /* -1 .. 1 */
-    double dead;  /* so much about the middle does nothing */
+    double dead;  /* width of the dead zone around the middle */
 } Bar;
 
 static void draw_bar(Ui *ui, const Bar *bar)
@@ -37,7 +37,7 @@ static void draw_bar(Ui *ui, const Bar *bar)
     ui_words(ui, right + gap, rect[1], 0xe4e9eec0, bar->does);
 }
 
-/* "left_x" as "left x" behind an arrow or nothing. */
+/* Turns "left_x" into "left x", after an arrow or nothing. */
 static void plain_words(const char *before, const char *name, char text[32])
 {
     snprintf(text, 32, "%s%s", before, name);
@@ -58,7 +58,7 @@ static void draw_axes(Ui *ui, const HandDevice *device)
     }
 }
 
-/* The turn since the neutral pose as a rotation vector; a quarter turn fills a bar. */
+/* Shows the turn since the neutral pose as a rotation vector; a quarter turn fills a bar. */
 static void draw_pose(Ui *ui, const HandDevice *device)
 {
     const double *q = device->turned;
@@ -72,7 +72,7 @@ static void draw_pose(Ui *ui, const HandDevice *device)
     }
 }
 
-/* By gravity alone, whatever the neutral pose. */
+/* Shows the tilt from gravity alone, independent of the neutral pose. */
 static void draw_tilt(Ui *ui, const HandDevice *device)
 {
     char text[64];

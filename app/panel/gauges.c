@@ -1,4 +1,4 @@
-/* How right the simulation is just now, as plots over the last seconds. */
+/* Accuracy of the running simulation, as plots over the last seconds. */
 #include "app/panel/panel_parts.h"
 
 #include <math.h>

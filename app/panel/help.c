@@ -1,4 +1,4 @@
-/* The overlay that lists all that a user can do. */
+/* Overlay listing all user commands. */
 #include "app/hand/play_commands.h"
 #include "app/panel/panel.h"
 

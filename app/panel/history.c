@@ -3,17 +3,17 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A plot's values and the line across it. */
+/* Values of a plot, and the line across. */
 typedef struct Plot {
     const char *name;
     const float *ms;
     int count;
     double mark_ms;
-    const char *mark; /* what the line means */
+    const char *mark; /* meaning of the line */
     uint32_t color;
 } Plot;
 
-/* A column a value, the newest at the right. */
+/* Draws one column per value, newest at the right. */
 static void draw_columns(Ui *ui, const Plot *plot, const float rect[4], double top_ms)
 {
     const float width = rect[2] - rect[0], height = rect[3] - rect[1];

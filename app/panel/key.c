@@ -1,4 +1,4 @@
-/* One live key as a widget. */
+/* Widget of a live key. */
 #include "app/panel/panel_parts.h"
 #include "app/scene/keys.h"
 #include "render/frame/legend.h"
@@ -26,7 +26,7 @@ static void emit(const PanelKey *row, PanelEvents *events, const char *format, .
     va_end(arguments);
 }
 
-/* Meaning, range, unit and path of a key, for who wonders. */
+/* Makes the help text of a key: meaning, range, unit and path. */
 static void help_of(const PanelKey *row, char *text, size_t size)
 {
     char range[160];
@@ -39,8 +39,8 @@ static void help_of(const PanelKey *row, char *text, size_t size)
              row->key->unit, numbers ? "\nCtrl + click to type a number" : "");
 }
 
-/* All of a key's range when that is small; else from a tenth to ten times the value at the start. The present
-   value is always on the slider. */
+/* Returns the slider's range: the key's full range if small; else from a tenth to ten times the start
+   value. Always includes the present value. */
 static UiScale scale_of(const Key *key, double start, double now, const char *unit)
 {
     const bool open = key->flags & KEY_OPEN_LOW;
@@ -80,7 +80,7 @@ static void draw_number(Ui *ui, const PanelKey *row, const UiField *field, Panel
         emit(row, events, "%.9g", value);
 }
 
-/* Three sliders of one length to either side. */
+/* Draws three sliders of equal range around 0. */
 static void draw_vector(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
 {
     const Key *key = row->key;
@@ -128,7 +128,7 @@ static void draw_color(Ui *ui, const PanelKey *row, const UiField *field, PanelE
         emit(row, events, "[%.4g, %.4g, %.4g]", (double)srgb[0], (double)srgb[1], (double)srgb[2]);
 }
 
-/* Automatic or not; when not, both ends. */
+/* Draws automatic on or off; if off, both ends. */
 static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
 {
     const Key *key = row->key;
@@ -162,7 +162,7 @@ static void draw_range(Ui *ui, const PanelKey *row, const UiField *field, PanelE
         emit(row, events, "[%.9g, %.9g]", ends[0], ends[1]);
 }
 
-/* Rounded, so that eight points fit into a setting. */
+/* Rounds the numbers, so that eight points fit into a setting. */
 static void emit_points(const PanelKey *row, PanelEvents *events, const ControlPoints *points)
 {
     char text[PANEL_SETTING_SIZE] = "[";
@@ -173,7 +173,7 @@ static void emit_points(const PanelKey *row, PanelEvents *events, const ControlP
     emit(row, events, "%s]", text);
 }
 
-/* The preset, if it is one, and the curve itself. */
+/* Draws the preset, if the points match one, and the curve. */
 static void draw_points(Ui *ui, const PanelKey *row, const UiField *field, PanelEvents *events)
 {
     const ControlPreset *presets = row->key->names;

@@ -11,9 +11,9 @@
 static const float WIDTH_EM = 25, LEAST_EM = 15, SHARE = 0.5F, MARGIN_EM = 0.75F, LABEL_SHARE = 0.44F;
 
 struct Panel {
-    Scene start; /* the scene as it was when it was opened */
+    Scene start; /* the scene when opened */
     size_t opened;
-    int fluid; /* that presets are for */
+    int fluid; /* target of fluid presets */
 };
 
 Panel *panel_create(void)
@@ -69,7 +69,7 @@ static void draw_rubbed(Ui *ui, const SolveFigures *solved)
     ui_row(ui, "viscosity iterations", text);
 }
 
-/* Nothing of a method without solvers that iterate. */
+/* Shows nothing for methods without iterative solvers. */
 static void draw_solved(Ui *ui, const PanelData *data)
 {
     const SolveFigures *solved = &data->solved;
@@ -160,7 +160,7 @@ static void draw_end(Ui *ui, const PanelData *data)
     list_warnings(ui, data);
 }
 
-/* What only a simulation has. */
+/* Draws the sections of a simulation. */
 static void draw_measures(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events)
 {
     panel_terms(ui, data->scene, start, events);
@@ -169,8 +169,8 @@ static void draw_measures(Ui *ui, const PanelData *data, const Scene *start, Pan
     events->watches_probes = panel_probes(ui, data);
 }
 
-/* Warnings come and go: they have a place of always the same height, so that nothing below it moves. What has
-   no room there is below all else, and in the help. */
+/* Draws the warnings at a fixed height, so that nothing below moves when warnings come and go. Warnings
+   without room appear below everything, and in the help. */
 static void draw_warnings(Ui *ui, const PanelData *data)
 {
     static const float LINES = 2;
@@ -217,7 +217,7 @@ void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *da
 
 bool panel_opener_draw(Ui *ui, float below)
 {
-    static const float AROUND_EM = 2.2F; /* about its words: the paddings of the window and of the button */
+    static const float AROUND_EM = 2.2F; /* around the words: padding of window and button */
     const PlayCommandRow *row = &play_command_rows[PLAY_PANEL];
     const float em = ui_pixels(ui), margin = margin_of(ui);
     const UiWindow window = {.id = "opener",

@@ -1,7 +1,7 @@
-/* The panel of the live window: what the session does and costs, and the scene's live keys as sliders and
+/* The panel of the live window: state and cost of the session, and the scene's live keys as sliders and
    choices.
 
-   It shows what it is given and changes nothing itself: what the user does comes back as events. */
+   The panel only shows its data, and changes nothing itself: user actions are returned as events. */
 #ifndef SLOSH_PANEL_H
 #define SLOSH_PANEL_H
 
@@ -19,84 +19,83 @@
 typedef struct Panel Panel;
 
 typedef struct PanelData {
-    const Scene *scene;           /* values as they stand */
-    bool recorded;                /* a recorded run is shown: nothing of a solver */
-    double stage_ms[STAGE_COUNT]; /* of a frame of the solver, of a picture of the view */
+    const Scene *scene;           /* present values */
+    bool recorded;                /* shows a recorded run: no solver data */
+    double stage_ms[STAGE_COUNT]; /* per frame of the solver; per picture of the view */
     bool stage_ran[STAGE_COUNT];
-    bool render_stages_known; /* false on a software renderer, where the stages of a picture cannot be timed
-                                 without waiting: then one bar for all rendering */
-    double sim_ms, render_ms; /* a frame of the solver, a picture */
+    bool render_stages_known; /* false on a software renderer, where stages of a picture cannot be timed
+                                 without waiting: one bar for all rendering */
+    double sim_ms, render_ms; /* per frame of the solver; per picture */
     const float *frame_history,
-        *step_history;           /* ms, oldest first: picture to picture; a frame of the solver */
-    int frame_count, step_count; /* of them */
+        *step_history;           /* ms, oldest first: between pictures; per frame of the solver */
+    int frame_count, step_count; /* counts */
     const GaugeSample *gauges;   /* oldest first */
     int gauge_count;
-    const ProbeSample *probes; /* the same of the scene's probes */
+    const ProbeSample *probes; /* the same for the scene's probes */
     int probe_count;
-    uint64_t shut; /* gates of emitters and drains: sim/matter/flow.h */
-    double box_wanted[3],
-        box_most; /* the size to which the box goes; the longest side that the file has, m */
+    uint64_t shut;                  /* gates of emitters and drains: sim/matter/flow.h */
+    double box_wanted[3], box_most; /* target size of the box; longest side in the file, m */
     size_t particles, particles_at_start;
-    double particles_wished; /* of PanelEvents, while the mouse holds it; else 0 */
-    size_t opened;           /* the number of the scene among those that were opened */
+    double particles_wished; /* from PanelEvents, while the mouse holds the slider; else 0 */
+    size_t opened;           /* counts opened scenes */
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
-    StepLimit limit;         /* what bounded it */
-    double iterations;       /* of solvers that iterate, in the last step; */
-    SolveFigures solved;     /* since the scene's start; steps 0: the method has none */
+    StepLimit limit;         /* what limited the last step */
+    double iterations;       /* of iterative solvers, in the last step */
+    SolveFigures solved;     /* since the scene's start; steps 0: none in this method */
     double real_time_factor; /* simulated over wall time */
-    double speed;            /* that is asked for; 1: real time */
+    double speed;            /* requested; 1: real time */
     double pictures_per_second;
     bool paused, realtime;
-    double scalar_range[2];                 /* of the scalar shown, now */
-    double opacity_range[2], size_range[2]; /* the same of those by which opacity and size go; else 0 */
+    double scalar_range[2];                 /* present range of the shown scalar */
+    double opacity_range[2], size_range[2]; /* the same for the scalars of opacity and size; else 0 */
     const char *renderer;
-    const char *const *warnings; /* plain words */
+    const char *const *warnings; /* in plain words */
     int warning_count;
-    const HandDevice *devices; /* motion devices; none: the panel has no section for them */
+    const HandDevice *devices; /* motion devices; without any, the panel has no section for devices */
     int device_count;
-    double panel_ms; /* CPU time of the panel in a picture, mean of the last ones */
+    double panel_ms; /* mean CPU time of the panel per picture, over the last pictures */
 } PanelData;
 
 enum { PANEL_SETTINGS_MAX = 8, PANEL_SETTING_SIZE = 192 };
 
-/* What the user asks for. */
+/* User requests. */
 typedef struct PanelEvents {
     int setting_count;
-    char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", as scene_set_live takes it */
+    char settings[PANEL_SETTINGS_MAX][PANEL_SETTING_SIZE]; /* "path=value", for scene_set_live */
     int command;                                           /* a PlayCommand, or PLAY_NONE */
-    bool gated;                                            /* these gates shall be shut: */
+    bool gated;                                            /* shut these gates: */
     uint64_t shut;
-    bool sized; /* the box shall be so large, m: */
+    bool sized; /* resize the box, m: */
     double size[3];
-    double particles;    /* more than 0: about so many are wished, */
-    char again[64];      /* or "path=value", with which the scene shall begin anew; "": not */
-    bool watches;        /* the gauges are shown, */
-    bool watches_probes; /* and what probes read */
-    int tuned;           /* number of a motion device, or 0: it shall have these two */
+    double particles;    /* more than 0: requested number of particles */
+    char again[64];      /* or "path=value" for a restart of the scene; "": none */
+    bool watches;        /* the gauges are shown */
+    bool watches_probes; /* the probes' plots are shown */
+    int tuned;           /* number of a motion device to tune, or 0: */
     double gain, dead_zone;
 } PanelEvents;
 
-/* NULL without memory. */
+/* Returns NULL if memory is short. */
 Panel *panel_create(void);
 void panel_destroy(Panel *panel); /* NULL is allowed */
 
-/* How wide the panel is, in a picture that wide; with its margin. Half of a small picture, and not too narrow
-   for its words. */
+/* Returns the panel's width, with margin, for a picture of the given width: half of a small picture, but
+   wide enough for its words. */
 float panel_width(const Ui *ui, int width);
 
-/* Both stand between ui_begin and ui_end, when ui_begin returned true. */
+/* Call both between ui_begin and ui_end, if ui_begin returned true. */
 void panel_draw(Panel *panel, Ui *ui, int width, int height, const PanelData *data, PanelEvents *events);
 
-/* The button that opens the panel, in the upper left corner, so many pixels below the edge. True when
- * pressed. */
+/* Draws the button to open the panel, in the upper left corner, `below` pixels under the edge. Returns
+   true if pressed. */
 bool panel_opener_draw(Ui *ui, float below);
 
-/* All that a user can do, with its keys, in the middle of the picture. */
+/* Draws all user commands with their keys, in the middle of the picture. */
 void panel_help_draw(Ui *ui, int width, int height);
 
-/* The scenes to choose from, with their pictures, in the middle of the picture. The place of the one that was
-   pressed, or -1. */
+/* Draws the scenes to choose from, with their pictures, in the middle of the picture. Returns the index of
+   the pressed scene, or -1. */
 int panel_cards_draw(Ui *ui, int width, int height, const SceneCard *cards, int count);
 
 #endif

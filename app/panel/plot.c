@@ -7,7 +7,7 @@
 static const uint32_t INK = 0xe4e9eeff, FAINT = 0x8e9ba8ff, GROUND = 0x1e252cff;
 static const uint32_t colors[PANEL_LINES_MAX] = {0x4aa3c7ff, 0xd99a4eff, 0xe4e9eeff};
 
-/* 0.00123 kg as "1.23 g" would have it: at most four digits and a prefix. */
+/* Formats 0.00123 kg as "1.23 g": at most four digits and a prefix. */
 void panel_si_text(double value, const char *unit, char out[48])
 {
     static const char *const prefixes[] = {"n", "µ", "m", "", "k", "M", "G", "T"};
@@ -33,7 +33,7 @@ static void range_of(const PanelPlot *plot, double range[2])
     for (int i = 0; i < plot->count; i++)
         for (int l = 0; l < plot->lines; l++) {
             const double value = plot->value(plot, i, l);
-            range[0] = fmin(range[0], value); /* which passes over NaN */
+            range[0] = fmin(range[0], value); /* fmin skips NaN */
             range[1] = fmax(range[1], value);
         }
     if (!isfinite(range[0]))
@@ -42,7 +42,7 @@ static void range_of(const PanelPlot *plot, double range[2])
         range[1] = range[0] + 1;
 }
 
-/* "0 to 1.2 %, last 6.0 s" */
+/* Writes a head such as "0 to 1.2 %, last 6.0 s". */
 static void draw_head(Ui *ui, const PanelPlot *plot, const double range[2])
 {
     char low[48], high[48], text[160] = "no values yet";
@@ -54,7 +54,8 @@ static void draw_head(Ui *ui, const PanelPlot *plot, const double range[2])
     ui_row(ui, plot->name, text);
 }
 
-/* Names and values in the colours of their lines, as many to a row as there is room for; how many rows. */
+/* Writes names and values in the colours of their lines, several per row if they fit; returns the count of
+   rows. */
 static int draw_values(Ui *ui, const PanelPlot *plot, int sample, const float *rect, float width)
 {
     const float em = ui_pixels(ui);
@@ -76,7 +77,7 @@ static int draw_values(Ui *ui, const PanelPlot *plot, int sample, const float *r
     return rows;
 }
 
-/* A step a sample, the newest at the right. */
+/* Draws one step per sample, newest at the right. */
 static void draw_line(Ui *ui, const PanelPlot *plot, int line, const float rect[4], const double range[2])
 {
     const float thick = fmaxf(floorf(ui_pixels(ui) / 9), 1), width = rect[2] - rect[0],
@@ -96,7 +97,8 @@ static void draw_line(Ui *ui, const PanelPlot *plot, int line, const float rect[
     }
 }
 
-/* The time of the sample under the mouse, and a hair through it; the newest without a mouse. */
+/* Draws a hair line and the time of the sample under the mouse; returns its index, or the newest sample
+   without mouse. */
 static int draw_pointed(Ui *ui, const PanelPlot *plot, const float rect[4])
 {
     float x;

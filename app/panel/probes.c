@@ -1,14 +1,14 @@
-/* What the scene's probes read, over the last seconds. */
+/* Readings of the scene's probes, over the last seconds. */
 #include "app/panel/panel_parts.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A probe's plot, in which lines may differ by their units. */
+/* A probe's plot, whose lines may have different units. */
 typedef struct ProbePlot {
     const PanelData *data;
-    int first; /* of its numbers in a sample */
+    int first; /* index of its first number in a sample */
     ProbeColumn column[PROBE_SHOWN];
 } ProbePlot;
 
@@ -37,7 +37,8 @@ static void text_of(const PanelPlot *plot, int at, int line, double value, char 
         panel_si_text(value, unit, out);
 }
 
-/* How many of its columns have the unit of the first: those that one range serves. */
+/* Draws a probe's plot with the columns sharing the first column's unit, as a plot has one range. Returns
+   the count of columns shown. */
 static int draw_probe(Ui *ui, const PanelData *data, const ProbeDef *def, int first)
 {
     ProbePlot own = {.data = data, .first = first};

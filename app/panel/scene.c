@@ -10,7 +10,7 @@
 
 enum { NAME_LENGTH = 48, PATH_LENGTH = 64 };
 
-/* What goes with a scalar; of a range, which one it is while it is automatic. */
+/* Keys belonging to a scalar, and the range in use while automatic. */
 static const struct {
     const char *path;
     enum { COLOR_RANGE, OPACITY_RANGE, SIZE_RANGE } range;
@@ -22,7 +22,7 @@ static const struct {
     {"view.size.curve", SIZE_RANGE},       {"view.size.range", SIZE_RANGE},
 };
 
-/* Live keys that are no widget among the scene's. */
+/* Live keys without a widget. */
 static const struct {
     const char *path, *why;
 } elsewhere[] = {
@@ -31,7 +31,7 @@ static const struct {
     {"view.camera.fov", "the mouse moves the camera"},
 };
 
-/* Live keys under a heading of their own: what is for pictures that are shown to others. */
+/* Live keys under a heading of their own: for pictures made for others. */
 static const char FILM_GROUP[] = "Film";
 static const char *const of_film[] = {"view.camera_turn", "view.carries_scene"};
 
@@ -45,7 +45,7 @@ static bool is_of_film(const Key *key)
 
 static bool is_elsewhere(const Key *key)
 {
-    if (key->type == KEY_TEXT) /* words have no widget: they are for scenes and --set */
+    if (key->type == KEY_TEXT) /* texts have no widget: set them in scenes or by --set */
         return true;
     for (size_t i = 0; i < sizeof elsewhere / sizeof *elsewhere; i++)
         if (strcmp(elsewhere[i].path, key->path) == 0)
@@ -56,8 +56,7 @@ static bool is_elsewhere(const Key *key)
     return false;
 }
 
-/* What follows "view." in a key such as view.NAME.level, up to the dot: its length; 0:
-   the key is of every view. */
+/* Returns the length of NAME in a key such as view.NAME.level; 0: a key of every view. */
 static size_t part_of_view(const Key *key, const char **part)
 {
     static const char VIEW[] = "view.";
@@ -73,7 +72,7 @@ static bool is_a_view(const char *name, size_t length)
     return false;
 }
 
-/* A key that another view than the shown one reads. */
+/* True if the key belongs to a view that is not shown. */
 static bool is_of_another_view(const Key *key, const Scene *scene)
 {
     const char *part;
@@ -83,8 +82,8 @@ static bool is_of_another_view(const Key *key, const Scene *scene)
            !(strlen(shown) == length && strncmp(shown, part, length) == 0);
 }
 
-/* The heading that a key stands under: "solver.step.dt" is in "Solver", "gravity" in "World", the shown
-   view's own in "View", an overlay's under its own name. */
+/* Fills in the heading of a key: "solver.step.dt" is in "Solver", "gravity" in "World", the shown view's
+   own keys in "View", an overlay's under the overlay's name. */
 static void group_of(const Key *key, char name[NAME_LENGTH])
 {
     const char *part;
@@ -100,7 +99,7 @@ static void group_of(const Key *key, char name[NAME_LENGTH])
     name[0] = (char)toupper((unsigned char)name[0]);
 }
 
-/* What follows the heading's part of the path, or its list, in words: "step dt". */
+/* Makes the label: the path after the heading's part, or after the list, in words: "step dt". */
 static void label_of(const Key *key, char label[NAME_LENGTH])
 {
     const char *part;
@@ -114,7 +113,7 @@ static void label_of(const Key *key, char label[NAME_LENGTH])
             *c = ' ';
 }
 
-/* "fluids[].color" as "fluids[1].color". */
+/* Turns "fluids[].color" into "fluids[1].color". */
 static void path_of(const Key *key, int element, char path[PATH_LENGTH])
 {
     const char *list = strstr(key->path, "[]");
@@ -124,7 +123,7 @@ static void path_of(const Key *key, int element, char path[PATH_LENGTH])
         snprintf(path, PATH_LENGTH, "%s", key->path);
 }
 
-/* What an element of the list is called: what its key `name` has, or "drains 1". */
+/* Fills in the name of a list element: the value of its key `name`, or "drains 1". */
 static void name_of(const Key *list, const void *element, int index, char name[NAME_LENGTH])
 {
     const char *dot = strrchr(list->path, '.');
@@ -173,7 +172,8 @@ static void draw_key(Ui *ui, const Key *key, const Scene *scene, const Scene *st
         events);
 }
 
-/* Of a recorded run the view's alone; of the views' own keys those of the shown one. */
+/* True if the key is shown: for a recorded run only view keys; of the views' own keys only the shown
+   view's. */
 static bool is_shown(const Key *key, const PanelData *data)
 {
     return (key->flags & KEY_LIVE) && !is_elsewhere(key) && !is_of_another_view(key, data->scene) &&
@@ -214,13 +214,14 @@ void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *
         draw_group(ui, VIEW_GROUP, data, start, events);
 }
 
-/* The headings that stand already. */
+/* The headings already drawn. */
 typedef struct Groups {
     int count;
     char name[24][NAME_LENGTH];
 } Groups;
 
-/* Whether it is a new one; with more than there is room for the last ones have none. */
+/* Returns true if the heading is new; false also if the table is full: the last headings are then left
+   out. */
 static bool groups_add(Groups *groups, const char *name)
 {
     for (int i = 0; i < groups->count; i++)

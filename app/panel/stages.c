@@ -21,14 +21,14 @@ static uint32_t color_of(Part part)
     return PANEL_RENDER_COLOR;
 }
 
-/* What a line shows: a bar as long as its share of the longest. */
+/* A line: a bar whose length is relative to the longest. */
 typedef struct Line {
     const char *name;
-    double ms, share; /* share of all */
+    double ms, share; /* of the total */
     Part part;
 } Line;
 
-/* The stages that ran; simulation and rendering as one line each where their stages are not known. */
+/* Collects the stages that ran; simulation or rendering get a single line if their stages are unknown. */
 static int gather(const PanelData *data, Line lines[STAGE_COUNT + 1], double *all)
 {
     int count = 0;
@@ -47,7 +47,7 @@ static int gather(const PanelData *data, Line lines[STAGE_COUNT + 1], double *al
     return count;
 }
 
-/* One bar, divided as simulation and rendering divide the time. */
+/* Draws one bar, divided between simulation and rendering. */
 static void draw_balance(Ui *ui, const PanelData *data)
 {
     const double all = data->sim_ms + data->render_ms, share = all > 0 ? data->sim_ms / all : 0.5;

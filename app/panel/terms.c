@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The value that the term has now, and whether it is on. */
+/* True if the term is on in the scene. */
 static bool is_on(const Scene *scene, const SceneTerm *term)
 {
     SceneTerm now[TERMS_MAX];
@@ -16,14 +16,15 @@ static bool is_on(const Scene *scene, const SceneTerm *term)
     return false;
 }
 
-/* A value that is too long to be set again, as a table is, cannot be switched. */
+/* True if the term can be switched: its value must be short enough to be set again; a table is not. */
 static bool can_switch(const SceneTerm *term)
 {
     return term->key->flags & KEY_LIVE && strlen(term->value) < TERM_SIZE - 1 &&
            strlen(term->path) + strlen("=") + strlen(term->value) < PANEL_SETTING_SIZE;
 }
 
-/* "solver.artificial_viscosity", 0.05 as "solver artificial viscosity 0.05", which wraps. */
+/* Makes a label: "solver.artificial_viscosity", 0.05 becomes "solver artificial viscosity 0.05", which
+   wraps. */
 static void label_of(const SceneTerm *term, char label[2 * TERM_SIZE])
 {
     snprintf(label, 2 * TERM_SIZE, "%s", term->path);
@@ -46,7 +47,7 @@ static void draw_switch(Ui *ui, const SceneTerm *term, bool on, PanelEvents *eve
                  on ? term->value : term->key->off);
 }
 
-/* What the world is made with: said, and how to do without it. */
+/* Shows a term fixed at the world's creation, and how to do without. */
 static void draw_fixed(Ui *ui, const SceneTerm *term)
 {
     char text[4 * TERM_SIZE], label[2 * TERM_SIZE];

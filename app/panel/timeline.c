@@ -7,7 +7,7 @@
 #include <string.h>
 
 static const float MARGIN_EM = 0.75F, BAR_EM = 1.5F, BUTTON_EM = 2, GAP_EM = 0.4F;
-static const float LETTERS_EM = 0.15F;     /* from the bar's upper edge to its words */
+static const float LETTERS_EM = 0.15F;     /* from the bar's upper edge to the words */
 static const float PADDING_EM = 9.0F / 13; /* of windows: render/ui/imgui.cpp */
 static const uint32_t INK = 0xe4e9eeff, FAINT = 0x8e9ba8ff, GROUND = 0x252d36ff, DONE = 0x2f6688ff,
                       LIT = 0x3b7fa8ff;
@@ -45,7 +45,7 @@ static bool draw_button(Ui *ui, const TimelineButton *button, const float rect[4
     return grip.pressed;
 }
 
-/* From the left on, as many as leave room for a bar; returns where they end. */
+/* Draws buttons from the left, as many as leave room for a bar; returns their right end. */
 static float draw_buttons(Ui *ui, const float area[4], const TimelineData *data, TimelineEvents *events)
 {
     const float em = ui_pixels(ui);
@@ -96,7 +96,7 @@ static void draw_bar(Ui *ui, const float bar[4], const TimelineData *data, Timel
     events->time = pointed;
 }
 
-/* "2.00 s of 0.51 to 12.30 s": its room does not change with the numbers, for the bar would move. */
+/* Writes "2.00 s of 0.51 to 12.30 s" in a space independent of the digits: otherwise the bar would move. */
 static float draw_words(Ui *ui, const float area[4], const TimelineData *data)
 {
     const float em = ui_pixels(ui), y = area[1] + LETTERS_EM * em;
@@ -115,7 +115,7 @@ static float draw_words(Ui *ui, const float area[4], const TimelineData *data)
     return left;
 }
 
-/* Words where they leave room for a bar. */
+/* Draws the words only if they leave room for a bar. */
 static void draw_line(Ui *ui, const float area[4], const TimelineData *data, TimelineEvents *events)
 {
     static const float LEAST_EM = 24; /* of words and bar */

@@ -31,7 +31,7 @@ static const EditingKey editing_keys[] = {
     {GLFW_KEY_RIGHT_SHIFT, UI_KEY_SHIFT},
 };
 
-/* What a picture has taken so far. */
+/* Input already taken for the picture. */
 typedef struct Taken {
     bool button[3], place, text;
     unsigned keys;
@@ -60,7 +60,7 @@ static bool moves(const UiInput *now, const WindowEvent *event)
     return now->mouse[0] != (float)event->x || now->mouse[1] != (float)event->y;
 }
 
-/* Letters and editing keys keep their order, and a slider is where it was dragged to before it is let go. */
+/* Keeps the order of letters and editing keys, and lets a slider reach its place before the release. */
 static bool must_wait(const UiInput *now, const Taken *taken, const WindowEvent *event)
 {
     const unsigned modifiers = UI_KEY_CTRL | UI_KEY_SHIFT;
@@ -147,7 +147,7 @@ static void take_first(WidgetInput *input, Taken *taken)
 static bool is_for_widgets(const WindowEvent *event)
 {
     if (event->kind == WINDOW_KEY)
-        return ui_key(event) && !event->repeated; /* the widgets repeat what is held by themselves */
+        return ui_key(event) && !event->repeated; /* widgets repeat held keys themselves */
     return event->kind == WINDOW_BUTTON || event->kind == WINDOW_MOVE || event->kind == WINDOW_WHEEL ||
            event->kind == WINDOW_TEXT;
 }

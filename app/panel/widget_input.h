@@ -1,7 +1,7 @@
-/* What the panel's widgets are told. Widgets see one state of mouse and keys a picture; events come faster,
-   on a slow picture a whole click. So events wait in a queue, and a picture takes as many of them as it can
-   tell apart: no button or key goes down and up in one, and the mouse does not leave the place where a button
-   changed. Pure. */
+/* Input of the panel's widgets. Widgets see one state of mouse and keys per picture; events come faster,
+   even a whole click within a slow picture. So events wait in a queue, and a picture takes only
+   distinguishable events: no button or key goes down and up within a picture, and the mouse stays where a
+   button changed. Pure. */
 #ifndef SLOSH_PANEL_WIDGET_INPUT_H
 #define SLOSH_PANEL_WIDGET_INPUT_H
 
@@ -10,20 +10,22 @@
 
 enum { WIDGET_EVENTS_MAX = 256 };
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct WidgetInput {
-    UiInput now; /* for ui_begin; dt and changed are the caller's */
+    UiInput now; /* for ui_begin; the caller sets dt and changed */
     int first, count;
-    WindowEvent events[WIDGET_EVENTS_MAX]; /* a ring of those that wait */
+    WindowEvent events[WIDGET_EVENTS_MAX]; /* waiting events; ring buffer */
 } WidgetInput;
 
-/* Adds an event. Mouse moves in a row are one. Of a full queue the oldest event is taken first. */
+/* Adds an event. Consecutive mouse moves are merged. If the queue is full, the oldest event is taken
+   first. */
 void widget_input_add(WidgetInput *input, const WindowEvent *event);
 
-/* Into `now`: the next picture's events. What came once in the picture before (wheel, text) is forgotten. */
+/* Updates `now` with the next picture's events. Momentary input of the last picture (wheel, text) is
+   cleared. */
 void widget_input_next(WidgetInput *input);
 
-/* No widget is shown: what waits is taken, all at once. */
+/* Takes all waiting events at once, while no widget is shown. */
 void widget_input_skip(WidgetInput *input);
 
 #endif
