@@ -49,7 +49,7 @@ typedef struct AblateSetup {
    scene on a GPU needs a current context. `ablation` is filled in either case. */
 bool ablate(const AblateSetup *setup, Ablation *ablation, Error *error);
 
-/* Medians over the runs: ms a step, s a simulated second; NaN without runs. */
+/* Medians over the runs: ms per step, s per simulated second; NaN without runs. */
 double ablate_ms_step(const AblateRow *row);
 double ablate_seconds(const AblateRow *row);
 

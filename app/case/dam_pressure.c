@@ -1,5 +1,5 @@
-/* Pressure of a collapsing column on the wall behind and on the end wall, from sensors on the lowest parts
-   of the walls, compared with boundary elements (tests/app/test_dam_break_potential.c). */
+/* Pressure of a collapsing column on the wall behind and on the end wall, measured by sensors on the
+   lowest parts of the walls. Reference: boundary elements (tests/app/test_dam_break_potential.c). */
 #include "app/case/all.h"
 #include "app/case/reference.h"
 

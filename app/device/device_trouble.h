@@ -7,8 +7,8 @@
 
 enum { DEVICE_PROBLEM_SIZE = 512, DEVICE_COMMAND_SIZE = 384 };
 
-/* Makes the command to let users of this machine open the devices: installs tools/70-slosh.rules, or
-   applies an installed rule to plugged in devices. Returns false if the rule did not come with the
+/* Makes the one command that lets users of this machine open the devices: installs tools/70-slosh.rules,
+   or applies an installed rule to plugged in devices. Returns false if the rule did not come with the
    program. */
 bool device_rules_command(char command[DEVICE_COMMAND_SIZE]);
 

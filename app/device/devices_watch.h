@@ -30,8 +30,8 @@ typedef struct Watch {
     WatchedDevice devices[WATCH_DEVICES_MAX];
 } Watch;
 
-/* Runs until a signal comes (app/base/interrupt.h), the recording has ended, `record` breaks or `out` takes
-   no more. False with the reason: it could not begin. */
+/* Runs until a signal (app/base/interrupt.h), the end of the recording, a failure of `record`, or a failed
+   write to `out`. Returns false with the reason if it could not begin. */
 bool devices_watch(Watch *watch, Error *error);
 
 #endif

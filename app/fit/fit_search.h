@@ -2,12 +2,13 @@
    fluids: a setting is a place on each of some axes; its cost and error are requested one setting at a
    time, as rarely as possible.
 
-   Order: 1. the unchanged scene. 2. Each line (a combination of the axes FIT_LINE, remaining axes
-   unchanged) along the ladder from coarse to fine until within the bound. 3. From the best of each line,
-   columns (settings that differ along the ladder alone) one step away along another axis, from their
-   finest rung with a chance to be cheaper. 4. From the best of all, columns two steps away.
+   Order: 1. The unchanged scene. 2. Each line (a combination of the axes FIT_LINE, remaining axes
+   unchanged) along the ladder from coarse to fine, until a rung is within the bound. 3. From the best of
+   each line, the columns one step away along another axis, from their finest rung with a chance to be
+   cheaper. A column has all settings that differ along the ladder alone. 4. From the best of all, the
+   columns two steps away.
 
-   Settings with a predicted cost of more than FIT_MARGIN times the present best's are not run. Prediction:
+   A setting is not run if its predicted cost is more than FIT_MARGIN times the cost to beat. Prediction:
    the cost of the nearest finished setting of the same line, times the ratio of work.
 
    The best setting is checked twice. Errors fall with the spacing: if the next finer rung is outside the
@@ -20,7 +21,7 @@
 
 enum { FIT_AXES = 12, FIT_VALUES = 10, FIT_TRIES = 200 };
 
-/* Relative inaccuracy of predictions. */
+/* Predictions are off by about this factor. */
 #define FIT_MARGIN 1.2
 
 typedef struct FitPoint {

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double coarsenings[] = {2, 1.5, 1}; /* fills that are whole numbers of spacings often stay so */
+static const double coarsenings[] = {2, 1.5, 1}; /* whole layers of fills often stay whole */
 static const double FINEST = 0.5;                /* spacing of the reference, times the finest of these */
 static const double jitters[] = {1e-6, 2e-6, 3e-6};
 

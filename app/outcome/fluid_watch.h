@@ -14,8 +14,7 @@ enum { FLUID_WATCH_STEPS = 50, FLUID_WATCH_LATER = 200, FLUID_WATCH_WORDS = OUTC
 /* Zero-initialise all but `closed` and `resumed`; again whenever the scene restarts. */
 typedef struct FluidWatch {
     bool closed;       /* only the scene acts, no hand, no changes: energy is checked */
-    bool resumed;      /* continues from another state than the scene's start: no close particles are
-                          normal */
+    bool resumed;      /* continues from a later state: no close particles are normal */
     bool looked;       /* true after the first look */
     OutcomeLook start; /* normal values: close particles at the first look; least energy so far; remaining
                           members 0 */

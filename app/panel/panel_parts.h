@@ -20,8 +20,7 @@ typedef struct PanelPlot {
     int count, lines;
     const char *line[PANEL_LINES_MAX]; /* label before the value */
     double least;                      /* upper bound of the range's low end */
-    const void *of;                    /* callback argument; `at`: sample index, -1 for a bound of the
-                                          range */
+    const void *of;                    /* callback argument; `at`: sample index; -1: bound of the range */
     double (*time)(const struct PanelPlot *plot, int at);
     double (*value)(const struct PanelPlot *plot, int at, int line); /* NaN: none */
     void (*text)(const struct PanelPlot *plot, int at, int line, double value, char out[48]);

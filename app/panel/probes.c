@@ -37,8 +37,8 @@ static void text_of(const PanelPlot *plot, int at, int line, double value, char 
         panel_si_text(value, unit, out);
 }
 
-/* Draws a probe's plot with the columns sharing the first column's unit, as a plot has one range. Returns
-   the count of columns shown. */
+/* Draws a probe's plot; only the columns with the first column's unit, as a plot has one range. Returns
+   the count of the probe's numbers in a sample. */
 static int draw_probe(Ui *ui, const PanelData *data, const ProbeDef *def, int first)
 {
     ProbePlot own = {.data = data, .first = first};

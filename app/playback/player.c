@@ -88,7 +88,7 @@ static void flow(Player *player, double seconds)
         player->time = player->status.last;
 }
 
-/* Moves to the neighbour of the shown step, as soon as that step is shown. */
+/* Moves to the neighbour of the shown step, once the last request is answered. */
 static void walk(Player *player)
 {
     const ReelStatus *status = &player->status;

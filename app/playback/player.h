@@ -15,8 +15,7 @@ void player_destroy(Player *player); /* NULL is allowed */
 
 /* Advances to wall time `now_ms`. The file's time moves by `speed` times as much, at most a quarter of a
    second at once, and stops or restarts at the end. Returns the ms until the next step is due; INFINITY if
-   the player rests, or a step waits for the thread. The thread calls wake, also while a step is being
-   read. */
+   the player rests, or a step waits for the thread. The thread calls wake when a step has been read. */
 double player_work(Player *player, double now_ms);
 
 void player_pause(Player *player, bool paused);

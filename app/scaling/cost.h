@@ -35,9 +35,9 @@ typedef struct CostModel {
     double balance, wait;      /* b: s per particle of a rank; w */
 } CostModel;
 
-/* Fits the model by least squares of relative errors. At least one sample must have more than one rank. If
-   all samples have the same size, the whole exchange counts as bytes. Returns false with the reason if
-   samples are missing. */
+/* Fits the model: means over the samples; latency and bandwidth by least squares of relative errors. At
+   least one sample must have more than one rank. If all samples have the same size, the whole exchange
+   counts as bytes. Returns false with the reason if samples are missing. */
 bool cost_fit(const CostSample *samples, int count, int dimensions, CostModel *model, Error *error);
 
 /* Predicts a run; all arguments 1 or more. */

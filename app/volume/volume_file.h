@@ -45,8 +45,8 @@ void volume_values(const VolumeHeader *header, const unsigned char *raw, size_t 
 bool volume_header_load(const char *path, VolumeHeader *header, Error *error);
 
 /* Loads a header and its raw file. `volume` is for level_volume; the caller frees *values. Returns false
-   if a file is missing, or the raw file is not a regular file, has another length than the header gives,
-   has a value that is not finite, or exceeds the machine's memory. */
+   if a file is missing, or the raw file is not a regular file or exceeds the machine's memory. Also false
+   if the raw file has another length than the header gives, or a value that is not finite. */
 bool volume_file_load(const char *path, VolumeData *volume, float **values, Error *error);
 
 #endif
