@@ -28,7 +28,7 @@ static const char *const cap_axes[MAPPING_AXES] = {"x", "y", "z", "turn_x", "tur
 static const char *const pad_axes[MAPPING_AXES] = {"left_x",  "left_y",       "right_x",
                                                    "right_y", "left_trigger", "right_trigger"};
 
-/* Box speeds while the cap is deflected. */
+/* The cap moves and turns the box, at a speed, while deflected. */
 static const AxisMap cap_defaults[MAPPING_AXES] = {
     {.to = MAP_MOVE_X, .gain = 1}, {.to = MAP_MOVE_Y, .gain = 1}, {.to = MAP_MOVE_Z, .gain = 1},
     {.to = MAP_TURN_X, .gain = 1}, {.to = MAP_TURN_Y, .gain = 1}, {.to = MAP_TURN_Z, .gain = 1},

@@ -149,7 +149,7 @@ static bool add_world(RenderPlan *plan, int panel, Notes *notes, Error *error)
     return load(plan, setting, view, panel / plan->setting_count, &plan->own[panel], notes, error);
 }
 
-/* Shares the states of an earlier panel; attributes read only by this panel may be missing. */
+/* Shares the states of an earlier panel. Fails if attributes read only by this panel are missing. */
 static bool share(RenderPlan *plan, int panel, int first, Error *error)
 {
     const ViewDef *view = plan->views[panel];

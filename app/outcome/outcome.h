@@ -55,8 +55,8 @@ OutcomeKind outcome_of_word(const char *word);
 #define OUTCOME_NEAR  0.2
 #define OUTCOME_CLOSE 0.1
 
-/* Fluid leaks if this fraction of its particles is beyond a wall by OUTCOME_BEYOND spacings, or without a
-   place in the grid. */
+/* Fluid leaks if the fraction OUTCOME_OUT of its particles is beyond a wall by OUTCOME_BEYOND spacings, or
+   without a place in the grid. */
 #define OUTCOME_BEYOND 0.5
 #define OUTCOME_OUT    0.001
 

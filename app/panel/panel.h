@@ -34,10 +34,10 @@ typedef struct PanelData {
     const ProbeSample *probes; /* the same for the scene's probes */
     int probe_count;
     uint64_t shut;                  /* gates of emitters and drains: sim/matter/flow.h */
-    double box_wanted[3], box_most; /* target size of the box; longest side in the file, m */
+    double box_wanted[3], box_most; /* target size of the box; longest side in the scene file, m */
     size_t particles, particles_at_start;
     double particles_wished; /* from PanelEvents, while the mouse holds the slider; else 0 */
-    size_t opened;           /* counts opened scenes */
+    size_t opened;           /* ordinal of the scene among the opened scenes */
     double time;             /* simulated, s */
     double dt;               /* of the last step, s */
     StepLimit limit;         /* what limited the last step */
