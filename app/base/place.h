@@ -1,6 +1,6 @@
 /* Where what belongs to the program lies, wherever the program was put. */
-#ifndef SLOSH_PLACE_H
-#define SLOSH_PLACE_H
+#ifndef SLOSH_BASE_PLACE_H
+#define SLOSH_BASE_PLACE_H
 
 #include <stdbool.h>
 

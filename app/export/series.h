@@ -1,8 +1,8 @@
 /* A series of files being written: an index, OUT.pvd, OUT.ply.series or OUT.obj.series, and the folder OUT
    with OUT-0000.EXTENSION, OUT-0001.EXTENSION, ... Index and folder get their names together at the end;
    older files of the same names stay until then. */
-#ifndef SLOSH_SERIES_H
-#define SLOSH_SERIES_H
+#ifndef SLOSH_EXPORT_SERIES_H
+#define SLOSH_EXPORT_SERIES_H
 
 #include "app/base/output.h"
 #include "app/base/output_folder.h"

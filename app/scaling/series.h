@@ -1,7 +1,7 @@
 /* Groups runs on ranks. Strong scaling: the same particles on more and more ranks. Weak scaling: the same
    particles per rank. */
-#ifndef SLOSH_SERIES_H
-#define SLOSH_SERIES_H
+#ifndef SLOSH_SCALING_SERIES_H
+#define SLOSH_SCALING_SERIES_H
 
 #include "app/scaling/cost.h"
 

@@ -215,6 +215,16 @@ class Layers(unittest.TestCase):
         self.assertEqual(circles(graph), [])
         self.assertEqual(circles({"a": ["b"], "b": ["c"], "c": ["a"], "d": ["a"]}), [["a", "b", "c"]])
 
+    def test_each_header_has_a_guard_of_its_own(self):
+        """Of two with one guard a file that includes both loses the second, without a word."""
+        owners = collections.defaultdict(list)
+        for path in [*ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
+            guard = re.search(r"^#ifndef (\w+)\n#define \1$", path.read_text(), re.M)
+            owners[guard and guard[1]].append(str(path.relative_to(ROOT)))
+        owners.pop(None, None)  # lists that are included more than once
+        self.assertGreater(len(owners), 400)
+        self.assertEqual({guard: names for guard, names in owners.items() if len(names) > 1}, {})
+
     def test_a_view_is_named_in_its_folder_and_in_lists(self):
         paths = list(sources())
         views = set(VIEWS)

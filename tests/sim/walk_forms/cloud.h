@@ -1,7 +1,7 @@
 /* Particles for the forms of the neighbour walk: a jittered lattice, sorted by cells in one of several ways.
  */
-#ifndef SLOSH_TEST_CLOUD_H
-#define SLOSH_TEST_CLOUD_H
+#ifndef SLOSH_WALK_FORMS_CLOUD_H
+#define SLOSH_WALK_FORMS_CLOUD_H
 
 #include "sim/cpu/pair_args.h"
 
