@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* One of them. */
+/* One panel. */
 typedef struct Panel {
     Renderer *renderer;
     ViewDef def;
@@ -17,12 +17,12 @@ typedef struct Panel {
 struct Panels {
     int count, width, height;
     int marked;          /* -1: none */
-    double covered_left; /* part of the width */
+    double covered_left; /* fraction of the width */
     PanelPlace places[PANELS_MAX];
     Panel panels[PANELS_MAX];
 };
 
-/* Two equal parts of a length; the line between has the odd pixel. */
+/* Two equal parts of a length; an odd pixel goes to the line between. */
 static void halve(int from, int length, int begin[2], int size[2])
 {
     size[0] = size[1] = (length - PANELS_LINE) / 2;
@@ -64,7 +64,7 @@ int panels_at(const PanelPlace places[], int count, double x, double y)
     return nearest;
 }
 
-/* One panel has what covers the picture in it; several lie beside that. */
+/* A single panel extends under the covered part of the picture; several panels lie beside. */
 static bool place(int count, int width, int height, double covered_left, PanelPlace places[PANELS_MAX],
                   Error *error)
 {
@@ -162,7 +162,7 @@ bool panels_set_title(Panels *panels, int index, const Title *title, Error *erro
     return renderer_set_title(panels->panels[index].renderer, title, error);
 }
 
-/* All or none. */
+/* Resizes all panels or none. */
 static bool lay_out(Panels *panels, int width, int height, double covered_left, Error *error)
 {
     PanelPlace places[PANELS_MAX];
@@ -172,7 +172,7 @@ static bool lay_out(Panels *panels, int width, int height, double covered_left, 
     for (int i = 0; i < panels->count; i++) {
         if (renderer_resize(panels->panels[i].renderer, places[i].width, places[i].height, error))
             continue;
-        while (i-- > 0) /* what they had a moment ago */
+        while (i-- > 0) /* back to the old sizes */
             renderer_resize(panels->panels[i].renderer, panels->places[i].width, panels->places[i].height,
                             &none);
         return false;
@@ -231,7 +231,7 @@ static void cover(Panels *panels)
         renderer_set_covered(panels->panels[i].renderer, covered);
 }
 
-/* Of all states that have one of that scalar. */
+/* The joint range of all states with a range of this scalar. */
 static ScalarRange joint_range(const ParticleBuffers states[], int count, int scalar)
 {
     ScalarRange joint = {.known = true};
@@ -248,7 +248,7 @@ static ScalarRange joint_range(const ParticleBuffers states[], int count, int sc
     return joint;
 }
 
-/* A scalar has the same range in all panels that follow their states. */
+/* Gives a scalar the same range in all panels with automatic ranges. */
 static void join_ranges(ParticleBuffers states[], int count)
 {
     for (int s = 0; s < SCALAR_COUNT; s++) {
@@ -259,7 +259,7 @@ static void join_ranges(ParticleBuffers states[], int count)
     }
 }
 
-/* What another panel has derived of the same state. */
+/* Takes data that another panel has derived from the same state. */
 static void take_over(const ParticleBuffers *from, ParticleBuffers *to)
 {
     const ParticleAttribute *a = &from->position, *b = &to->position;
@@ -290,7 +290,7 @@ void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer 
         with[i] = *states[i];
         for (int j = 0; j < i; j++)
             take_over(&with[j], &with[i]);
-        if (panels->count > 1) /* one alone derives as it draws */
+        if (panels->count > 1) /* a single panel derives when drawing */
             GL_STAGE(timer, STAGE_SCALARS)
             {
                 renderer_derive(panels->panels[i].renderer, &with[i]);
@@ -316,7 +316,7 @@ void panels_curve_ranges(const Panels *panels, int index, double opacity[2], dou
     renderer_curve_ranges(panels->panels[index].renderer, opacity, size);
 }
 
-/* Of the line between panels, sRGB. */
+/* sRGB colour of the line between panels. */
 static void line_color(const Panels *panels, uint8_t rgb[3])
 {
     const uint32_t ink = legend_ink(&panels->panels[0].def);
@@ -333,7 +333,7 @@ bool panels_read(const Panels *panels, uint8_t *rgb, Error *error)
         renderer_read(panels->panels[0].renderer, rgb);
         return true;
     }
-    uint8_t *one = malloc(3 * width * height); /* each panel is smaller */
+    uint8_t *one = malloc(3 * width * height); /* each panel is smaller than the picture */
     if (!one)
         return error_set(error, "out of memory for a picture of %d x %d", panels->width, panels->height);
     for (size_t i = 0; i < width * height; i++)
@@ -349,7 +349,7 @@ bool panels_read(const Panels *panels, uint8_t *rgb, Error *error)
     return true;
 }
 
-/* Within the default framebuffer. */
+/* Fills a rectangle of the default framebuffer. */
 static void fill(const Panels *panels, int x, int y, int width, int height)
 {
     glScissor(x, panels->height - y - height, width, height);
@@ -374,7 +374,7 @@ void panels_present(const Panels *panels)
     line_color(panels, line);
     if (panels->count > 1) {
         const GLfloat color[4] = {line[0] / 255.0F, line[1] / 255.0F, line[2] / 255.0F, 1};
-        glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */
+        glDisable(GL_FRAMEBUFFER_SRGB); /* the colour is encoded already */
         glDisable(GL_SCISSOR_TEST);
         glBindFramebuffer(GL_FRAMEBUFFER, 0);
         glClearBufferfv(GL_COLOR, 0, color);

@@ -1,83 +1,85 @@
-/* Several pictures in one, each drawn by a renderer of its own into its panel: bit for bit what that renderer
-   draws alone at the panel's size. One panel is the whole picture.
+/* Several pictures in one. A renderer per panel draws the same bits as a single picture of the panel's
+   size. One panel is the whole picture.
 
-   Needs a current OpenGL 4.5 core context, and belongs to its thread. */
+   Needs a current OpenGL 4.5 core context; use from the context's thread only. */
 #ifndef SLOSH_PANELS_H
 #define SLOSH_PANELS_H
 
 #include "render/frame/title.h"
 #include "render/renderer.h"
 
-enum { PANELS_MAX = 4, PANELS_LINE = 2 /* pixels at least between two panels */ };
+enum { PANELS_MAX = 4, PANELS_LINE = 2 /* least pixels between two panels */ };
 
 /* Pixels, from the left and the top of the picture. */
 typedef struct PanelPlace {
     int x, y, width, height;
 } PanelPlace;
 
-/* Two lie side by side; three are one at the left and two at the right; four are two by two. Panels of two
-   and of four are equally large. False where the picture is too small for so many. */
+/* Two panels: side by side. Three: one at the left, two at the right. Four: two by two. Two or four panels
+   have equal sizes. Returns false if the picture is too small. */
 bool panels_place(int count, int width, int height, PanelPlace places[PANELS_MAX]);
 
-/* The panel at that place, or the nearest one. */
+/* Index of the panel at x, y, or of the nearest panel. */
 int panels_at(const PanelPlace places[], int count, double x, double y);
 
 typedef struct Panels Panels;
 
-/* 1 to PANELS_MAX subjects, of which defs and worlds are copied. NULL on failure: as of renderer_create, or a
-   picture too small. */
+/* 1 to PANELS_MAX subjects; defs and worlds are copied. Returns NULL on failure: as renderer_create, or
+   the picture is too small. */
 Panels *panels_create(const Subject subjects[], int count, int width, int height, Error *error);
 void panels_destroy(Panels *panels); /* NULL is allowed */
 
-/* What draws a panel; the panels own it. */
+/* The renderer of a panel; owned by `panels`. */
 Renderer *panels_renderer(const Panels *panels, int index);
 
 int panels_count(const Panels *panels);
 const PanelPlace *panels_places(const Panels *panels);
 
-/* From the next picture on. On failure all stays as it was, as of renderer_set_def and renderer_resize. */
+/* Effective from the next picture on. Return false on failure and change nothing, as renderer_set_def and
+   renderer_resize. */
 bool panels_set_def(Panels *panels, int index, const ViewDef *def, const WorldDef *world, Error *error);
 bool panels_resize(Panels *panels, int width, int height, Error *error);
 bool panels_set_title(Panels *panels, int index, const Title *title, Error *error);
 
-/* That part of the picture's width, 0 .. 1, is covered on the left: several panels lie beside it, a single
-   one leaves it free as renderer_set_covered does. */
+/* `left`: fraction of the picture's width covered on the left, 0 .. 1. Several panels share the rest of
+   the width; a single panel uses renderer_set_covered. */
 bool panels_set_covered(Panels *panels, double left, Error *error);
 
-/* The part of a panel's width that automatic cameras leave free on the right: the widest legend. */
+/* The fraction of a panel's width that automatic cameras leave free on the right: the widest legend. */
 double panels_legend(const Panels *panels);
 
-/* As renderer_set_late, of all; whether in the last picture of any it was. */
+/* As renderer_set_late, for all panels. panels_behind: true if renderer_behind is true for any panel. */
 void panels_set_late(Panels *panels, bool late);
 bool panels_behind(const Panels *panels);
-/* The same as renderer_set_more and renderer_unfinished, of all panels. */
+/* As renderer_set_more and renderer_unfinished, for all panels. */
 void panels_set_more(Panels *panels, bool more);
 bool panels_unfinished(const Panels *panels);
 
-/* Draws a state in each panel. Panels whose range follows the state and that show the same scalar have one
-   range for all of them, from the least end of theirs to the greatest, so that a colour means the same; a
-   state without a number counts for nothing. One that is symmetric about 0 is so about the joint range.
-   Automatic cameras leave the widest legend its place, so that boxes that are alike lie alike. */
+/* Draws a state in each panel. Panels that show the same scalar with automatic ranges share one range,
+   from the least low end to the greatest high end, so that colours mean the same. States without a number
+   are left out; symmetric ranges are symmetric about 0 over the shared range. Automatic cameras leave room
+   for the widest legend, so that equal boxes have equal positions. */
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
 
-/* Shows a state that is not drawn to the overlays of a panel that follow particles from state to state. */
+/* Gives a state that is not drawn to a panel's overlays that follow particles over time. */
 void panels_take(Panels *panels, int index, const ParticleBuffers *state);
-/* From the next time that it is presented a frame stands around a panel among several; -1: around none. */
+/* Frames one of several panels, from the next panels_present on; -1: none. */
 void panels_mark(Panels *panels, int index);
 
-/* Memory of the GPU for what a panel derives: a state that several show is derived once, by the first. */
+/* GPU memory of a panel's derived data. A state shown by several panels is derived once, by the first
+   panel. */
 size_t panels_derived_bytes(const Panels *panels, int index);
 
-/* The range of a panel in the last picture, in the unit of its scalar. */
+/* The range of a panel in the last picture, in the scalar's unit. */
 void panels_range(const Panels *panels, int index, double range[2]);
 
-/* Those of its opacity and its size, as of renderer_curve_ranges. */
+/* The ranges of a panel's opacity and size, as renderer_curve_ranges. */
 void panels_curve_ranges(const Panels *panels, int index, double opacity[2], double size[2]);
 
-/* As renderer_set_presents, where there is one panel. */
+/* As renderer_set_presents, if there is one panel. */
 void panels_set_presents(Panels *panels, bool presents);
 
-/* The whole picture as renderer_read and renderer_present have one, with a thin line between panels. */
+/* The whole picture, as renderer_read and renderer_present, with a thin line between panels. */
 bool panels_read(const Panels *panels, uint8_t *rgb, Error *error);
 void panels_present(const Panels *panels);
 

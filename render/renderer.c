@@ -28,45 +28,45 @@
 
 static const WorldDef unknown;
 
-/* Of the last picture: what lies over it needs no more. */
+/* Inputs of the last picture that drawing over the picture needs. */
 typedef struct Drawn {
     Frame frame;
     double time, box_size[3], spacing;
-    bool whole; /* the renderer's target has all of it */
+    bool whole; /* the renderer's target holds the whole picture */
 } Drawn;
 
 struct Renderer {
-    ViewDef said; /* by who asked for the picture */
-    ViewDef def;  /* the same at its quality */
+    ViewDef said; /* as given by the caller */
+    ViewDef def;  /* at the chosen quality */
     WorldDef world;
     bool plain, more;
-    bool late;          /* what a picture wants to know of its own state may be of the one before: */
-    bool behind;        /* and is in this one, */
-    bool showed_behind; /* as it was in the last picture */
+    bool late;          /* ranges and legend text of a picture may be of the previous picture: */
+    bool behind;        /* true in this picture, */
+    bool showed_behind; /* true in the last picture */
     bool flat;          /* Frame.flat of the last picture */
     Covered covered;
     Title title;
     char note[96];
-    double range[2], opacity_range[2], size_range[2]; /* of the last picture */
+    double range[2], opacity_range[2], size_range[2]; /* ranges of the last picture */
     Target target;
     Coarse coarse;
     Drawn drawn;
-    bool presents;  /* a coarse picture becomes whole where it is presented */
-    OverDepth over; /* nothing before the first picture of a view with parts before overlays */
+    bool presents;  /* a coarse picture is enlarged when presented */
+    OverDepth over; /* empty before the first picture of a view with draw_front */
     unsigned uniforms;
     Derived derived;
-    Ranges ranges; /* nothing before the first picture that asks for one */
+    Ranges ranges; /* empty before the first picture with an automatic range */
     Shadow shadow;
     Backdrop backdrop;
     Edges edges;
-    Glass glass;       /* nothing before the first def that wants it */
-    Caustics caustics; /* the same */
-    Foam foam;         /* the same */
+    Glass glass;       /* empty before the first def with glass */
+    Caustics caustics; /* likewise */
+    Foam foam;         /* likewise */
     Text *text;        /* NULL before the first legend */
-    Solids *solids;    /* NULL without */
+    Solids *solids;    /* NULL without solids */
     View *view;        /* NULL for "none" */
     Overlays overlays;
-    PictureProbe probe; /* of the last picture */
+    PictureProbe probe; /* answers about the last picture */
 };
 
 ViewDef view_def_default(void)
@@ -87,7 +87,7 @@ static bool is_coarse(const Renderer *renderer)
     return renderer->coarse.target.framebuffer != 0;
 }
 
-/* What is drawn into. */
+/* The target of drawing. */
 static const Target *drawn_target(const Renderer *renderer)
 {
     return is_coarse(renderer) ? &renderer->coarse.target : &renderer->target;
@@ -98,7 +98,7 @@ static bool has_letters(const ViewDef *def, const Title *title)
     return def->legend || *title->words || *def->title;
 }
 
-/* Letters for a picture that high, or none where neither legend nor title wants some. */
+/* Makes letters for a picture of `height`, unless neither legend nor title needs letters. */
 static bool follow_letters(Renderer *renderer, bool wanted, int height, Error *error)
 {
     const float pixels = legend_text_pixels(height);
@@ -112,7 +112,7 @@ static bool follow_letters(Renderer *renderer, bool wanted, int height, Error *e
     return true;
 }
 
-/* Made with the first solid. On failure all stays as it was. */
+/* Creates the solids with the first solid of the world. Returns false on failure and changes nothing. */
 static bool follow_solids(Renderer *renderer, const WorldDef *world, Error *error)
 {
     if (world->solid_count == 0 || renderer->solids)
@@ -135,7 +135,7 @@ static void drop_unused_solids(Renderer *renderer)
     shadow_follow_solids(&renderer->shadow, false, &none);
 }
 
-/* The fluid is a number here, not what has a colour. */
+/* Here the fluid counts as a number, not as a colour. */
 static void want_curve(ParticleWants *wants, const ScalarCurve *curve)
 {
     if (curve->by == 0)
@@ -147,8 +147,8 @@ static void want_curve(ParticleWants *wants, const ScalarCurve *curve)
         wants->scalars |= SCALAR_BIT(scalar);
 }
 
-/* What a picture by that def reads of the particles: who draws adds here what it reads. Screen-doors go by
-   ids. */
+/* The particle data that a picture by `def` reads: each part that draws adds its wishes here. Screen-doors
+   need ids. */
 static ParticleWants wants_of(const ViewDef *def)
 {
     ParticleWants wants = {.scalars = SCALAR_BIT(view_color_by(def))};
@@ -163,7 +163,7 @@ static ParticleWants wants_of(const ViewDef *def)
     return wants;
 }
 
-/* And what is computed for foam, which is not the state's: derived_trapped_air. */
+/* Adds the data computed for foam, which does not become part of the state: derived_trapped_air. */
 static ParticleWants made_for(const ViewDef *def)
 {
     ParticleWants wants = wants_of(def);
@@ -175,7 +175,7 @@ static ParticleWants made_for(const ViewDef *def)
 unsigned renderer_attributes(const ViewDef *def)
 {
     const unsigned fluid =
-        PARTICLE_SCALAR(SCALAR_FLUID); /* as a number; as a colour it is among the scalars */
+        PARTICLE_SCALAR(SCALAR_FLUID); /* as a number; as a colour, the fluid is among the scalars */
     ParticleWants all = {UINT64_MAX, UINT32_MAX, fluid};
     overlays_want(NULL, &all);
     const ParticleWants wants = def ? wants_of(def) : all;
@@ -195,7 +195,7 @@ static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
     return false;
 }
 
-/* What clear fluid has besides. A draft may do without, which is no reason not to have panes ready. */
+/* Creates the extras of clear fluid. Panes are created for a draft too, since a draft may end at any time. */
 static bool follow_clear(Renderer *renderer, const ViewDef *def, Error *error)
 {
     const bool caustics =
@@ -222,17 +222,18 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
            overlays_follow(&renderer->overlays, &subject, error);
 }
 
-/* A software driver takes half a kilobyte a particle for each picture and frees it: blocks of 64 KB, which
-   glibc would hand back to the system and fault in anew, page by page, a quarter of a picture's time. glibc
-   knows such a setting for the whole process only: hence here, where pictures begin, and not where there are
-   none. */
+/* A software driver allocates half a kilobyte per particle for each picture, in blocks of 64 KB, and frees
+   the blocks again. glibc would return the memory to the system and fault in each page again: a quarter of
+   a picture's time. glibc has this setting for the whole process only: hence set here, where pictures
+   start. */
 static void keep_freed_memory(void)
 {
 #ifdef __GLIBC__
     if (!gl_renderer_is_software())
         return;
     mallopt(M_TRIM_THRESHOLD, 256 << 20);
-    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* as glibc lets it grow by itself, until one of the two is set */
+    mallopt(M_MMAP_THRESHOLD, 32 << 20); /* glibc raises this threshold by itself until either of the two
+                                            is set */
 #endif
 }
 
@@ -277,7 +278,7 @@ void renderer_destroy(Renderer *renderer)
     free(renderer);
 }
 
-/* `view`: for that subject, the renderer's own or a new one. */
+/* `view`: a view for the subject, the renderer's own or a new view. */
 static bool make_view(const Renderer *renderer, const Subject *subject, View **view, Error *error)
 {
     const Subject old = subject_of(renderer);
@@ -289,7 +290,7 @@ static bool make_view(const Renderer *renderer, const Subject *subject, View **v
     return *view || none;
 }
 
-/* View and overlays, or neither: what an overlay has gathered would be lost with it. */
+/* Changes view and overlays, or neither: a destroyed overlay would lose its gathered data. */
 static bool follow_view(Renderer *renderer, const Subject *subject, Error *error)
 {
     View *view;
@@ -357,7 +358,7 @@ static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, co
     shadow_end(&renderer->shadow, frame);
 }
 
-/* Whether the view has parts before overlays and edges. */
+/* True if the view draws parts in front of overlays and edges. */
 static bool draws_front(const Renderer *renderer)
 {
     return renderer->view && view_kind(renderer->view)->draw_front;
@@ -368,13 +369,13 @@ static bool has_edges(const Renderer *renderer, const Frame *frame)
     return renderer->def.box && !frame->flat;
 }
 
-/* Of a scene of two dimensions, in which overlays lie over all. */
+/* True in a two-dimensional scene: overlays lie over everything. */
 static bool is_over_all(const Frame *frame)
 {
     return frame->slab > 0;
 }
 
-/* Fills in the frame's over_depth and what is said of it. */
+/* Sets the frame's over_depth, over_lacks and over_coarse. */
 static void draw_over_depth(Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
 {
     const bool overlays = !is_over_all(frame) && overlays_any(&renderer->overlays);
@@ -398,7 +399,7 @@ static void draw_over_depth(Renderer *renderer, const ParticleBuffers *particles
     frame->over_coarse = overlays && overlays_unfinished(&renderer->overlays);
 }
 
-/* Behind the view: what lies over it, and what of the view lies over that. */
+/* Called after the view: draws overlays and edges over the view, then the view's front parts over these. */
 static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     if (!frame->flat && !is_over_all(frame))
@@ -415,7 +416,7 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
         overlays_draw(&renderer->overlays, particles, frame);
 }
 
-/* Into the framebuffer that is bound. */
+/* Draws into the bound framebuffer. */
 static void draw_words(Renderer *renderer, const Frame *frame, double time)
 {
     if (!has_letters(&renderer->def, &renderer->title))
@@ -430,7 +431,7 @@ static void draw_words(Renderer *renderer, const Frame *frame, double time)
     text_end(renderer->text);
 }
 
-/* The last coarse picture, as large as it is shown, and what has all pixels whatever the rest has. */
+/* Enlarges the last coarse picture and adds the parts with full resolution. */
 static void make_whole(Renderer *renderer, GLuint framebuffer)
 {
     const Drawn *drawn = &renderer->drawn;
@@ -448,7 +449,7 @@ static void make_whole(Renderer *renderer, GLuint framebuffer)
     glEnable(GL_FRAMEBUFFER_SRGB);
 }
 
-/* What lies over all. */
+/* Draws the parts over the whole picture. */
 static void draw_over(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     Drawn *drawn = &renderer->drawn;
@@ -460,13 +461,14 @@ static void draw_over(Renderer *renderer, const ParticleBuffers *particles, cons
             make_whole(renderer, renderer->target.framebuffer);
         return;
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may not have done so */
+    glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may have bound no
+                                                                        framebuffer */
     if (has_edges(renderer, frame) && !draws_front(renderer))
         edges_draw(&renderer->edges, frame);
     draw_words(renderer, frame, particles->time);
 }
 
-/* Whether a picture by that def needs more than the state has. */
+/* True if a picture by `def` needs derived data. */
 static bool derives(const ViewDef *def)
 {
     const ParticleWants wants = wants_of(def);
@@ -503,7 +505,7 @@ void renderer_derive(Renderer *renderer, ParticleBuffers *particles)
             particles->range[s] = range_of(renderer, (Scalar)s, particles);
 }
 
-/* The state as passes read it. */
+/* The state with derived data, for the passes. */
 static ParticleBuffers derived_of(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
     ParticleBuffers with = *state;
@@ -515,7 +517,7 @@ static ParticleBuffers derived_of(Renderer *renderer, const ParticleBuffers *sta
     return with;
 }
 
-/* What the colours cannot show; NULL: nothing. */
+/* Note about values that the colours cannot show; NULL: no note. */
 static const char *note_of(Renderer *renderer, const ParticleBuffers *particles)
 {
     const ScalarRange *range = &particles->range[view_color_by(&renderer->def)];
@@ -531,7 +533,8 @@ static const char *note_of(Renderer *renderer, const ParticleBuffers *particles)
     return renderer->note;
 }
 
-/* Frame.glass. What shows no fluid as it is, a stage of the way to it, has lines with `auto`. */
+/* Frame.glass. With `auto`, a picture without a clear fluid surface (an intermediate stage of the view)
+   has lines. */
 static int glass_of(const Renderer *renderer, const Frame *frame)
 {
     const ViewDef *def = &renderer->def;
@@ -555,7 +558,7 @@ static void draw_panes(const Renderer *renderer, const Frame *frame, bool behind
         }
 }
 
-/* What shows no fluid as it is, a stage of the way to it, has none. */
+/* A picture without a clear fluid surface (an intermediate stage of the view) has no foam. */
 static bool has_foam(const Renderer *renderer, const Frame *frame)
 {
     return view_has_foam(&renderer->def) && frame->clear > 0 && !(frame->slab > 0);
@@ -586,7 +589,7 @@ static void draw_view(Renderer *renderer, const ParticleBuffers *particles, Fram
     view_draw(renderer->view, particles, frame);
     if (foam)
         draw_foam(renderer, particles, frame);
-    if (renderer->def.legend) /* which waits for what it tells */
+    if (renderer->def.legend) /* may wait for the GPU */
         frame->note = view_note(renderer->view, frame->behind);
 }
 
@@ -652,7 +655,9 @@ void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *ti
 {
     const Subject subject = subject_of(renderer);
     const ParticleWants wants = {.scalars =
-                                     SCALAR_BIT(view_color_by(&renderer->def))}; /* all that is kept of one */
+                                     SCALAR_BIT(view_color_by(&renderer->def))}; /* the only derived scalar
+                                                                                    that overlays keep of a
+                                                                                    state */
     ParticleBuffers with = *state;
     if (!overlays_take_any(&renderer->overlays))
         return;
@@ -675,7 +680,7 @@ void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCo
     draw(renderer, particles, NULL, counts);
 }
 
-/* A def or a size that is new has no picture yet. */
+/* A new def or a new size has no picture yet. */
 static bool lacks_pixels(const Renderer *renderer)
 {
     return is_coarse(renderer) && !renderer->drawn.whole;
@@ -760,7 +765,8 @@ void renderer_set_more(Renderer *renderer, bool more)
     const bool changes = more != renderer->more && view_quality(&said, true) != view_quality(&said, false);
     Error error;
     renderer->more = more;
-    if (changes && !renderer_set_def(renderer, &said, &world, &error)) /* then it draws as before */
+    if (changes && !renderer_set_def(renderer, &said, &world, &error)) /* after a failure the old settings
+                                                                          stay */
         fprintf(stderr, "%s\n", error.message);
 }
 
@@ -781,7 +787,7 @@ const char *renderer_lacks(const Renderer *renderer)
     return words || !renderer->derived.lacks ? words : renderer->note;
 }
 
-/* Pixels drawn for a pixel shown. */
+/* Pixels drawn per pixel shown, along each axis. */
 static void scale_of(const Renderer *renderer, double scale[2])
 {
     const Target *drawn = drawn_target(renderer);

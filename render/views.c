@@ -1,4 +1,4 @@
-/* The views there are: the only file outside their folders that names them. */
+/* The list of views: only this file, outside the views' folders, names views. */
 #include "render/frame/view.h"
 #include "render/pbsr/pbsr_def.h"
 #include "render/slice/slice_def.h"

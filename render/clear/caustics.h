@@ -1,13 +1,14 @@
-/* Light patterns on the floor below clear fluid: its surface gathers light here and leaves less there.
+/* Light patterns on the floor below clear fluid: the surface focuses light on some places and takes light
+   from the rest.
 
-   Modelled: the one bend where light enters, by Snell's law, at the surface that the light meets first,
-   smoothed over two spacings; the way down to the floor as if the fluid reached it. Light that is bent is
-   lost nowhere: the mean of the pattern is 1, and a flat surface has 1 everywhere.
+   Modelled: one refraction by Snell's law where light enters, at the first surface that the light meets,
+   smoothed over two spacings; the way down as if the fluid reached the floor. Refracted light is not lost:
+   the mean of the pattern is 1, and below a flat surface the pattern is 1.
 
-   Not modelled: the bends where light leaves the box, the shift that a flat surface gives to all light alike,
-   a second surface below the first, light through the box's sides, what the fluid mirrors or absorbs on the
-   way (Frame.clear stands for that), patterns on solids. Spray, what is as rough, what hangs far above where
-   the fluid would lie at rest, and the last spacings before a wall bend nothing. */
+   Not modelled: refraction where light leaves the box; the shift of all light by a flat surface; a second
+   surface below the first; light through the box's sides; reflection and absorption (Frame.clear stands
+   for both); patterns on solids. Spray, similarly rough surfaces, fluid far above its level at rest, and
+   the last spacings before a wall do not refract. */
 #ifndef SLOSH_CAUSTICS_H
 #define SLOSH_CAUSTICS_H
 
@@ -17,24 +18,23 @@
 enum { CAUSTIC_HEIGHT, CAUSTIC_SMOOTH, CAUSTIC_FACTOR, CAUSTIC_LIGHT, CAUSTIC_MAPS };
 
 typedef struct Caustics {
-    unsigned programs[4], vertex_array; /* 0: not made yet */
-    unsigned maps[CAUSTIC_MAPS]; /* textures over what Frame.floor_map_corner says, CAUSTIC_TEXELS squared:
-                                    height, share of fluid around, mean square off it, twice; light gathered,
-                                    1 in the mean; light on the floor (R32F) */
+    unsigned programs[4], vertex_array; /* 0: not created yet */
+    unsigned maps[CAUSTIC_MAPS];        /* textures of CAUSTIC_TEXELS squared over the floor area of
+                                           Frame.floor_map_corner: height, fluid fraction around, mean square
+                                           deviation, twice; focused light, mean 1; light on the floor (R32F) */
     unsigned framebuffers[CAUSTIC_MAPS];
 } Caustics;
 
-/* False when a shader does not compile; caustics_destroy is needed in either case. Nothing is done where they
-   are made already. */
+/* Returns false if a shader does not compile; call caustics_destroy in either case. Does nothing if
+   already created. */
 bool caustics_create(Caustics *caustics, Error *error);
-void caustics_destroy(Caustics *caustics); /* zeroed is allowed */
+void caustics_destroy(Caustics *caustics); /* a zeroed struct is allowed */
 
-/* Whether a picture has them: of clear fluid over a floor, in three dimensions, and no draft. */
+/* True if the picture has light patterns: clear fluid over a floor, three dimensions, no draft. */
 bool caustics_wanted(const Frame *frame);
 
-/* Behind shadow_end, whose map of the fluid is bound to unit 0. `shadow_left`: R32F, what shadows leave of
-   the light on the floor. Returns the texture that has it with the patterns: for
-   Frame.floor_light. */
+/* Call after shadow_end, which binds the fluid's shadow map to unit 0. `shadow_left`: R32F, floor light
+   after shadows. Returns the texture of this light with the patterns: for Frame.floor_light. */
 unsigned caustics_draw(const Caustics *caustics, const ParticleBuffers *particles, const Frame *frame,
                        unsigned shadow_left);
 

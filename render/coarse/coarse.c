@@ -68,7 +68,7 @@ void coarse_enlarge(const Coarse *coarse, unsigned framebuffer, int width, int h
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width, height);
-    glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */
+    glDisable(GL_FRAMEBUFFER_SRGB); /* colours are encoded already */
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);

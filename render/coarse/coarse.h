@@ -1,28 +1,29 @@
-/* A picture with fewer pixels than it is shown with: what it is drawn into, and how it becomes as large as it
-   is shown. What has all pixels, edges and words, is drawn over that. Needs a current OpenGL 4.5 core
-   context. */
+/* A coarse picture: drawn with fewer pixels than shown, then enlarged. Edges and text are drawn at full
+   resolution over the enlarged picture. Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_COARSE_H
 #define SLOSH_COARSE_H
 
 #include "render/frame/target.h"
 
-/* Zero-initialise it: then the picture has all pixels. */
+/* Zero-initialise: then pictures have full resolution. */
 typedef struct Coarse {
-    Target target;                     /* framebuffer 0: there is none */
-    unsigned encoded;                  /* texture: the target's colour as the bytes that it is */
-    unsigned program, edges, vertices; /* `edges`: those of render/frame/edges.h behind the target's depth */
+    Target target;                     /* framebuffer 0: no coarse picture */
+    unsigned encoded;                  /* texture view of the target's colour, as sRGB-encoded bytes */
+    unsigned program, edges, vertices; /* `edges`: program for render/frame/edges.h, tested against the
+                                          target's depth */
 } Coarse;
 
-/* Follows a picture of that size of which the part `resolution`, 0 .. 1, is drawn each way; 1: all zeroed. On
-   failure all stays as it was. */
+/* Adapts to a picture of `width` x `height` pixels, drawn at the fraction `resolution` (0 .. 1) along each
+   axis; 1: all zero. Returns false on failure and changes nothing. */
 bool coarse_follow(Coarse *coarse, double resolution, int width, int height, Error *error);
 void coarse_destroy(Coarse *coarse);
 
-/* Fills a framebuffer of that size with the colour, smoothly; leaves it bound, encoding of sRGB off. The
-   weights are of the encoded colour: of linear light they cost a software driver twice the time. */
+/* Fills a framebuffer of `width` x `height` pixels with the colour, interpolated linearly. Leaves the
+   framebuffer bound and sRGB encoding off. Interpolates encoded colours: linear light would cost a
+   software driver twice the time. */
 void coarse_enlarge(const Coarse *coarse, unsigned framebuffer, int width, int height);
 
-/* The depth as it is, into that of a target of any size. */
+/* Copies the depth, not interpolated, into a target of any size. */
 void coarse_enlarge_depth(const Coarse *coarse, const Target *to);
 
 #endif

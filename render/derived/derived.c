@@ -13,36 +13,37 @@
 
 _Static_assert(SCALAR_COUNT <= 64 && VECTOR_COUNT <= 32, "a bit for each in ParticleWants");
 
-/* A formula of shaders/derived/derived.comp, over: `place` and `velocity` of the particle; `carried`, its
-   scalar `carries`; `three`, its scalars from `threes` on; with `near_too` and the velocity or the scalar
-   read, `gradient` and `slope` of them; `near`, how many others are within the support radius; `trapped`, how
-   fast they come towards it; frame_velocity and frame_turn, of the box, in its axes. */
+/* A formula for shaders/derived/derived.comp. Variables: `place` and `velocity` of the particle;
+   `carried`: the scalar `carries`; `three`: three scalars from `threes` on; frame_velocity and frame_turn:
+   velocity and turning of the box, in its axes. With `near_too`: `gradient` (of the velocity) and `slope`
+   (of the scalar read); `near`: number of neighbours in the support radius; `trapped`: speed of the
+   neighbours' approach. */
 typedef struct Recipe {
-    const char *value;   /* NULL: the state has it */
+    const char *value;   /* NULL: already in the state */
     unsigned attributes; /* PARTICLE_VELOCITY, or 0 */
     int carries;         /* a Scalar of the state, or NOTHING */
-    bool near_too;       /* needs neighbours; then without `threes` */
+    bool near_too;       /* needs neighbours; excludes `threes` */
     int threes;          /* the first of three Scalars of the state, or 0 */
-    bool births;         /* id and births */
-    bool meets;          /* `trapped` is there, with `near_too` and the velocity */
+    bool births;         /* needs id and births */
+    bool meets;          /* `trapped` is defined; needs `near_too` and the velocity */
 } Recipe;
 
 enum { NOTHING = -1 };
 
-/* The share of the kernel that is fluid, walls mirrored: a particle in a flat surface, half a spacing below
-   it, has 0.74, the next layer 1, and one in the box's corner, whose images beyond two walls are left out,
-   0.83. */
+/* The fraction of the kernel that is fluid, with walls mirrored. A particle in a flat surface, half a
+   spacing below, has 0.74; the next layer has 1. A particle in the box's corner has 0.83: images beyond
+   two walls are left out. */
 static const double AIR_FROM = 0.83, AIR_ALL = 0.75;
 
 static const Recipe scalar_recipes[SCALAR_COUNT] = {
-    /* where the state says it by ids, and not a number a particle */
+    /* used if the state has births by id, not per particle */
     [SCALAR_BORN] = {"born_of(i)", 0, NOTHING, false, .births = true},
     [SCALAR_AGE] = {"age_since(carried)", 0, SCALAR_BORN, false},
     [SCALAR_VELOCITY_X] = {"velocity.x", PARTICLE_VELOCITY, NOTHING, false},
     [SCALAR_VELOCITY_Y] = {"velocity.y", PARTICLE_VELOCITY, NOTHING, false},
     [SCALAR_VELOCITY_Z] = {"velocity.z", PARTICLE_VELOCITY, NOTHING, false},
     [SCALAR_ACCELERATION] = {"length(three)", 0, NOTHING, false, SCALAR_ACCELERATION_X},
-    /* of a volume, that particles of different size may be compared, and slices show a field */
+    /* per volume: comparable between particle sizes, and a field for slices */
     [SCALAR_KINETIC_ENERGY] = {"0.5 * carried * dot(velocity, velocity)", PARTICLE_VELOCITY, SCALAR_DENSITY,
                                false},
     [SCALAR_VORTICITY] = {"two_dimensions != 0u ? curl(gradient).z : length(curl(gradient))",
@@ -67,7 +68,7 @@ static const Recipe vector_recipes[VECTOR_COUNT] = {
     [VECTOR_ACCELERATION] = {"vec4(three, 0.0)", 0, NOTHING, false, SCALAR_ACCELERATION_X},
 };
 
-/* ---- what is read ---- */
+/* ---- inputs ---- */
 
 static unsigned reads(const Recipe *recipe)
 {
@@ -90,7 +91,7 @@ unsigned wants_attributes(const ParticleWants *wants)
     return attributes & PARTICLE_SCALAR(SCALAR_BORN) ? attributes | PARTICLE_ID : attributes;
 }
 
-/* SCALAR_BIT: the births too, where something reads them. */
+/* SCALAR_BIT; includes the births if any recipe reads the births. */
 static uint64_t wanted_scalars(const ParticleWants *wants)
 {
     return wants->scalars | (wants_attributes(wants) & PARTICLE_SCALAR(SCALAR_BORN));
@@ -130,8 +131,7 @@ static const char *reads_defines(const Recipe *recipe)
                             : "";
 }
 
-/* Where a sum over neighbours finds what it reads of them: velocities or a scalar, not both. NULL: places
- * only. */
+/* The packed neighbour data for a recipe: velocities or a scalar, never both. NULL: positions only. */
 static DerivedPack *pack_of(Derived *derived, const Recipe *recipe)
 {
     const bool moves = recipe->attributes & PARTICLE_VELOCITY;
@@ -316,7 +316,7 @@ static void run(const Derived *derived, unsigned program, const Recipe *recipe, 
     work_run(count);
 }
 
-/* False where the GPU has no memory for it: then there is none, and `lacks` says of what. */
+/* Returns false if the GPU has no memory: then there is no buffer, and `lacks` is set to the label. */
 static bool reserve(Derived *derived, unsigned *buffer, size_t *capacity, size_t count, size_t stride,
                     const char *label)
 {
@@ -330,13 +330,13 @@ static bool reserve(Derived *derived, unsigned *buffer, size_t *capacity, size_t
     return false;
 }
 
-/* What a fill has done so far, and for whom. */
+/* State of a fill. */
 typedef struct Making {
     Derived *derived;
     const DerivedSpace *space;
     const ParticleBuffers *particles;
     bool sorted;
-    unsigned packed[2]; /* of each pack: what stands there, PARTICLE_*; 0: nothing yet */
+    unsigned packed[2]; /* content of each pack, PARTICLE_*; 0: empty */
 } Making;
 
 static bool reserve_pack(Derived *derived, DerivedPack *pack, size_t count)
@@ -351,7 +351,7 @@ static bool reserve_pack(Derived *derived, DerivedPack *pack, size_t count)
     return true;
 }
 
-/* Sorts the particles and what is read of neighbours, once for all that read the same. */
+/* Sorts the particles and packs the neighbour data, once for all recipes with the same inputs. */
 static bool prepare_near(Making *making, const Recipe *recipe)
 {
     Derived *derived = making->derived;
@@ -374,7 +374,8 @@ static bool prepare_near(Making *making, const Recipe *recipe)
     return true;
 }
 
-/* The table goes to the GPU for each picture that reads it: emissions are few beside particles. */
+/* The birth table goes to the GPU for each picture that reads births: emissions are few compared with
+   particles. */
 static void bind_births(Derived *derived, unsigned program, const ParticleBuffers *particles)
 {
     const Births *births = particles->births;
@@ -408,7 +409,7 @@ static bool due(bool wanted, unsigned program, const Recipe *recipe, const Parti
     return wanted && program && particles->count > 0 && has(recipe, particles);
 }
 
-/* Of the slower ones nothing is summed up; above 0 nothing counts of those that no air is near. */
+/* Slower particles need no sums. With `slowest` above 0, particles away from air count nothing. */
 static void set_meets(unsigned program, const Making *making, double slowest)
 {
     float low[3], high[3];
@@ -425,7 +426,7 @@ static void set_meets(unsigned program, const Making *making, double slowest)
     glProgramUniform3f(program, WALLED_HIGH_AT, high[0], high[1], high[2]);
 }
 
-/* Nowhere where there is no memory for it. */
+/* Returns buffer 0 if there is no memory. */
 static ParticleAttribute make_scalar(Making *making, Scalar scalar, double slowest, unsigned *buffer,
                                      size_t *capacity)
 {

@@ -1,20 +1,19 @@
-/* Scalars and vectors of particles that no backend writes: computed on the GPU from what every state has, be
-   it of a backend or of a file, when a picture asks for them. What is not asked for costs nothing.
+/* Scalars and vectors of particles that no backend writes: computed on the GPU from data of every state,
+   from a backend or a file, when a picture asks. Data that no picture asks for costs nothing.
 
-   How a pass gets one: whoever draws says in ParticleWants which it reads (the renderer collects them); when
-   it draws, `particles->scalar[SCALAR_VORTICITY]` is a buffer of floats,
-   `particles->vector[VECTOR_VORTICITY]` one of vec4 whose x y z are the vector in the box's axes (w is
-   anyone's), in the order of the other attributes. Buffer 0: it was not asked for, or the state lacks what it
-   is made of. By name: scalar_list and vector_list (sim/base/scalar.h), as CHOICE_OF with KEY_INDEX reads
-   them.
+   A pass adds its wishes to ParticleWants (collected by the renderer). When drawing,
+   `particles->scalar[SCALAR_VORTICITY]` is a buffer of floats, and `particles->vector[VECTOR_VORTICITY]` a
+   buffer of vec4: x y z in the box's axes, w undefined; both in the order of the other attributes. Buffer
+   0: not asked for, or the state lacks the inputs. By name: scalar_list and vector_list
+   (sim/base/scalar.h), as CHOICE_OF with KEY_INDEX reads names.
 
    Gradients: grad s = M^-1 sum_j w_j (s_j - s_i) d_j, M = sum_j w_j d_j d_j, d_j = x_j - x_i, w_j = V_j
-   |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys. 68)
-   with the matrix of Randles and Libersky 1996 and of Bonet and Lok 1999, so that linear fields are
-   exact, at walls and free surfaces too. The kernel is the same for all methods, that their pictures may be
-   compared. Where M is near singular (spray, sheets) it is widened, and what neighbours do not tell goes to
-   0. A neighbour that is no number is left out. Neighbours across periodic sides count. Velocities are those
-   in the box's frame.
+   |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys.
+   68) with the matrix of Randles and Libersky 1996 and of Bonet and Lok 1999. Linear fields are exact, at
+   walls and free surfaces too. All methods use the same kernel, so that pictures can be compared. A nearly
+   singular M (spray, sheets) is regularised, and components without information from neighbours go to 0.
+   NaN neighbours are left out. Neighbours across periodic sides count. Velocities are relative to the
+   box's frame.
 
    Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_DERIVED_H
@@ -27,54 +26,56 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* PARTICLE_*: what a state must have for it. */
+/* PARTICLE_*: the attributes that a state needs for `wants`. */
 unsigned wants_attributes(const ParticleWants *wants);
 
-/* Where the particles are. */
+/* The space of the particles. */
 typedef struct DerivedSpace {
     bool flat; /* two dimensions: volumes are areas, and the vorticity has a sign */
     bool periodic[3];
 } DerivedSpace;
 
-/* What sums over neighbours read, as texels in the order of the neighbourhood's. */
+/* Neighbour data for sums, as texels in the order of the neighbourhood grid. */
 typedef struct DerivedPack {
     unsigned program, buffer, texels;
     size_t capacity; /* particles */
 } DerivedPack;
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct Derived {
-    unsigned scalar_program[SCALAR_COUNT], vector_program[VECTOR_COUNT]; /* 0 until wanted */
+    unsigned scalar_program[SCALAR_COUNT], vector_program[VECTOR_COUNT]; /* 0 until first wanted */
     unsigned scalar_buffer[SCALAR_COUNT], vector_buffer[VECTOR_COUNT];
     size_t scalar_capacity[SCALAR_COUNT], vector_capacity[VECTOR_COUNT]; /* particles */
-    bool sorts;                                                          /* `neighbourhood` is there */
+    bool sorts;                                                          /* `neighbourhood` has been
+                                                                            created */
     Neighbourhood neighbourhood;
     DerivedPack pack[2];  /* of velocities; of a scalar */
     unsigned births;      /* buffer: the table of ParticleBuffers.births */
-    unsigned foam_buffer; /* of derived_trapped_air */
+    unsigned foam_buffer; /* result of derived_trapped_air */
     size_t foam_capacity;
-    const char *lacks; /* what the GPU had no memory for since derived_give_back; NULL: nothing */
+    const char *lacks; /* name of data that did not fit into GPU memory since derived_give_back; NULL: none */
 } Derived;
 
-/* Makes the programs for what is wanted and not there yet. False when a shader does not compile. */
+/* Creates the missing programs for `wants`. Returns false if a shader does not compile. */
 bool derived_follow(Derived *derived, const ParticleWants *wants, Error *error);
 void derived_destroy(Derived *derived);
 
-/* Gives the memory back of all that is not wanted; its programs stay. */
+/* Frees the buffers of all data not in `wants`; programs stay. */
 void derived_give_back(Derived *derived, const ParticleWants *wants);
 
-/* Of values and of what sums over neighbours read, but for the neighbourhood. */
+/* GPU bytes of values and packed neighbour data, without the neighbourhood grid. */
 size_t derived_bytes(const Derived *derived);
 
-/* Computes all that is wanted, derived and not there yet from the rest of `particles`, and writes there where
-   it stands: up to the next call. What there is no memory for is not there, and `derived->lacks` names it. */
+/* Computes the wanted derived data that `particles` lacks, and stores the buffers in `particles`; valid
+   until the next call. Data that does not fit into memory is left out, and `derived->lacks` gives its
+   name. */
 void derived_fill(Derived *derived, const ParticleWants *wants, const DerivedSpace *space,
                   ParticleBuffers *particles);
 
-/* SCALAR_TRAPPED_AIR of particles that air is near and that are at least so fast, m/s, and 0 of the others,
-   which costs next to nothing where all are slower. It is no scalar of the state, which colours are of, and
-   not put there. Up to the next call of this. Its program is made by derived_follow; where it can't be made,
-   it is what the state has. */
+/* SCALAR_TRAPPED_AIR, for particles near air with at least the speed `slowest`, m/s; 0 for all others.
+   Costs almost nothing if all are slower. The result is not stored in the state, whose scalars colour the
+   particles. Valid until the next call of this function. derived_follow creates the program; without a
+   program, returns the state's own attribute. */
 ParticleAttribute derived_trapped_air(Derived *derived, const DerivedSpace *space,
                                       const ParticleBuffers *particles, double slowest);
 

@@ -73,13 +73,13 @@ static void send(const Ranges *ranges, Mailbox *to, const ParticleAttribute *val
     mailbox_send(to);
 }
 
-/* From bits whose order is that of the numbers: in_order of ranks_count.comp. */
+/* From bits in the order of the numbers: see in_order of ranks_count.comp. */
 static double number_of(uint32_t key)
 {
     return (double)float_of_bits(key & 0x80000000U ? key & 0x7fffffffU : ~key);
 }
 
-/* Where 98 of 100 are the same, the ends are those of all. */
+/* If 98 of 100 values are equal, the ends are the least and the greatest value. */
 static ScalarRange range_of(const Found *found)
 {
     double at[RANKS];
@@ -111,7 +111,7 @@ static bool same(const RangeOf *a, const RangeOf *b)
            a->values.buffer == b->values.buffer && a->values.offset == b->values.offset;
 }
 
-/* What came of it, if it did. Where waiting failed nothing will come: the last range stays. */
+/* Takes an answer that has arrived. After a failed wait no answer will come: the last range stays. */
 static void take(RangeLate *late, const Found *found)
 {
     if (late->found.fence)

@@ -1,5 +1,5 @@
-/* The range of a scalar over all particles, computed on the GPU: for every backend and file by one
-   definition. Five numbers come back: waited for, or a picture late.
+/* The range of a scalar over all particles, computed on the GPU: one definition for every backend and
+   file. The host reads five numbers, waiting or one picture late.
 
    Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_RANGES_H
@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-/* Whose range: of a state the scalar's values. */
+/* Identifies values: a state and its scalar. */
 typedef struct RangeOf {
     uint64_t step;
     double time;
@@ -19,33 +19,32 @@ typedef struct RangeOf {
     ParticleAttribute values;
 } RangeOf;
 
-/* Of a scalar that is not waited for. */
+/* A scalar's range that is not waited for. */
 typedef struct RangeLate {
     Mailbox found;
-    RangeOf asked, of; /* what is on its way; what `range` is of */
-    ScalarRange range; /* the last that came */
+    RangeOf asked, of; /* request in flight; source of `range` */
+    ScalarRange range; /* the last answer */
 } RangeLate;
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct Ranges {
     unsigned count, find; /* programs */
     unsigned bins;        /* buffer, all 0 between two runs */
     Mailbox found;
-    RangeLate late[SCALAR_COUNT]; /* made when first asked for */
+    RangeLate late[SCALAR_COUNT]; /* created on first use */
 } Ranges;
 
-/* False when a shader does not compile or memory is short; ranges_destroy is needed in either case. */
+/* Returns false if a shader does not compile or memory is short; call ranges_destroy in either case. */
 bool ranges_create(Ranges *ranges, Error *error);
 void ranges_destroy(Ranges *ranges);
 
-/* Of the `count` floats there; what is not finite does not count. All 0, and not `any`, where nothing
-   does. Of n values in
-   order, from 0, the percentiles are number floor((n - 1) / 100) and its mirror: the ends themselves up to
-   100 values. */
+/* The range of `count` floats; values that are not finite are left out. All 0, and `any` false, if no
+   value is finite. For n values in order, counted from 0, the percentiles are value floor((n - 1) / 100)
+   and its mirror: up to 100 values, the ends. */
 ScalarRange ranges_find(Ranges *ranges, const ParticleAttribute *values, size_t count);
 
-/* The same of a state's scalar without waiting, but for the first time: then it may be of the state before,
-   and `behind` becomes true. */
+/* As ranges_find, for a state's scalar, without waiting except for the first time. The range may be of an
+   earlier state; then *behind becomes true. */
 ScalarRange ranges_follow(Ranges *ranges, Scalar scalar, const ParticleBuffers *particles, bool *behind);
 
 #endif

@@ -57,7 +57,7 @@ static void make_key(const Frame *frame, double key[BACKDROP_KEY_SIZE])
     *key = frame->target->number;
 }
 
-/* True when the backdrop is that of the last picture. */
+/* True if the backdrop equals the backdrop of the last picture. */
 static bool stands_still(Backdrop *backdrop, const Frame *frame)
 {
     double key[BACKDROP_KEY_SIZE];
@@ -93,7 +93,7 @@ static void keep(Backdrop *backdrop, const Frame *frame)
     backdrop->kept = true;
 }
 
-/* Kept from the second picture of a camera on: one that moves pays nothing for it. */
+/* The backdrop is kept from the second picture of a still camera on; a moving camera pays nothing. */
 static void lay(Backdrop *backdrop, const Frame *frame)
 {
     if (!stands_still(backdrop, frame)) {

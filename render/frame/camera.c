@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* cglm's matrices are aligned; ours, which cross headers, are not. */
+/* cglm's matrices are aligned; ours are not, since headers pass them. */
 static void load(const float from[16], mat4 to)
 {
     memcpy(to, from, sizeof(mat4));
@@ -64,7 +64,7 @@ static void look(Camera *camera, vec3 eye, vec3 at)
     memcpy(camera->eye, eye, sizeof camera->eye);
 }
 
-/* The part of the picture that the box may fill, -1 .. 1 from left to right, and +-high. */
+/* The part of the picture for the box: left and right in -1 .. 1, and up to +-high. */
 typedef struct Room {
     float left, right, high;
 } Room;
@@ -73,14 +73,14 @@ static Room make_room(double covered_right)
 {
     Room room = {-0.80F, 0.80F, 0.80F};
     const float right = (float)(1 - 2 * covered_right - 0.04);
-    if (right < room.right) /* too narrow beside the legend: out of its way, and nearer to the left side */
+    if (right < room.right) /* little room beside the legend: use more of the left side */
         room.left = -0.92F, room.right = fmaxf(right, -0.5F);
     return room;
 }
 
-/* How far from the box's centre the eye must be, in direction `back`, so that all corners are inside the room
-   when the centre is seen in its middle: |x + shift| <= limit (distance - z), with the shift that goes with
-   the distance. */
+/* The distance of the eye from the box's centre, in direction `back`, that keeps all corners inside the
+   room when the centre is in the room's middle: |x + shift| <= limit (distance - z). The shift is
+   proportional to the distance. */
 static float distance_to_fit(const Camera *camera, const double size[3], Room room, vec3 back, vec3 right,
                              vec3 up)
 {
@@ -106,7 +106,7 @@ void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3
     }
 }
 
-static const double FLAT = 0.1; /* of width and height */
+static const double FLAT = 0.1; /* fraction of width and height */
 
 /* The picture's axes from a direction towards the eye. */
 static void make_axes(vec3 back, vec3 right, vec3 up)
@@ -116,7 +116,7 @@ static void make_axes(vec3 back, vec3 right, vec3 up)
     glm_vec3_crossn(back, right, up);
 }
 
-/* From where the whole box is seen from all sides: a camera that turns keeps its distance. */
+/* The distance that shows the whole box from all sides: a turning camera keeps the distance. */
 static float distance_all_around(const Camera *camera, const double size[3], Room room, vec3 back)
 {
     enum { SIDES = 48 };
@@ -136,7 +136,7 @@ static void look_at_box(Camera *camera, const ViewDef *def, const double size[3]
 {
     vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up;
     Room room = make_room(covered_right);
-    if (size[2] < FLAT * fmin(size[0], size[1])) /* a picture, not a thing: seen as one */
+    if (size[2] < FLAT * fmin(size[0], size[1])) /* a flat box is seen from the front, like a picture */
         back[0] = back[1] = 0;
     if (def->camera_turn != 0)
         glm_vec3_rotate(back, (float)def->camera_yaw, (vec3){0, 1, 0});
@@ -151,17 +151,17 @@ static void look_at_box(Camera *camera, const ViewDef *def, const double size[3]
     look(camera, eye, at);
 }
 
-/* For what is free of the picture, without what is covered on its left. */
+/* The camera of the uncovered part, without the area covered on the left. */
 static void make_free(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
                       double covered_right, Camera *camera)
 {
-    static const double auto_fov_deg = 32; /* long enough a lens that the box looks calm */
+    static const double auto_fov_deg = 32; /* a long lens: little perspective in the box */
     double fov = def->camera_auto ? auto_fov_deg : def->camera.fov_deg;
     double diagonal = sqrt(box_size[0] * box_size[0] + box_size[1] * box_size[1] + box_size[2] * box_size[2]);
     camera->tangent[1] = (float)tan(fov * M_PI / 360);
     camera->tangent[0] = (float)(camera->tangent[1] * aspect);
-    camera->near_plane =
-        (float)(1e-3 * diagonal); /* infinite reversed float depth loses nothing by a near one */
+    camera->near_plane = (float)(1e-3 * diagonal); /* infinite reversed float depth loses no precision by a
+                                                      near plane this close */
     if (def->camera_auto) {
         look_at_box(camera, def, box_size, box, covered_right);
         return;
@@ -179,10 +179,11 @@ void camera_make(const ViewDef *def, const double box_size[3], const BoxState *b
 {
     const double open = 1 - covered.left;
     *camera = (Camera){.centre = {(float)covered.left}};
-    /* beside a panel a legend over a corner of the box is better than a box that is a speck */
+    /* beside a panel, a legend over a corner of the box is better than a tiny box */
     const bool narrow = covered.left > 0 && covered.right > 0.4 * open;
     make_free(def, box_size, box, aspect * open, narrow ? 0 : covered.right / open, camera);
-    camera->tangent[0] = (float)(camera->tangent[1] * aspect); /* and more of the same on the left */
+    camera->tangent[0] = (float)(camera->tangent[1] * aspect); /* the picture extends by the covered part
+                                                                  on the left */
 }
 
 float camera_slant_square(const Camera *camera)

@@ -1,5 +1,5 @@
-/* Where a picture is seen from. Right-handed, y up, the eye looks along -z; perspective with reversed depth
-   and an infinite far plane: depth = near / distance along the axis. Matrices are column-major. */
+/* The camera of a picture. Right-handed, y up, looks along -z; perspective with reversed depth and an
+   infinite far plane: depth = near / distance along the axis. Matrices are column-major. */
 #ifndef SLOSH_CAMERA_H
 #define SLOSH_CAMERA_H
 
@@ -9,37 +9,38 @@ typedef struct Camera {
     float eye[3];     /* m, world */
     float view[16];   /* world to eye */
     float tangent[2]; /* of half the field of view, in x and y */
-    float centre[2];  /* where in the picture the axis is, -1 .. 1 to the right and up: off its middle where
-                         something covers a side */
+    float centre[2];  /* position of the axis in the picture, -1 .. 1 to the right and up; not 0 if a panel
+                         covers a side */
     float near_plane; /* m */
 } Camera;
 
-/* What lies over a picture at its sides, a panel and a legend: parts of its width, 0 .. 1. What is covered on
-   the left moves the view's axis to the middle of the rest, by any camera; an automatic one also makes room
-   for what is on the right. */
+/* The parts of a picture covered by a panel (left) and a legend (right): fractions of the width, 0 .. 1.
+   Any camera moves the view's axis to the middle of the area right of the panel; an automatic camera also
+   keeps clear of the legend. */
 typedef struct Covered {
     double left, right;
 } Covered;
 
-/* The tangent of the greatest angle between a ray and the axis, squared. */
+/* The squared tangent of the largest angle between a ray and the axis. */
 float camera_slant_square(const Camera *camera);
 
-/* The def's camera, or with camera_auto one that shows the whole box from the front, the right and above, for
-   a picture `aspect` times as wide as high, beside what is covered. It stays while the box moves about, and
-   goes along only with what the box moves farther than half its size. */
+/* The def's camera. With camera_auto: a camera that shows the whole box from the front, the right and
+   above, in the uncovered part of a picture with the given `aspect` (width / height). The automatic camera
+   stands still while the box moves by less than half its size, and follows only the rest of the motion. */
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
                  Covered covered, Camera *camera);
 
-/* The def at a time, s: the camera is where its path (`view.camera_path`) and its turning have brought it.
-   The path is a cubic curve through the keyframes, in time and without a corner: its velocity at each is that
-   from the one before to the one after, and 0 at both ends, where the camera rests before and after. */
+/* The def at a time, s: the camera is moved along `view.camera_path` and turned. The path is a cubic curve
+   through the keyframes in time, with continuous velocity. The velocity at a keyframe is the mean velocity
+   between the keyframes before and after; 0 at both ends, where the camera rests. */
 ViewDef camera_at(const ViewDef *def, double time);
 
-/* Whether it moves by itself; and makes it stay. */
+/* camera_moves: true if the camera moves by path or turning. camera_stay: removes these from the def. */
 bool camera_moves(const ViewDef *def);
 void camera_stay(ViewDef *def);
 
-/* What the automatic camera and the floor stand by: the box's position less its free way of half its size. */
+/* The point that the automatic camera and the floor follow: the box's position minus a free way of half
+   the box's size. */
 void camera_anchor(const double box_size[3], const BoxState *box, float anchor[3]);
 
 /* Pose of the box as a matrix: box frame to world. */
@@ -50,8 +51,8 @@ void matrix_multiply(const float a[16], const float b[16], float out[16]);
 void matrix_invert_rigid(const float a[16], float out[16]);
 void matrix_transform(const float a[16], const float x[3], float out[3]);
 
-/* The pixel (from the left, from the top) and the reversed depth of a point in the world; false when it is
-   not before the eye. */
+/* The pixel (from the left, from the top) and the reversed depth of a point in the world. Returns false if
+   the point is behind the near plane. */
 bool camera_project(const Camera *camera, const double world[3], int width, int height, double pixel[2],
                     double *depth);
 

@@ -1,4 +1,4 @@
-/* Cameras that move by themselves. */
+/* Cameras that move by path or turning. */
 #include "render/frame/camera.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@ static void numbers_of(const CameraDef *camera, double out[NUMBERS])
     out[6] = camera->fov_deg;
 }
 
-/* Change a second of each number at a keyframe. */
+/* The rate of change of each number at a keyframe, per second. */
 static void velocity_at(const ViewDef *def, int key, double out[NUMBERS])
 {
     memset(out, 0, NUMBERS * sizeof *out);
@@ -27,7 +27,7 @@ static void velocity_at(const ViewDef *def, int key, double out[NUMBERS])
         out[k] = (b[k] - a[k]) / (after->time - before->time);
 }
 
-/* Hermite's curve. At s = 0 its numbers are those of the keyframe, to the bit. */
+/* Hermite's curve. At s = 0 the result equals the keyframe to the bit. */
 static CameraDef between(const ViewDef *def, int key, double time)
 {
     const CameraKey *here = &def->camera_path[key], *next = here + 1;

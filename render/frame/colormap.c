@@ -1,6 +1,7 @@
-/* Stops at equal distances, as published: viridis, inferno and plasma by van der Walt and Smith (matplotlib),
-   turbo by Mikhailov (2019), coolwarm by Moreland (2009), mako by Waskom (seaborn, 2021) from two fifths of
-   its length on, since its first part is as dark as viridis begins; between them a Catmull-Rom curve. */
+/* Equidistant stops as published: viridis, inferno and plasma by van der Walt and Smith (matplotlib),
+   turbo by Mikhailov (2019), coolwarm by Moreland (2009), mako by Waskom (seaborn, 2021). Mako starts at
+   two fifths of its length: the first part is darker than the start of viridis. A Catmull-Rom curve
+   interpolates between the stops. */
 #include "render/frame/colormap.h"
 
 #include "shaders/shared/bindings.h"
@@ -18,7 +19,8 @@ const char *const colormap_choices[] = {"auto",  "viridis", "inferno", "plasma",
                                         "turbo", "mako",    "gray",    NULL};
 const char *const *const colormap_list = colormap_choices + 1;
 
-/* Blue at rest and bright where it is fast, as water is; viridis, which most readers know, for all else. */
+/* Speed: mako, blue at rest and bright if fast, as water looks. All other scalars: viridis, which most
+   readers know. */
 const char *colormap_of(const char *name, Scalar scalar)
 {
     if (strcmp(name, colormap_choices[0]) != 0)
@@ -59,7 +61,7 @@ static double stop_channel(const Colormap *map, int stop, int channel)
     double value = map->stops[held] >> (16 - 8 * channel) & 255;
     if (held == stop)
         return value;
-    /* the ends go straight on */
+    /* extrapolate linearly beyond the ends */
     int inner = stop < 0 ? 1 : map->count - 2;
     return 2 * value - (map->stops[inner] >> (16 - 8 * channel) & 255);
 }

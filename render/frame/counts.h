@@ -1,4 +1,4 @@
-/* What passes do to a picture, counted while one is drawn that nobody times. */
+/* Coverage and fragments of a picture, counted while drawing a picture that is not timed. */
 #ifndef SLOSH_COUNTS_H
 #define SLOSH_COUNTS_H
 
@@ -8,21 +8,20 @@
 #include <stdint.h>
 
 typedef struct ViewCounts {
-    bool counted;    /* by the view; else all is 0 */
-    double coverage; /* share of the picture's pixels that the fluid's surface covers, also where a solid
-                        stands before it */
-    double fragments[STAGE_COUNT]; /* a covered pixel, that the stage's sprites give its map; corners of
-                                      sprites are among them where its shader, or the driver before it, lets
-                                      them pass; 0: the stage is not counted */
-    unsigned query;                /* GL query while a stage is counted */
+    bool counted;    /* the view has counted; false: all is 0 */
+    double coverage; /* fraction of the picture's pixels that the fluid's surface covers, including pixels
+                        where a solid is in front */
+    double fragments[STAGE_COUNT]; /* fragments that the stage's sprites write, per covered pixel; includes
+                                      corners of sprites that the shader or an early driver test lets pass;
+                                      0: not counted */
+    unsigned query;                /* GL query while a stage is being counted */
 } ViewCounts;
 
-/* Around draw calls of a stage, which add up. NULL: nothing is counted, nothing done. counts_end waits for
-   the GPU. */
+/* Call around a stage's draw calls; the counts add up. NULL: does nothing. counts_end waits for the GPU. */
 void counts_begin(ViewCounts *counts);
 void counts_end(ViewCounts *counts, Stage stage);
 
-/* At the end of a picture: `covered` of so many pixels. */
+/* Call at the end of a picture: `covered` of `pixels` pixels are covered. */
 void counts_finish(ViewCounts *counts, uint64_t covered, uint64_t pixels);
 
 #endif

@@ -41,7 +41,7 @@ void edges_destroy(Edges *edges)
 
 static void draw(const Edges *edges, GLuint program, const Frame *frame, bool behind)
 {
-    const float part = (float)frame->height / 720; /* what is a pixel there */
+    const float part = (float)frame->height / 720; /* 1 for a picture 720 pixels high */
     const float width = frame->glass ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, behind ? GL_ONE : GL_ZERO,

@@ -1,5 +1,5 @@
-/* The edges of the box: thin, smooth lines, hidden by what is in front of them. Blends colour, tests depth;
-   leaves its own where Frame.depths. */
+/* The edges of the box: thin, smooth lines, hidden by objects in front. Blends colour and tests depth;
+   writes depth if Frame.depths. */
 #ifndef SLOSH_EDGES_H
 #define SLOSH_EDGES_H
 
@@ -15,11 +15,11 @@ bool edges_create(Edges *edges, Error *error);
 void edges_destroy(Edges *edges);
 void edges_draw(const Edges *edges, const Frame *frame);
 
-/* Those that are seen through the box only, between two sides that face away from the eye. */
+/* Draws the edges seen only through the box: between two sides that face away from the eye. */
 void edges_draw_behind(const Edges *edges, const Frame *frame, unsigned framebuffer);
 
-/* Into the framebuffer that is bound, whose colours are encoded, with `program`: that of the shaders for
-   COARSE; behind a texture of depths of another size. */
+/* Draws with `program`, the shaders compiled with COARSE, into the bound framebuffer, whose colours are
+   encoded. Tests against `depth`, a depth texture of another size. */
 void edges_draw_enlarged(const Edges *edges, unsigned program, const Frame *frame, unsigned depth);
 
 #endif

@@ -8,17 +8,17 @@
 
 _Static_assert(FRAME_FLUIDS_MAX == FLUIDS_MAX, "shaders have a colour for each fluid");
 
-/* Of the softness of shadows on the floor, in sides of the shadow map. */
+/* Softness of shadows on the floor, in sides of the shadow map. */
 static const float LIGHT_RADIUS = 0.035F;
 
-/* Said, or as found in this state; never empty. */
+/* The def's range, or the range found in this state; never empty. */
 static void range_of(const ScalarRange *found, bool automatic, bool symmetric, const double said[2],
                      double range[2])
 {
     const double reach = fmax(fabs(found->low), fabs(found->high));
     range[0] = !automatic ? said[0] : symmetric ? -reach : found->low;
     range[1] = !automatic ? said[1] : symmetric ? reach : found->high;
-    const double least = 1e-6 * fmax(fabs(range[0]), 1e-6); /* the same everywhere: any width will do */
+    const double least = 1e-6 * fmax(fabs(range[0]), 1e-6); /* all values equal: any width is fine */
     if (!(range[1] - range[0] > least))
         range[1] = range[0] + fmax(1e-3 * fabs(range[0]), 1e-3);
 }
@@ -44,8 +44,8 @@ static void make_ranges(Frame *frame, const ParticleBuffers *particles)
     frame->shown_unit = scalar_unit(view_color_by(def));
 }
 
-/* The light comes from the left, the front and above of the automatic camera. Its map covers the ball around
- * the box. */
+/* The light comes from the left, the front and above the automatic camera. The shadow map covers the ball
+   around the box. */
 static void make_light(Frame *frame, const double size[3], const float center[3])
 {
     static const float to_light[3] = {-0.40F, 0.84F, 0.3666F};
@@ -66,7 +66,7 @@ static void make_light(Frame *frame, const double size[3], const float center[3]
     }
 }
 
-/* Widens low .. high to hold the shadow on the floor of a ball in the world. */
+/* Widens low .. high to hold the shadow of a ball on the floor; world frame. */
 static void add_shadow(const Frame *frame, const float at[3], float radius, float low[2], float high[2])
 {
     const float drop = (at[1] - frame->floor_height) / frame->to_light[1], wide = radius / frame->to_light[1];
@@ -76,7 +76,7 @@ static void add_shadow(const Frame *frame, const float at[3], float radius, floa
     }
 }
 
-/* Solids may leave the box; those that leave the light's map too have no shadow. */
+/* Solids may leave the box; solids outside the light's map cast no shadow. */
 static void add_solids(const Frame *frame, double time, float low[2], float high[2])
 {
     for (int i = 0; i < frame->world->solid_count; i++) {
@@ -92,7 +92,7 @@ static void add_solids(const Frame *frame, double time, float low[2], float high
     }
 }
 
-/* Where the light's rays through the corners of the box meet the floor, and a margin for its soft rim. */
+/* The area where light rays through the box's corners meet the floor, with a margin for soft shadow rims. */
 static void make_floor_map(Frame *frame, const double size[3], double time)
 {
     float low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
@@ -110,21 +110,20 @@ static void make_floor_map(Frame *frame, const double size[3], double time)
     }
 }
 
-/* The floor stands still while the box moves about, as the automatic camera does. */
+/* The floor stands still while the box moves, like the automatic camera. */
 static void make_floor(Frame *frame, const double size[3], const BoxState *box, double time)
 {
     double diagonal = sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
     float anchor[3];
     camera_anchor(size, box, anchor);
-    frame->floor_height =
-        (float)(-0.045 * diagonal); /* a gap, so that the box casts a shadow that one sees */
+    frame->floor_height = (float)(-0.045 * diagonal); /* a gap: the box casts a visible shadow */
     frame->floor_center[0] = anchor[0];
     frame->floor_center[1] = anchor[2];
     frame->floor_radius = frame->def->floor ? (float)(4.0 * diagonal) : 0;
     make_floor_map(frame, size, time);
 }
 
-/* Of the box and a radius around it: a cube around each sphere is inside. */
+/* The bounds of the box widened by particle_reach: contains a cube around each sphere. */
 static void make_bounds(Frame *frame, const double size[3])
 {
     const float r = frame->particle_reach, *tangent = frame->camera.tangent, *centre = frame->camera.centre;
@@ -164,7 +163,8 @@ ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, 
     return (ParticleRadii){radius, radius, radius};
 }
 
-/* Two fifths of the longest side; in two dimensions the one layer's depth, for one sees through no more. */
+/* Two fifths of the longest side; in two dimensions the depth of the one layer, since light passes no more
+   fluid. */
 static float usual_attenuation(const double size[3], double slab)
 {
     return (float)(slab > 0 ? slab : fmax(size[0], fmax(size[1], size[2])) * 0.4);
@@ -255,12 +255,13 @@ static void fill_matrices(FrameBlock *block, const Frame *frame)
     matrix_multiply(frame->world_to_light, block->eye_to_world, block->eye_to_light);
 }
 
-/* Linear light: white key, a sky that takes some of the background's tint, warm bounce from the floor. */
+/* Linear light: a white key light, a sky with some of the background's tint, warm light reflected from the
+   floor. */
 static void fill_colors(FrameBlock *block, const Frame *frame)
 {
     const double *back = frame->def->background;
     double bright = 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2];
-    double ink = bright > 0.18 ? 0.03 : 0.75; /* edges stand off the background */
+    double ink = bright > 0.18 ? 0.03 : 0.75; /* edges contrast with the background */
     set3(block->background, back[0], back[1], back[2]);
     set3(block->light_color, 0.98, 0.94, 0.88);
     set3(block->sky_color, 0.46 + 0.10 * back[0], 0.50 + 0.10 * back[1], 0.54 + 0.12 * back[2]);
@@ -314,7 +315,7 @@ static void fill_particles(FrameBlock *block, const Frame *frame, const double b
     block->by_fluid = frame->by_fluid;
     block->fluid_clear = frame->clear;
     block->glass = (uint32_t)frame->glass;
-    for (unsigned k = 0; k < 3; k++) /* in two dimensions front and back are none */
+    for (unsigned k = 0; k < 3; k++) /* no front and back walls in two dimensions */
         if (!frame->world->periodic[k] && !(k == 2 && frame->slab > 0))
             block->walled |= 1U << k;
 }

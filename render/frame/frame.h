@@ -1,4 +1,4 @@
-/* All that a pass needs to know of one picture. */
+/* All inputs of a pass for one picture. */
 #ifndef SLOSH_FRAME_H
 #define SLOSH_FRAME_H
 
@@ -9,19 +9,20 @@
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"
 
-/* Frame.clear of water and jelly: much of the light goes through; what waves bend aside falls beside. */
+/* Frame.clear of water and jelly: much of the light goes through; light that waves refract lands
+   elsewhere. */
 #define CLEAR_FLUID_LIGHT 0.35F
 
-/* Of a particle, m. */
+/* Radii of a particle, m. */
 typedef struct ParticleRadii {
     float drawn, reach, shadow; /* Frame.particle_radius, particle_reach, shadow_radius */
 } ParticleRadii;
 
 enum { FRAME_PARTS_MAX = 8 };
 
-/* A part of the picture, as the legend names it. */
+/* A part of the picture with an entry in the legend. */
 typedef struct FramePart {
-    bool own;       /* it has that colour; else those of the scalar shown */
+    bool own;       /* true: `color`; false: the colours of the scalar shown */
     float color[3]; /* linear */
     char words[64];
 } FramePart;
@@ -30,7 +31,7 @@ typedef struct Frame {
     int width, height; /* pixels */
     const ViewDef *def;
     const WorldDef *world;
-    const BoxState *floating; /* poses of its solids that float: ParticleBuffers.floating */
+    const BoxState *floating; /* poses of the world's floating solids: ParticleBuffers.floating */
     const Target *target;
     GlTimer *timer;     /* NULL: not measured */
     ViewCounts *counts; /* NULL: not counted */
@@ -41,58 +42,57 @@ typedef struct Frame {
     float to_light[3];         /* unit vector, world */
     float floor_height;        /* m, world */
     float floor_center[2];     /* x z, m */
-    float floor_radius;        /* at which it has faded, m; 0 without a floor */
-    float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all that box and solids may
-                                  shade, m */
+    float floor_radius;        /* distance where the floor has faded, m; 0 without a floor */
+    float floor_map_corner[2]; /* x z of the floor's shadow map, which covers all shadows of the box and
+                                  solids, m */
     float floor_map_size[2];   /* m */
     float particle_radius;     /* m */
-    float particle_reach;      /* how far from a particle it may be drawn, m */
-    float shadow_radius;       /* of a particle as the light sees it, m */
-    double slab;               /* depth of the box of a scene of two dimensions, m; 0 in three */
-    float attenuation;         /* through which white light gets a clear fluid's colour where the scene names
-                                  no distance, m */
-    float bounds[4];           /* x0 x1 y0 y1 in -1..1 that hold all particles; the whole picture when some
+    float particle_reach;      /* largest distance from a particle's centre that drawing may reach, m */
+    float shadow_radius;       /* particle radius in the shadow map, m */
+    double slab;               /* depth of the box in a two-dimensional scene, m; 0 in three dimensions */
+    float attenuation;         /* distance at which white light takes a clear fluid's colour if the scene
+                                  gives none, m */
+    float bounds[4];           /* x0 x1 y0 y1 in -1..1 around all particles; the whole picture if particles
                                   may be beside or behind the eye */
     float nearest;             /* least distance of a particle along the eye's axis, m; may be negative */
     float farthest;            /* greatest distance of a particle along the eye's axis, m */
-    bool all_in_view;          /* every particle is wholly in the picture and before the near plane */
-    unsigned over_depth;       /* GL texture: depths of the target, and of overlays and edges, for a view that
-                                  has draw_front; 0: there are none of them */
-    bool over_coarse;          /* and those of overlays are not whole yet: the next picture has others */
-    bool over_lacks;           /* there is no memory for them */
-    bool depths;               /* overlays and edges leave their depth, all that is wanted of them */
-    unsigned floor_light;      /* GL texture, R32F: what of the light arrives on the floor, more than 1 where
-                                  it is gathered; 0: not known */
-    double range[2];           /* of the scalar shown, in its unit; range[0] < range[1] */
-    bool beyond[2];            /* an automatic range leaves some out, below and above it */
+    bool all_in_view;          /* every particle is inside the picture and in front of the near plane */
+    unsigned over_depth;       /* GL texture: depths of the target, overlays and edges, for a view with
+                                  draw_front; 0: no such depths */
+    bool over_coarse;          /* the overlays' depths are incomplete; the next picture has better ones */
+    bool over_lacks;           /* no memory for `over_depth` */
+    bool depths;               /* overlays and edges write depth only */
+    unsigned floor_light;      /* GL texture, R32F: light that reaches the floor, above 1 where it is
+                                  focused; 0: not known */
+    double range[2];           /* range of the scalar shown, in its unit; range[0] < range[1] */
+    bool beyond[2];            /* the automatic range excludes values below, above */
     double opacity_range[2],
-        size_range[2]; /* the same as range of the def's opacity and size; 0 where they have none */
-    unsigned curves;   /* which of the two the view draws: VIEW_OPACITY, VIEW_SIZE */
-    const char *shown, *shown_unit; /* what that range is of, for the legend */
-    bool no_solids;                 /* the view draws the solids in its own way */
-    bool no_colors;                 /* nothing is coloured by that range: the legend does not show it */
+        size_range[2]; /* ranges of the scalars of the def's opacity and size; 0 without a curve */
+    unsigned curves;   /* the curves that the view draws: VIEW_OPACITY, VIEW_SIZE */
+    const char *shown, *shown_unit; /* name and unit of `range` for the legend */
+    bool no_solids;                 /* the view draws the solids itself */
+    bool no_colors;                 /* no colour depends on `range`: the legend leaves the range out */
     int part_count;
     FramePart parts[FRAME_PARTS_MAX];
     const char *note; /* a line below the legend, static; NULL: none */
-    bool by_fluid;    /* coloured by the fluids' own colours */
-    bool flat;        /* the picture is no look into space: no edges of the box */
-    bool more;        /* further pictures follow at once: view and overlays may take their time over
-                         several */
-    bool *behind;     /* becomes true where an overlay shows a number of the picture before; NULL: the GPU is
-                         waited for instead */
-    float refraction; /* index of a clear fluid */
-    int glass;        /* the box is of it: 1 its edges, 2 the rest too; 0: it is drawn as lines */
-    float clear; /* the share of the light that the fluid lets through to the floor and to solids in it */
-    bool plain;  /* colours as they are, without light and shadow */
+    bool by_fluid;    /* particles have the fluids' own colours */
+    bool flat;        /* the picture has no perspective: no edges of the box */
+    bool more;        /* further pictures follow at once: views and overlays may spread work over several */
+    bool *behind;     /* set to true if an overlay shows a number of the previous picture; NULL: wait for
+                         the GPU instead */
+    float refraction; /* refractive index of a clear fluid */
+    int glass;        /* glass box: 1: the edges, 2: the panes too; 0: drawn as lines */
+    float clear;      /* fraction of light that the fluid lets through to the floor and to solids inside */
+    bool plain;       /* unlit colours, without light and shadow */
 } Frame;
 
-/* Balls of the def's radius; of that many spacings where the def says 0. */
+/* Radii of balls with the def's radius, or `spacings` particle spacings if the def has 0. */
 ParticleRadii frame_balls(const ViewDef *def, const ParticleBuffers *particles, double spacings);
 
-/* Frame.slab: a scene of two dimensions is as deep as its particles. */
+/* Frame.slab: a two-dimensional scene is as deep as one particle layer. */
 double frame_slab(const ParticleBuffers *particles);
 
-/* Fills all of `frame` but timer, counts, floor_light, behind and plain. */
+/* Fills all of `frame` except timer, counts, floor_light, behind and plain. */
 void frame_make(Frame *frame, const Subject *subject, const ParticleBuffers *particles, const Target *target,
                 ParticleRadii radii, Covered covered);
 
@@ -102,10 +102,10 @@ void frame_bounds(const Frame *frame, int part[4]);
 /* Sets the scissor to frame->bounds. The caller ends it. */
 void frame_cut_to_bounds(const Frame *frame);
 
-/* The uniform block of shaders/shared/frame_block.h; the caller deletes the buffer. */
+/* Creates the uniform block of shaders/shared/frame_block.h; the caller deletes the buffer. */
 unsigned frame_uniforms_create(void);
 
-/* Fills the block and binds it for all passes. */
+/* Fills the block and binds the buffer for all passes. */
 void frame_uniforms_update(unsigned buffer, const Frame *frame, const double box_size[3], double spacing);
 
 #endif

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Sines below these are too flat: between a ray and a line; between a ray and a plane. */
+/* Smaller sines mean a too flat angle: between a ray and a line; between a ray and a plane. */
 static const double FLAT_LINE = 0.15, FLAT_PLANE = 0.05;
 
 static double dot(const double a[3], const double b[3])
@@ -69,7 +69,7 @@ bool sight_ray_plane(const SightRay *ray, const double at[3], const double axis[
     return true;
 }
 
-/* ---- which one ---- */
+/* ---- finding a handle ---- */
 
 void handle_ring(const Handle *handle, int part, double corner[3])
 {
@@ -86,7 +86,7 @@ static double pixels_between(const double a[2], const double b[2])
     return hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/* From a pixel to the line between two. */
+/* From a pixel to the line segment between two pixels. */
 static double pixels_to_line(const double pixel[2], const double a[2], const double b[2])
 {
     const double along[2] = {b[0] - a[0], b[1] - a[1]}, to[2] = {pixel[0] - a[0], pixel[1] - a[1]};
@@ -131,10 +131,10 @@ int handle_under(const Sight *sight, const Handle *handles, int count, const dou
     return found;
 }
 
-/* ---- where to ---- */
+/* ---- dragging ---- */
 
-/* Where on the line through `at` along `axis` it is nearest to the ray; false: the ray looks along the line.
- */
+/* `share`: the point on the line through `at` along `axis` that is nearest to the ray. Returns false if
+   the ray is nearly parallel to the line. */
 static bool nearest_on_line(const Handle *taken, const SightRay *ray, double *share)
 {
     double to[3];
@@ -144,7 +144,7 @@ static bool nearest_on_line(const Handle *taken, const SightRay *ray, double *sh
     return sine_square > FLAT_LINE * FLAT_LINE;
 }
 
-/* Looking along the line: upwards in the picture is forwards. */
+/* For a view along the line: up in the picture means forwards. */
 static bool lift(const Handle *taken, const SightRay *first, const SightRay *now, double *share)
 {
     double a[3], b[3], up[3] = {0, 1, 0};
@@ -183,8 +183,8 @@ static bool drag_within(const Handle *taken, const SightRay *first, const SightR
     return true;
 }
 
-/* The point of the sphere that the ray hits, on the eye's side of it or on the other; beside it the nearest.
- */
+/* The point where the ray meets the sphere, on the eye's side or the far side; without a hit, the nearest
+   point. */
 static void hit_sphere(const Handle *taken, const SightRay *ray, double radius, bool near_side, double hit[3])
 {
     double to[3], beside[3];
@@ -194,7 +194,7 @@ static void hit_sphere(const Handle *taken, const SightRay *ray, double radius, 
     subtract(beside, taken->from, beside);
     const double left = radius * radius - dot(beside, beside);
     const double half = left > 0 ? sqrt(left) : 0;
-    add(beside, near_side ? -half : half, ray->along, hit); /* from the centre */
+    add(beside, near_side ? -half : half, ray->along, hit); /* relative to the centre */
 }
 
 static bool drag_around(const Handle *taken, const SightRay *first, const SightRay *now, double at[3])

@@ -9,10 +9,10 @@
 
 enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8 };
 
-/* Places in units of the letters' height, so that the legend grows with the picture. */
+/* Positions in units of the letter height: the legend grows with the picture. */
 typedef struct Layout {
     float em;
-    float left, top, right, bottom; /* of the panel */
+    float left, top, right, bottom; /* the panel's sides */
     uint32_t ink, faint, panel;
 } Layout;
 
@@ -23,8 +23,9 @@ static bool looks_like_water(const FluidDef *fluid)
            (color[2] > 2 * color[0] && color[2] > color[1]);
 }
 
-/* Its name; with the viscosity of what is taken for water and flows far otherwise. One that changes with time
- * is not told: the legend would change its width, and the camera its place. */
+/* The fluid's name, with the viscosity if the fluid looks like water but flows very differently. A
+   viscosity that changes with time is not shown: the legend would change its width, and the camera its
+   position. */
 static void fluid_words(const FluidDef *fluid, char words[NAME_SIZE + 32])
 {
     static const double WATER = 1.0e-3, FAR = 10; /* Pa s, at 20 degrees */
@@ -112,7 +113,7 @@ static uint32_t map_color(const uint8_t *rgb, int i)
     return (uint32_t)rgb[3 * i] << 24 | (uint32_t)rgb[3 * i + 1] << 16 | (uint32_t)rgb[3 * i + 2] << 8 | 255;
 }
 
-/* A bar, pointed where there is more beyond its end. */
+/* A colour bar, with a pointed end where values exceed the range. */
 static void draw_bar(Text *text, const ViewDef *def, const bool beyond[2], float x0, float y0, float x1,
                      float y1)
 {
@@ -160,7 +161,8 @@ static void draw_curve(Text *text, const Layout *layout, float line, const char 
               TEXT_RIGHT, label);
 }
 
-/* What else goes with a scalar, where the view draws it. `bottom`: of what stands above, in letters. */
+/* Legend lines of opacity and size, if the view draws these curves. `bottom`: lower side of the panels
+   above, in letter heights. */
 static void draw_curves(Text *text, const Frame *frame, float bottom)
 {
     const Layout layout = make_layout(text, frame, 0, bottom);
@@ -172,14 +174,14 @@ static void draw_curves(Text *text, const Frame *frame, float bottom)
         draw_curve(text, &layout, line, "size", &def->size, frame->size_range);
 }
 
-/* Returns its height in letters, as draw_fluids. */
+/* Returns the height in letter heights, as does draw_fluids. */
 static float draw_scalar(Text *text, const Frame *frame)
 {
     enum { HEIGHT_EM = 15 };
     char unit[32], title[80];
     legend_unit(frame->shown_unit, unit);
     snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
-    const float widest = text_width(text, 1, title) / text_height(text) + 1.6F; /* long names */
+    const float widest = text_width(text, 1, title) / text_height(text) + 1.6F; /* room for long names */
     Layout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), HEIGHT_EM);
     float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
           y1 = layout.bottom - 1.0F * em;
@@ -224,7 +226,7 @@ static float draw_fluids(Text *text, const Frame *frame)
     return height;
 }
 
-/* Below what stands down to `top`, in letters. */
+/* Draws parts below `top`, in letter heights. */
 static float draw_parts(Text *text, const Frame *frame, float top)
 {
     const float em = text_height(text);
@@ -250,7 +252,7 @@ static float draw_parts(Text *text, const Frame *frame, float top)
     return top + gap + height;
 }
 
-/* What the colours are of; returns its height in letters. */
+/* Draws the meaning of the colours; returns the height in letter heights. */
 static float draw_colors(Text *text, const Frame *frame)
 {
     if (frame->no_colors)
@@ -260,7 +262,7 @@ static float draw_colors(Text *text, const Frame *frame)
     return frame->world->fluid_count > 0 ? draw_fluids(text, frame) : 0;
 }
 
-/* How many bytes of a line are within that width: up to a space, at least a word. */
+/* Number of bytes of a line that fit into `width`: breaks at spaces, takes at least one word. */
 static size_t line_bytes(Text *text, const char *line, float width)
 {
     char part[512];
@@ -275,7 +277,7 @@ static size_t line_bytes(Text *text, const char *line, float width)
     return bytes;
 }
 
-/* As many lines as it takes: none is cut off at the left. */
+/* Breaks the note into lines, so that nothing is cut off at the left. */
 static float draw_note(Text *text, const Frame *frame, float top)
 {
     enum { LINE_MOST = 512 };

@@ -12,7 +12,7 @@ static bool follow(OverDepth *over, const Target *target)
     over->width = target->width;
     over->height = target->height;
     glCreateTextures(GL_TEXTURE_2D, 1, &over->depth);
-    gl_debug_errors(); /* what is asked below is of this texture */
+    gl_debug_errors(); /* drops earlier errors: the query below is for this texture */
     gl_debug_asks_for_memory(true);
     glTextureStorage2D(over->depth, 1, GL_DEPTH_COMPONENT32F, over->width, over->height);
     gl_debug_asks_for_memory(false);

@@ -57,7 +57,7 @@ bool overlays_check(const Subject *subject, const char **key, Error *error)
     return true;
 }
 
-/* What is shown now and was not. */
+/* Creates the overlays that are newly shown. */
 static bool make(const Overlays *overlays, const Subject *subject, void *made[], Error *error)
 {
     for (int i = 0; overlay_list[i]; i++)

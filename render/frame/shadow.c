@@ -6,7 +6,7 @@
 
 #include <epoxy/gl.h>
 
-/* Both maps reach farther than any shadow, so that their rims say what is beyond. */
+/* Both maps extend beyond all shadows, so the border texels are right for everything outside. */
 static GLuint create_map(GLenum format, GLint filter, int texels, const char *label)
 {
     GLuint map;
@@ -20,7 +20,7 @@ static GLuint create_map(GLenum format, GLint filter, int texels, const char *la
     return map;
 }
 
-/* Read as a comparison. Beyond its rim nothing casts: solids may leave the box. */
+/* Compared on reading. Outside the map nothing casts a shadow: solids may leave the box. */
 static GLuint create_solid_map(void)
 {
     GLuint map = create_map(GL_DEPTH_COMPONENT32F, GL_LINEAR, SHADOW_MAP_TEXELS, "solid shadow map");

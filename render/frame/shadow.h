@@ -1,6 +1,6 @@
-/* The shadow maps: what the light sees. A view draws its casters between shadow_begin and shadow_end; then
-   spheres.frag and the floor read the maps. Solids have a map of their own, since what they shade they shade
-   wholly while the fluid's own shadow fades with depth; it is there only where a scene has solids. */
+/* The shadow maps, seen from the light. A view draws its casters between shadow_begin and shadow_end;
+   spheres.frag and the floor read the maps. Solids have a separate map, present only in scenes with
+   solids: shadows of solids are full at once, while the fluid's own shadow fades with depth. */
 #ifndef SLOSH_SHADOW_H
 #define SLOSH_SHADOW_H
 
@@ -17,15 +17,15 @@ typedef struct Shadow {
 bool shadow_create(Shadow *shadow, Error *error);
 void shadow_destroy(Shadow *shadow);
 
-/* Makes what solids need, or drops it. On failure all stays as it was. */
+/* Creates or drops the solids' map. Returns false on failure and changes nothing. */
 bool shadow_follow_solids(Shadow *shadow, bool solids, Error *error);
 
-/* Change framebuffer, viewport and depth function: for the casters of a view, and for solids. */
+/* Change framebuffer, viewport and depth function: for the casters of a view; for solids. */
 void shadow_begin(const Shadow *shadow);
 void shadow_begin_solids(const Shadow *shadow);
 
-/* Lays the shadow on the floor if the frame has one, and binds the maps to texture units: 0, and the
- * solids' 4. */
+/* Draws the shadow on the floor if the frame has a floor, and binds the maps to texture units: 0, and 4
+   for solids. */
 void shadow_end(const Shadow *shadow, const Frame *frame);
 
 #endif

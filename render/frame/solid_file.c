@@ -1,14 +1,14 @@
-/* Meshes from files as solids: their own triangles with normals. */
+/* Solids from mesh files: the file's triangles with computed normals. */
 #include "render/frame/solid_mesh.h"
 #include "sim/mesh/mesh_shape.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-/* Faces that turn by less about a vertex are one smooth surface: cosines of 25 and 40 degrees. */
+/* Faces around a vertex with smaller angles form one smooth surface: cosines of 25 and 40 degrees. */
 static const double SMOOTH = 0.906, CREASE = 0.766;
 
-/* The triangles around each vertex, and their normals, each as long as twice the area. */
+/* The triangles around each vertex, and the triangles' normals with a length of twice the area. */
 typedef struct Fans {
     const Triangles *of;
     uint32_t *begin, *face;
@@ -42,14 +42,14 @@ static void fans_free(Fans *fans)
     free(fans->normal);
 }
 
-/* The cosine of two directions; 1 where one has no length. */
+/* The cosine between two directions; 1 if either has length 0. */
 static double turn(const double a[3], const double b[3])
 {
     const double a2 = a[0] * a[0] + a[1] * a[1] + a[2] * a[2], b2 = b[0] * b[0] + b[1] * b[1] + b[2] * b[2];
     return a2 > 0 && b2 > 0 ? (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) / sqrt(a2 * b2) : 1;
 }
 
-/* The mean of the faces about a vertex that turn little from `from`; NULL: of all. */
+/* The mean normal of the faces around a vertex whose angle to `from` is small; NULL: of all faces. */
 static void mean_normal(const Fans *fans, size_t vertex, const double *from, double mean[3])
 {
     mean[0] = mean[1] = mean[2] = 0;
@@ -87,7 +87,7 @@ static uint32_t put(const Pen *pen, size_t vertex, const double normal[3])
     return (uint32_t)pen->mesh->vertex_count++;
 }
 
-/* A vertex on an edge is there once for each of its triangles. */
+/* A vertex on an edge is added once per triangle. */
 static void put_all(const Pen *pen, const Fans *fans, uint32_t *shared)
 {
     const Triangles *of = fans->of;

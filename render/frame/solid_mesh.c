@@ -10,7 +10,7 @@ enum { HALF_TURN = 32, TURN = 2 * HALF_TURN };
 typedef struct Pen {
     SolidMesh *mesh;
     uint32_t solid;
-    bool whole; /* memory sufficed so far */
+    bool whole; /* no allocation has failed so far */
 } Pen;
 
 static void *grown(void *items, size_t *room, size_t wanted, size_t size)
@@ -37,8 +37,8 @@ bool solid_mesh_room(SolidMesh *mesh, size_t vertices, size_t indices)
     return index != NULL;
 }
 
-/* Triangles of a grid whose vertices come next, row by row. Outside is where along the row x from row to row
-   points. False: draw no vertices. */
+/* Adds the triangles of a grid; the caller adds the vertices next, row by row. Outside is the direction of
+   (along the row) x (from row to row). Returns false if memory is short: then add no vertices. */
 static bool begin_grid(Pen *pen, int rows, int columns)
 {
     SolidMesh *mesh = pen->mesh;
@@ -63,7 +63,7 @@ static void add_vertex(Pen *pen, double x, double y, double z, double nx, double
         (SolidVertex){{(float)x, (float)y, (float)z}, {(float)nx, (float)ny, (float)nz}, pen->solid};
 }
 
-/* A point of a profile in the half plane: distance from the y axis, height, and the normal there. */
+/* Turns a point of the profile about the y axis: distance from the axis, height, and normal. */
 static void add_ring(Pen *pen, double r, double y, double nr, double ny)
 {
     for (int i = 0; i <= TURN; i++) {
@@ -72,7 +72,7 @@ static void add_ring(Pen *pen, double r, double y, double nr, double ny)
     }
 }
 
-/* Profiles turned about y. Outside is to the left of the way along them. */
+/* Surfaces of revolution about y. Outside is to the left of the direction of the profile. */
 static void turn_line(Pen *pen, double r0, double y0, double r1, double y1)
 {
     const double length = hypot(r1 - r0, y1 - y0), nr = -(y1 - y0) / length, ny = (r1 - r0) / length;
@@ -82,8 +82,8 @@ static void turn_line(Pen *pen, double r0, double y0, double r1, double y1)
     add_ring(pen, r1, y1, nr, ny);
 }
 
-/* From and to an angle above the equator, in steps of a half circle; side 1: seen from without, -1: from
- * within. */
+/* `from` and `to`: angles above the equator, in steps of a half circle. `side` 1: seen from outside, -1:
+   from inside. */
 static void turn_arc(Pen *pen, double radius, int from, int to, int side)
 {
     if (!begin_grid(pen, abs(to - from) + 1, TURN + 1))
@@ -109,8 +109,8 @@ static void add_bowl(Pen *pen, double inner, double outer)
     turn_arc(pen, outer, 0, -HALF_TURN / 2, 1);
 }
 
-/* A strip in the plane, as pairs of points on its right and its left side, with the normals of these sides.
- */
+/* A strip in the plane, as pairs of points on the right and the left side, with the normals of these
+   sides. */
 typedef struct Strip {
     int count;
     double at[2][HALF_TURN + 1][2], normal[2][HALF_TURN + 1][2];
@@ -141,7 +141,7 @@ static void extrude_side(Pen *pen, const Strip *strip, int side, double half)
         }
 }
 
-/* Where it begins (-1) or ends (1), unless it does so in a point. */
+/* The strip's first (-1) or last (1) end face, unless the strip ends in a point. */
 static void extrude_end(Pen *pen, const Strip *strip, int end, double half)
 {
     const int i = end > 0 ? strip->count - 1 : 0;

@@ -15,9 +15,9 @@ struct Solids {
     GLuint program, casting;
     GLuint vertex_array, vertices, indices, poses;
     GLsizei index_count;
-    int count; /* of solids with a mesh; 0 before the first picture */
+    int count; /* solids with a mesh; 0 before the first picture */
     SolidDef shapes[SOLIDS_MAX];
-    double slab; /* depth of the flat box that they were made for, m; 0: not flat */
+    double slab; /* depth of the flat box when the meshes were made, m; 0: not flat */
 };
 
 Solids *solids_create(Error *error)
@@ -141,7 +141,7 @@ void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame 
     glNamedBufferSubData(solids->poses, 0, sizeof block, &block);
 }
 
-/* All are closed: of a face, one side is never seen. */
+/* All meshes are closed: of each face, only the outside is ever seen. */
 static void draw_meshes(const Solids *solids, GLuint program, GLenum hidden)
 {
     glEnable(GL_CULL_FACE);
@@ -154,8 +154,8 @@ static void draw_meshes(const Solids *solids, GLuint program, GLenum hidden)
     glDisable(GL_CULL_FACE);
 }
 
-/* The sides that the light does not reach: what it does reach is a wall's thickness before them, so the
-   comparison needs next to no bias. What lies outside the map's depth still casts. */
+/* Draws the sides away from the light. Lit sides are a wall's thickness nearer to the light, so the
+   comparison needs almost no bias. Depths are clamped: solids outside the map's depth range still cast. */
 void solids_cast(const Solids *solids)
 {
     glEnable(GL_DEPTH_CLAMP);

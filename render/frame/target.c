@@ -80,7 +80,7 @@ void target_read(const Target *target, uint8_t *rgb)
 
 void target_present(const Target *target, int x, int y)
 {
-    glDisable(GL_FRAMEBUFFER_SRGB); /* encoded once is enough */
+    glDisable(GL_FRAMEBUFFER_SRGB); /* colours are encoded already */
     glDisable(GL_SCISSOR_TEST);
     glBlitNamedFramebuffer(target->framebuffer, 0, 0, 0, target->width, target->height, x, y,
                            x + target->width, y + target->height, GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -1,7 +1,7 @@
-/* Text and flat shapes over a picture: the C side of the bridge to Dear ImGui, which needs no window here.
+/* Text and flat shapes over a picture: the C side of the bridge to Dear ImGui; needs no window.
 
-   One Text at a time may be in use in a context. Colours are sRGB with alpha, 0xRRGGBBAA; places are pixels
-   from the left and the top. */
+   Only one Text may be in use in a context at a time. Colours are sRGB with alpha, 0xRRGGBBAA; positions
+   are pixels from the left and the top. */
 #ifndef SLOSH_TEXT_H
 #define SLOSH_TEXT_H
 
@@ -18,22 +18,22 @@ typedef struct Text Text;
 
 typedef enum TextAlign { TEXT_LEFT, TEXT_CENTER, TEXT_RIGHT } TextAlign;
 
-/* With letters `pixels` high. NULL when no font is found or memory is short. */
+/* `pixels`: letter height. Returns NULL if no font is found or memory is short. */
 Text *text_create(float pixels, Error *error);
 void text_destroy(Text *text); /* NULL is allowed */
 float text_height(const Text *text);
 
-/* Between these two, in a picture of that size, everything is collected; text_end draws it into the bound
- * framebuffer. */
+/* All calls between text_begin and text_end are collected for a picture of `width` x `height`; text_end
+   draws everything into the bound framebuffer. */
 void text_begin(Text *text, int width, int height);
 
-/* The same in a part of the picture, `place` x, y, width, height: places count from its upper left corner,
-   and what reaches beyond it is cut off. */
+/* As text_begin, in a part of the picture. `place`: x, y, width, height; positions count from the part's
+   upper left corner, and the rest is clipped. */
 void text_begin_within(Text *text, int width, int height, const int place[4]);
 void text_end(Text *text);
 
-/* UTF-8 of Latin-1 letters and the superscripts 2 and 3; y is the top of the letters, x the side that `align`
-   says. `scale` 1 is the height given to text_create. */
+/* `string`: UTF-8 of Latin-1 letters and the superscripts 2 and 3. y: top of the letters; x: the side
+   given by `align`. `scale` 1 is the letter height given to text_create. */
 void text_draw(Text *text, float x, float y, float scale, uint32_t rgba, TextAlign align, const char *string);
 float text_width(Text *text, float scale, const char *string);
 
@@ -42,10 +42,10 @@ void text_rectangle(Text *text, float x0, float y0, float x1, float y1, float ro
 void text_line(Text *text, float x0, float y0, float x1, float y1, float thick, uint32_t rgba);
 void text_disc(Text *text, float x, float y, float radius, uint32_t rgba);
 
-/* From `low` at the lower edge to `high` at the upper one. */
+/* Colour `low` at the lower edge to `high` at the upper edge. */
 void text_gradient(Text *text, float x0, float y0, float x1, float y1, uint32_t low, uint32_t high);
 
-/* Filled, the corners in any order. */
+/* Filled; corners in any order. */
 void text_triangle(Text *text, const float x[3], const float y[3], uint32_t rgba);
 
 #ifdef __cplusplus

@@ -6,23 +6,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* In letters' heights: around the words, and between the lines. */
+/* In letter heights: around the words, and between the lines. */
 static const float AROUND = 0.55F, BETWEEN = 0.35F;
 
-/* The longest beginning of `words` that is at most so wide. */
+/* The longest beginning of `words` that is at most `width` wide. */
 static void cut(Text *text, float width, const char *words, char out[TITLE_SIZE])
 {
     size_t length = strlen(words);
     snprintf(out, TITLE_SIZE, "%s", words);
     while (length > 0 && text_width(text, 1, out) > width) {
         length--;
-        while (length > 0 && ((unsigned char)words[length] & 0xC0) == 0x80) /* within a letter of UTF-8 */
+        while (length > 0 && ((unsigned char)words[length] & 0xC0) == 0x80) /* inside a UTF-8 letter */
             length--;
         snprintf(out, TITLE_SIZE, "%.*s...", (int)fmin((double)length, TITLE_SIZE - 4), words);
     }
 }
 
-/* From the top of the picture to the bottom of the title, letters' heights. */
+/* From the top of the picture to the bottom of the title, in letter heights. */
 static float bottom_em(const Title *title)
 {
     return 2 + 2 * AROUND + (*title->figures ? BETWEEN + 1 : 0);

@@ -1,4 +1,4 @@
-/* What a picture is of, in its upper left corner: for a panel among others (render/panels.h). */
+/* The title of a picture, in the upper left corner: for one of several panels (render/panels.h). */
 #ifndef SLOSH_TITLE_H
 #define SLOSH_TITLE_H
 
@@ -7,20 +7,19 @@
 
 enum { TITLE_SIZE = 160 };
 
-/* Zeroed it is no title. */
+/* All zero: no title. */
 typedef struct Title {
     char words[TITLE_SIZE];   /* "particles 2000"; "": no title */
-    char figures[TITLE_SIZE]; /* fainter, below; "": none */
+    char figures[TITLE_SIZE]; /* fainter, below the words; "": none */
 } Title;
 
-/* Leaves the legend its place: what is wider is cut, and ends with "...". */
+/* Leaves room for the legend: wider text is cut and ends with "...". */
 void title_draw(Text *text, const Title *title, const Frame *frame);
 
-/* The def's own title, `view.title`, in the middle of what is free at the lower edge: smaller where it is
-   wider than that. */
+/* Draws the def's title, `view.title`, in the middle of the free lower edge; smaller if too wide. */
 void caption_draw(Text *text, const Frame *frame);
 
-/* Rows of pixels, from the top, that a title may cover in a picture that high. */
+/* Pixel rows, from the top, that a title may cover in a picture of `height`. */
 int title_rows(const Title *title, int height);
 
 #endif

@@ -78,8 +78,8 @@ static void unknown_view(const char *name, Error *error)
     error_set(error, "unknown view \"%s\"; known are: %s", name, known);
 }
 
-/* Particles are drawn from storage blocks; common/particles.glsl, listed.glsl and ball.glsl have five. A ball
-   is one vec4. */
+/* Particles are read from storage blocks: common/particles.glsl, listed.glsl and ball.glsl declare five. A
+   ball is one vec4. */
 static bool drawable(const ViewKind *kind, const Subject *subject, Error *error)
 {
     const ViewDef *def = subject->def;
@@ -144,7 +144,7 @@ void view_prepare(View *view, const ParticleBuffers *particles, const Frame *fra
         view->kind->prepare(view->state, particles, frame);
 }
 
-/* What has no curve pays for none, and is made anew when it gets one. */
+/* A view without a curve pays nothing for curves, and is made again when the def gets a curve. */
 static bool same_curves(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
 {
     return !((kind->curves & VIEW_OPACITY) && (a->opacity.by != 0) != (b->opacity.by != 0)) &&
@@ -159,7 +159,7 @@ static size_t value_size(const Key *key)
     return key->type == KEY_NUMBER ? sizeof(double) : sizeof(int);
 }
 
-/* Whether all own keys that make a view anew are the same in both. */
+/* True if all own keys with KEY_REBUILD are equal. */
 static bool same_keys(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
 {
     const char *one = view_own(a, kind), *other = view_own(b, kind);

@@ -1,4 +1,4 @@
-/* Views: the ways to show a fluid. One folder a view, one list of them: render/views.c. */
+/* Views: the ways to show a fluid. One folder per view; the list is render/views.c. */
 #ifndef SLOSH_VIEW_H
 #define SLOSH_VIEW_H
 
@@ -11,214 +11,216 @@
 
 typedef struct View View;
 
-/* What a GPU stores for each particle to draw it. */
+/* GPU data of a particle's drawn shape. */
 typedef struct ViewShapes {
-    const char *words; /* "of ellipsoids": what messages add to the view's name */
-    int bytes;         /* of the largest block */
+    const char *words; /* "of ellipsoids": appended to the view's name in messages */
+    int bytes;         /* per particle, of the largest block */
 } ViewShapes;
 
 enum { VIEW_OPACITY = 1, VIEW_SIZE = 2 };
 enum { VIEW_GRADES_MAX = 8 };
 
-/* A key of a view that trades time for likeness: what `slosh chart --views` tries. */
+/* A key of a view that trades time for accuracy: varied by `slosh chart --views`. */
 typedef struct ViewGrade {
-    const char *path;                        /* of the key */
+    const char *path;                        /* path of the key */
     const char *values[VIEW_GRADES_MAX + 1]; /* from the coarsest to the finest, ended by NULL */
-    /* It has an effect where the key at this path has this value; NULL: always. */
+    /* The key has an effect if the key `where` has `value`; NULL: always. */
     const char *where, *value;
-    bool alike; /* all values ask for the same picture: the reference keeps the scene's */
+    bool alike; /* all values ask for the same picture: the reference keeps the scene's value */
 } ViewGrade;
 
 /* A live setting, "path=value". */
 typedef struct ViewSetting {
-    char text[224]; /* the ids of trails are the longest */
+    char text[224]; /* the ids of trails are the longest setting */
 } ViewSetting;
 
 enum { VIEW_SETTINGS_MAX = 4 };
 
-/* What keys do to a view that is of a plane. */
+/* Steps by keys, for a view of a plane. */
 typedef enum ViewStep {
     VIEW_STEP_BACK, /* along the normal */
     VIEW_STEP_FORWARD,
-    VIEW_STEP_LEFT, /* the normal turns in the plane of it and the horizon */
+    VIEW_STEP_LEFT, /* the normal turns in the plane of normal and horizon */
     VIEW_STEP_RIGHT,
     VIEW_STEP_UP,
     VIEW_STEP_DOWN,
-    VIEW_STEP_X, /* across the box's axis */
+    VIEW_STEP_X, /* perpendicular to the box's axis */
     VIEW_STEP_Y,
     VIEW_STEP_Z
 } ViewStep;
 
-/* What a picture shows at a place of the box. */
+/* The value that a picture shows at a position in the box. */
 typedef struct ViewProbe {
     double at[3]; /* m, box's frame */
-    bool now;     /* it is what the last picture shows; else one before it, which the next picture mends */
-    bool seen;    /* the place is before the eye: */
+    bool now;     /* value of the last picture; false: of an earlier picture, and the next picture updates
+                     the value */
+    bool seen;    /* the position is in front of the eye, at `pixel` */
     double pixel[2];
     enum {
-        VIEW_PROBE_OFF,   /* the picture does not show that place */
-        VIEW_PROBE_EMPTY, /* there is no fluid */
-        VIEW_PROBE_NAN,   /* what is shown is no number there */
+        VIEW_PROBE_OFF,   /* the picture does not show the position */
+        VIEW_PROBE_EMPTY, /* no fluid */
+        VIEW_PROBE_NAN,   /* the value is NaN */
         VIEW_PROBE_VALUE
     } what;
     double value;
-    const char *name, *unit; /* of the value; static */
-    const char *words;       /* the value as words, up to the next answer; NULL: it has none */
-    int64_t id;              /* of the particle that it is the value of; VIEW_NO_ID: of none, or not known */
+    const char *name, *unit; /* name and unit of the value; static */
+    const char *words;       /* the value as words, valid until the next answer; NULL: no words */
+    int64_t id;              /* id of the particle with this value; VIEW_NO_ID: none or unknown */
 } ViewProbe;
 
 enum { VIEW_PROBES_MAX = 16, VIEW_NO_ID = -1 };
 
-/* What is asked of the last picture; at most VIEW_PROBES_MAX in all. */
+/* Questions about the last picture; at most VIEW_PROBES_MAX in all. */
 typedef struct ViewAsks {
     int count;
-    double at[VIEW_PROBES_MAX][3]; /* places, m, box's frame */
-    bool mouse;                    /* and what is under it: */
+    double at[VIEW_PROBES_MAX][3]; /* positions, m, box's frame */
+    bool mouse;                    /* also ask for the position under the mouse, at `pixel` */
     double pixel[2];               /* from the left and the top */
 } ViewAsks;
 
-/* The answers: of the places in their order, then of the mouse. */
+/* The answers: first for the positions in order, then for the mouse. */
 typedef struct ViewProbes {
     int count;
-    bool mouse; /* the last one is of what is under it */
-    bool now;   /* they are what the last picture shows, of what was asked; else the next one knows more */
-    bool asked; /* it is known whether there is a place under the mouse, in this picture or the one before: */
+    bool mouse; /* the last answer is for the mouse */
+    bool now;   /* the answers are for the last picture and these questions; false: the next picture knows
+                   more */
+    bool asked; /* `placed` is known, from the last picture or the one before: true if a position is under
+                   the mouse */
     bool placed;
     double place[3];
     ViewProbe probe[VIEW_PROBES_MAX];
 } ViewProbes;
 
-/* How the renderer finds values in the picture of a view that has no probe of its own. */
+/* How the renderer finds values for a view without a probe function. */
 typedef struct ViewProbing {
     enum {
         VIEW_PROBE_NOTHING,
-        VIEW_PROBE_BALL, /* at a place within the ball of a particle that one's own; else there is no fluid */
-        VIEW_PROBE_MEAN  /* the mean by the method's kernel (Shepard 1968), of fluids the nearest one */
+        VIEW_PROBE_BALL, /* within a particle's ball, the particle's value; elsewhere no fluid */
+        VIEW_PROBE_MEAN  /* the mean by the method's kernel (Shepard 1968); for `fluid`, the nearest
+                            particle */
     } by;
-    unsigned radii; /* GL buffer, of balls: a float each, m; 0: all have Frame.particle_radius */
+    unsigned radii; /* GL buffer of ball radii: one float each, m; 0: all have Frame.particle_radius */
 } ViewProbing;
 
-/* A file of volume data that settings name, and where the data go. */
+/* A volume file named in the settings, and the destination of the data. */
 typedef struct ViewFile {
-    char key[64]; /* below the view's */
+    char key[64]; /* relative to the view's keys */
     const char *name;
-    const RangedVolume **data; /* NULL: it could not be read */
-    const char *wrong;         /* why there may be none there; NULL: there may */
+    const RangedVolume **data; /* the pointer to set; NULL data: the file could not be read */
+    const char *wrong;         /* reason why no file is allowed here; NULL: a file is allowed */
 } ViewFile;
 
 enum { VIEW_FILES_MAX = 8 };
 
 typedef struct ViewKind {
     const char *name, *help;
-    const Key *keys;         /* of its own settings, ended by a row without a path; NULL: it has none */
-    const ViewGrade *grades; /* of these keys, ended by a row without a path; NULL: none */
-    const void *def;         /* the struct of these settings with its defaults */
+    const Key *keys;         /* own settings, ended by a row without a path; NULL: none */
+    const ViewGrade *grades; /* grades of these keys, ended by a row without a path; NULL: none */
+    const void *def;         /* defaults of the settings struct */
     size_t def_size;         /* bytes; at most VIEW_OWN_SIZE */
-    /* False, with the reason and the key at fault, where no driver could draw the subject; NULL: all can be
-     * drawn. */
+    /* Returns false, with the reason and the key at fault, if no driver can draw the subject; NULL: all
+       subjects can be drawn. */
     bool (*check)(const Subject *subject, const char **key, Error *error);
-    /* The files that the def names, to be read with the scene; how many. NULL: none. */
+    /* The files named in the def, to be read with the scene. Returns their number. NULL: none. */
     int (*files)(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
-    /* Whether view.color_by: auto is the fluids' own colours; NULL: it is the speed. */
+    /* True if view.color_by: auto means the fluids' own colours; NULL: auto means speed. */
     bool (*own_colors)(const ViewDef *def);
-    /* Changes what the view draws with for a draft or for the best, of keys at their defaults; NULL: nothing.
-     */
+    /* Changes keys that have their defaults, for a draft or for best quality; NULL: no change. */
     void (*quality)(ViewDef *def, ViewQuality quality);
-    /* Whether it is as dear to draw as clear fluid, which a moving window draws as a draft on a software
-       driver; NULL: it is not. */
+    /* True if drawing costs as much as clear fluid, which a moving window draws as a draft on a software
+       driver; NULL: never. */
     bool (*dear)(const ViewDef *def);
-    double radius;                /* of a particle, in spacings, where ViewDef.radius is 0 */
-    unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: of the def's curves those that it draws */
-    const KeyOwner *curves_where; /* in use where it does; NULL: always */
-    /* Changes the radii, which are those of balls so far; NULL: particles are such balls. */
+    double radius;                /* particle radius in spacings if ViewDef.radius is 0 */
+    unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: the def's curves that the view draws */
+    const KeyOwner *curves_where; /* owner of the condition for drawing the curves; NULL: always drawn */
+    /* Changes the radii, which are preset to the radii of balls; NULL: particles are balls. */
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
-    /* The shapes of particles, where a GPU needs more memory for them than for balls; NULL: they are balls.
-     */
+    /* The drawn shapes of particles if a GPU needs more memory for these than for balls; NULL: balls. */
     const ViewShapes *(*shapes)(const ViewDef *def);
-    /* The state behind a View, or NULL with the reason. It stays while the world has solids or has none: a
-       view looks there for what it needs to stand with them. */
+    /* Returns the view's state, or NULL with the reason. The program makes a new state when the world gets
+       its first solid or loses its last: create may set up what solids need. */
     void *(*create)(const Subject *subject, Error *error);
     void (*destroy)(void *state);
-    /* Once a picture, before the rest: what cast and draw need, within a stage of frame->timer. May be NULL.
-     */
+    /* Called once per picture, first: prepares data for cast and draw, within a stage of frame->timer. May
+       be NULL. */
     void (*prepare)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Whether a view made for `a` may draw `b`, both with defs of this kind, as far as keys with KEY_REBUILD
-       do not say so; NULL: it may. What else differs is read anew for each picture. */
+    /* True if a view made for `a` may draw `b`. Both defs are of this kind; KEY_REBUILD keys are compared
+       elsewhere. NULL: always. All other settings are read again for each picture. */
     bool (*same)(const Subject *a, const Subject *b);
-    /* Adds what the view reads of particles beside what colours, opacity and size are by. NULL: nothing. */
+    /* Adds the particle data that the view reads, except for colours, opacity and size. NULL: none. */
     void (*want)(const ViewDef *def, ParticleWants *wants);
-    /* Whether the view, as it was made, can draw the subject; NULL: it always can. */
+    /* True if the view in its present state can draw the subject; NULL: always. */
     bool (*accepts)(void *state, const Subject *subject, Error *error);
-    /* Says in the frame what colours and legend show, where that is not the def's scalar; NULL: it is. */
+    /* Sets in the frame what colours and legend show, if not the def's scalar; NULL: the def's scalar. */
     void (*show)(const ViewDef *def, Frame *frame);
-    /* Draws what casts shadows, into the map of render/frame/shadow.h; NULL: nothing does. */
+    /* Draws the shadow casters into the map of render/frame/shadow.h; NULL: no shadows. */
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Draws colour and depth into frame->target, within its own stages of frame->timer. */
+    /* Draws colour and depth into frame->target, within the view's stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* The same of what lies before overlays and edges (Frame.over_depth), which are drawn behind `draw`: that
-       leaves it out. NULL: they are tested against the depth that `draw` leaves. */
+    /* Draws the parts in front of overlays and edges (Frame.over_depth), which are drawn after `draw`;
+       `draw` leaves these parts out. NULL: overlays and edges are tested against the depth that `draw`
+       leaves. */
     void (*draw_front)(void *state, const Frame *frame);
-    /* Whether a further picture of the same would be better than the last, where Frame.more. NULL: none is.
-     */
+    /* True if a further picture of the same state would be better than the last (with Frame.more). NULL:
+       never. */
     bool (*unfinished)(const void *state);
-    /* What the legend is to say of the picture that was drawn, static; may wait for it. With `behind` it does
-       not: what it says may be of a picture before then, and *behind becomes true. NULL: nothing. May be
-       NULL.
-     */
+    /* Legend text about the picture just drawn, static; NULL result: no text. May wait for the GPU. With
+       `behind`: does not wait, may describe an earlier picture, and then sets *behind. May be NULL. */
     const char *(*note)(void *state, bool *behind);
-    /* What the last picture lacks of what the def asks for, words of one line, static; NULL: nothing. May be
-       NULL. */
+    /* What the last picture lacks of the def's wishes, in words of one line, static; NULL result: nothing.
+       May be NULL. */
     const char *(*lacks)(const void *state);
-    /* What of it the mouse may take in the window, at most HANDLES_MAX; how many. NULL: nothing. */
+    /* The handles for the mouse, at most HANDLES_MAX. Returns their number. NULL: none. */
     int (*handles)(const ViewDef *def, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);
-    /* The live settings, at most VIEW_SETTINGS_MAX, by which handle `index`, as it was when it was taken,
-       comes to `at`; how many. */
+    /* The live settings, at most VIEW_SETTINGS_MAX, that move handle `index` from its state `taken` to
+       `at`. Returns their number. */
     int (*drag)(const ViewDef *def, const ParticleBuffers *particles, int index, const Handle *taken,
                 const double at[3], ViewSetting settings[VIEW_SETTINGS_MAX]);
-    /* The same of a key's step; NULL: there is no plane. */
+    /* As drag, for a key's step; NULL: no plane. */
     int (*step)(const ViewDef *def, const ParticleBuffers *particles, ViewStep step,
                 ViewSetting settings[VIEW_SETTINGS_MAX]);
-    /* The place that the last picture shows at a pixel; false: none whose value is known. NULL: there are
-     * none. */
+    /* The position that the last picture shows at a pixel. Returns false if no position has a known value.
+       NULL: always false. */
     bool (*pick)(const void *state, const double pixel[2], double at[3]);
-    /* What the last picture shows at at most VIEW_PROBES_MAX places; how many are known. Waits for nothing:
-       on a GPU they may be those of the picture before, with the places of then. NULL: none is ever known. */
+    /* The values that the last picture shows at `count` positions, at most VIEW_PROBES_MAX. Returns how
+       many are known. Never waits: on a GPU the values may be of the previous picture, at the positions
+       asked then. NULL: never known. */
     int (*probe)(void *state, const double (*at)[3], int count, ViewProbe *out);
-    /* How values are found where there is no such probe. NULL: none are. */
+    /* How to find values without `probe`. NULL: no values. */
     ViewProbing (*probing)(const void *state, const ViewDef *def);
 } ViewKind;
 
 extern const ViewKind *const view_list[]; /* ended by NULL; the first is the default */
 
-/* Makes one known behind those of the list, unless it is, up to the program's end: before the first scene is
-   read, for what is no part of the program, as tests. */
+/* Adds a kind after the list until the program ends, unless already added. Call before the first scene is
+   read; for kinds outside the program, such as tests. */
 void view_add(const ViewKind *kind);
 
-/* Kind number `index` of the list and of those added; NULL behind the last. */
+/* Kind number `index` of the list and the added kinds; NULL after the last. */
 const ViewKind *view_at(int index);
 
-/* The view's own settings in a def; not const, as memchr's result is not. NULL where it is not known. */
+/* The view's own settings in a def; not const, like memchr's result. NULL if the kind is unknown. */
 void *view_own(const ViewDef *def, const ViewKind *kind);
 
-/* Fills in the first kind, and the defaults of all views' own settings. */
+/* Sets the first kind, and the defaults of all views' own settings. */
 void views_default(ViewDef *def);
 
-/* The kind of that name, or NULL. */
+/* The kind called `name`, or NULL. */
 const ViewKind *view_find(const char *name);
 
-/* NULL on failure: an unknown kind or colormap, a shader that does not compile. */
+/* Returns NULL on failure: unknown kind or colormap, or a shader does not compile. */
 View *view_create(const Subject *subject, Error *error);
 void view_destroy(View *view); /* NULL is allowed */
 const ViewKind *view_kind(const View *view);
 
-/* The radii of particles as that kind of view draws them; `kind` may be NULL, for no view. */
+/* The radii of particles as drawn by `kind`; NULL: no view. */
 ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles);
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
-/* Whether a view made for `a` may draw `b`. */
+/* True if a view made for `a` may draw `b`. */
 bool view_same(const Subject *a, const Subject *b);
 bool view_accepts(View *view, const Subject *subject, Error *error);
-/* Adds what the def's view reads of particles; nothing where it is not known. */
+/* Adds the particle data that the def's view reads; nothing for an unknown view. */
 void view_want(const ViewDef *def, ParticleWants *wants);
 void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
@@ -228,7 +230,7 @@ const char *view_note(View *view, bool *behind);
 const char *view_lacks(const View *view);
 bool view_unfinished(const View *view);
 bool view_pick(const View *view, const double pixel[2], double at[3]);
-/* -1: none is ever known. */
+/* Returns -1 if values are never known. */
 int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out);
 ViewProbing view_probing(const View *view, const ViewDef *def);
 

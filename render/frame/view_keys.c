@@ -1,4 +1,4 @@
-/* Keys of the picture, whichever the view. */
+/* Picture keys that all views share. */
 #include "render/frame/colormap.h"
 #include "render/frame/view.h"
 #include "render/frame/view_def.h"
@@ -76,7 +76,7 @@ const Key view_keys[] = {
     KEYS_END,
 };
 
-/* Those that people see behind the views' own. */
+/* Keys that the docs list after the views' own keys. */
 const Key view_frame_keys[] = {
     BOOLEAN("view.legend", L, AT(legend), "draw the legend"),
     BOOLEAN("view.box", L, AT(box), "draw the box's edges"),

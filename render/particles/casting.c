@@ -42,7 +42,7 @@ void casting_draw(const Casting *casting, const ParticleBuffers *particles)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, CAST_STORAGE, casting->texels);
     glBindTextureUnit(CAST_UNIT, casting->rows);
     glUseProgram(casting->write);
-    particle_bind(casting->write, particles, SCALAR_SPEED); /* none is read */
+    particle_bind(casting->write, particles, SCALAR_SPEED); /* no scalar is read */
     glUniform1ui(CASTERS_AT, (GLuint)particles->count);
     work_run_scattered(particles->count);
     glUseProgram(casting->show);

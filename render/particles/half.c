@@ -33,7 +33,7 @@ void particle_half_run(ParticleHalf *half, const ParticleBuffers *particles, con
     }
     out->position = (ParticleAttribute){half->positions, 0, sizeof(float[4])};
     glUseProgram(half->program);
-    particle_bind(half->program, particles, SCALAR_SPEED); /* none is read */
+    particle_bind(half->program, particles, SCALAR_SPEED); /* no scalar is read */
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, HALF_STORAGE, half->positions);
     glUniform4f(HALF_PLANE_AT, (GLfloat)normal[0], (GLfloat)normal[1], (GLfloat)normal[2], (GLfloat)most);
     glUniform1ui(HALF_COUNT_AT, (GLuint)particles->count);

@@ -59,7 +59,8 @@ static void reserve(Neighbourhood *n, size_t count, size_t cells)
     }
 }
 
-/* Cells of an edge of h; larger where the box is so wide that most would be empty. Returns how many. */
+/* Cells with an edge of h; larger if the box is so wide that most cells would be empty. Returns the number
+   of cells. */
 static size_t make_grid(Neighbourhood *n, const ParticleBuffers *particles)
 {
     const double *box = particles->box_size, corner[3] = {-box[0] / 2, 0, -box[2] / 2};

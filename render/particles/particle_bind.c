@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* A block that a program declares has a buffer, whether it is read or not: without one some drivers spoil
-   others. Positions stand in for what is not there. */
+/* Each block that a program declares gets a buffer, even if the shader does not read the block: an unbound
+   block makes some drivers spoil other blocks. Positions replace a missing attribute. */
 static void bind_attribute(GLuint binding, const ParticleAttribute *attribute,
                            const ParticleBuffers *particles)
 {
@@ -82,7 +82,7 @@ static void fill(uint32_t *index, size_t count)
         index[i] = (uint32_t)(4 * (i / 6)) + corners[i % 6];
 }
 
-/* Grows when the particles do. */
+/* Makes the index buffer again for more particles. */
 static void reserve(QuadIndices *indices, size_t count)
 {
     const GLsizeiptr size = (GLsizeiptr)(6 * count * sizeof(uint32_t));

@@ -1,10 +1,10 @@
-/* What of particles goes with a scalar by a curve of control points (ViewDef.size, ViewDef.opacity): one pass
-   over the particles for each that a def has, nothing where it has none.
+/* Size and opacity of particles by a scalar, through a curve of control points (ViewDef.size,
+   ViewDef.opacity). One pass over the particles for each curve of a def, none without curves.
 
-   Sizes are radii for shaders with DROPS (shaders/common/ball.glsl). Opacities are shares of the pixels of a
-   particle that it covers, by a screen-door of its own (shaders/common/veil.glsl): nothing is sorted, what is
-   covered is whole, and many that lie one behind the other look as if they were blended. Such a door stands
-   still where the particle's id and the picture's pixels do. */
+   Sizes are radii for shaders with DROPS (shaders/common/ball.glsl). Opacity is the share of a particle's
+   pixels that the particle covers, by a screen-door per particle (shaders/common/veil.glsl). Nothing is
+   sorted, and covered pixels are opaque; many particles behind each other look blended. The screen-door
+   stands still while the particle's id and the pixels do. */
 #ifndef SLOSH_PARTICLE_CURVES_H
 #define SLOSH_PARTICLE_CURVES_H
 
@@ -13,7 +13,8 @@
 
 typedef struct ParticleCurve {
     unsigned program; /* 0: the def has no such curve */
-    unsigned values;  /* buffer: a float each, m; of opacity two: it, and where the particle's door begins */
+    unsigned values;  /* buffer: size: a float per particle, m; opacity: two floats, the opacity and the
+                         start of the particle's screen-door */
     size_t capacity;  /* particles */
 } ParticleCurve;
 
@@ -21,31 +22,31 @@ typedef struct ParticleCurves {
     ParticleCurve size, opacity;
 } ParticleCurves;
 
-/* For shaders that read them: DROPS, VEILED. A constant. */
+/* The defines for shaders that read the values: DROPS, VEILED. Static string. */
 const char *particle_curves_defines(const ViewDef *def);
 
-/* The greatest factor of a radius for these particles. */
+/* The largest factor of a radius over these particles. */
 double particle_curves_reach(const ViewDef *def, const ParticleBuffers *particles);
 
-/* False when a shader does not compile; particle_curves_destroy is needed in either case. */
+/* Returns false if a shader does not compile; call particle_curves_destroy in either case. */
 bool particle_curves_create(ParticleCurves *curves, const ViewDef *def, Error *error);
 void particle_curves_destroy(ParticleCurves *curves);
 
-/* Makes both for these particles, by the frame's def and ranges. Particles without the scalar are as large
-   and as opaque as they would be without the curve; a scalar that is NaN counts as the high end of its
+/* Computes sizes and opacities of these particles, from the frame's def and ranges. Particles without the
+   scalar keep the size and opacity of a def without curves. A NaN scalar counts as the high end of the
    range. */
 void particle_curves_make(ParticleCurves *curves, const ParticleBuffers *particles, const Frame *frame);
 
-/* Gives the program in use that curve over that range, its y in units of `unit`: shaders/common/curve.glsl.
-   Where it is not `there` the curve is 1. */
+/* Sets the uniforms of shaders/common/curve.glsl in the program in use: the curve over `range`, y in units
+   of `unit`. If not `there`, the curve is 1. */
 void particle_curve_set(const ScalarCurve *said, const double range[2], double unit, bool there);
 
-/* Runs a form of shaders/render/particle_curve.comp for that curve over all particles, into what the caller
-   has bound; the curve's y count in units of `unit`. */
+/* Runs a variant of shaders/render/particle_curve.comp over all particles, into the buffers that the
+   caller has bound. The curve's y is in units of `unit`. */
 void particle_curve_run(unsigned program, const ScalarCurve *said, const double range[2], double unit,
                         const ParticleBuffers *particles);
 
-/* Binds them for shaders. */
+/* Binds sizes and opacities for shaders. */
 void particle_curves_bind(const ParticleCurves *curves);
 
 #endif

@@ -3,12 +3,13 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-enum { PART = 4096 }; /* particles at a time */
+enum { PART = 4096 }; /* particles per read */
 
-/* The best so far. */
+/* The best particles so far. */
 typedef struct Found {
-    double radius, depth, beside; /* m: of a ball; along the ray to it, to the nearest beside the ray */
-    size_t first, near;           /* which; SIZE_MAX: none */
+    double radius, depth, beside; /* m: ball radius; distance along the ray to the first ball; distance of
+                                     the nearest centre from the ray */
+    size_t first, near;           /* particle numbers; SIZE_MAX: none */
 } Found;
 
 static void look_at(Found *found, const SightRay *ray, const float at[3], size_t number)
@@ -20,7 +21,7 @@ static void look_at(Found *found, const SightRay *ray, const float at[3], size_t
         square += from[k] * from[k];
     }
     const double beside = sqrt(fmax(square - along * along, 0)), inside = found->radius - beside;
-    if (!(along > 0 && beside < 3 * found->radius)) /* NaN too */
+    if (!(along > 0 && beside < 3 * found->radius)) /* also rejects NaN */
         return;
     const double depth = along - sqrt(fmax(inside * (found->radius + beside), 0));
     if (inside >= 0 && depth < found->depth) {
@@ -39,7 +40,7 @@ static void read_part(const ParticleAttribute *from, size_t first, size_t count,
                             (GLsizeiptr)(count * from->stride), to);
 }
 
-/* Its number, or SIZE_MAX. */
+/* Returns the particle's number, or SIZE_MAX. */
 static size_t number_under(const ParticleBuffers *particles, const SightRay *ray, double radius)
 {
     float places[4 * PART];

@@ -1,8 +1,9 @@
-/* Who may touch which slot of a ring of four, when a solver and a view run at their own pace.
+/* Ownership of the slots in a ring of four, for a writer thread (solver) and a drawing thread that run at
+   different rates.
 
-   The writer always finds a free slot and never waits: of the others one at most is the newest state, one is
-   drawn, one is in flight (a GPU may still read it). What is overwritten is the newest state that nobody
-   took. One thread writes, one thread draws. */
+   The writer always finds a free slot and never waits. Of the three other slots, one may hold the newest
+   state, one may be drawn, and one may be in flight (the GPU may still read from the slot). The writer
+   overwrites the newest state that was not drawn. */
 #ifndef SLOSH_SLOTS_H
 #define SLOSH_SLOTS_H
 
@@ -19,19 +20,18 @@ typedef struct Slots {
 void slots_create(Slots *slots);
 void slots_destroy(Slots *slots);
 
-/* For the writer: `begin` gives a slot that nobody reads; with `end` this slot is the newest. */
+/* For the writer: `begin` returns a slot without readers; `end` makes this slot the newest. */
 int slots_write_begin(Slots *slots);
 void slots_write_end(Slots *slots);
 
-/* The drawing thread: whether a state waits that was not drawn yet. */
+/* For the drawing thread: true if a state waits that was not drawn yet. */
 bool slots_fresh(Slots *slots);
 
-/* The drawing thread: makes the newest state, if there is one, the drawn one, and what was drawn before the
-   one in flight. slots_landed must have ended an earlier flight. Returns the drawn slot, SLOT_NONE before the
-   first. */
+/* For the drawing thread: draws the newest state, if any, and marks the slot drawn before as in flight.
+   Call slots_landed for an earlier flight first. Returns the drawn slot, SLOT_NONE before the first state. */
 int slots_draw(Slots *slots);
 
-/* The drawing thread: the GPU reads the slot in flight no more. */
+/* For the drawing thread: the GPU has finished reading the slot in flight. */
 void slots_landed(Slots *slots);
 
 #endif

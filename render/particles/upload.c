@@ -11,11 +11,11 @@
 typedef struct Slot {
     GLuint buffer;
     char *bytes;           /* mapped for the buffer's whole life */
-    ParticleBuffers state; /* what stands in it */
-    Births births;         /* of a world's */
+    ParticleBuffers state; /* state in the slot */
+    Births births;         /* birth times, of a world */
 } Slot;
 
-/* Offsets in each slot, bytes; SIZE_MAX for what is not carried. */
+/* Offsets in each slot, bytes; SIZE_MAX: the attribute is not carried. */
 typedef struct Layout {
     size_t position, velocity, fluid, id, scalar[SCALAR_STATE_COUNT];
     size_t size;
@@ -26,16 +26,16 @@ struct Upload {
     unsigned attributes;
     Layout layout;
     Slots turn;
-    GLsync fence; /* behind the last drawing from the slot in flight, or NULL */
-    int drawn;    /* slot, or SLOT_NONE; of the drawing thread */
+    GLsync fence; /* after the last drawing from the slot in flight, or NULL */
+    int drawn;    /* slot, or SLOT_NONE; used by the drawing thread only */
     Slot slots[SLOTS];
-    GLuint device; /* the drawn slot's state in memory of the GPU; 0: it is drawn from the slot */
+    GLuint device; /* copy of the drawn slot in GPU memory; 0: draw from the slot */
     ParticleBuffers drawn_state;
 };
 
 static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
 {
-    enum { ALIGNMENT = 256 }; /* of storage-buffer ranges, at most, by the standard */
+    enum { ALIGNMENT = 256 }; /* largest alignment of storage-buffer ranges that the GL standard allows */
     if (!wanted)
         return SIZE_MAX;
     size_t offset = layout->size;
@@ -102,7 +102,7 @@ bool upload_set_copies(Upload *upload, bool copies, Error *error)
     upload->device = 0;
     if (!copies)
         return true;
-    gl_debug_errors(); /* what is asked below is of this buffer */
+    gl_debug_errors(); /* drops earlier errors: the query below is for this buffer */
     glCreateBuffers(1, &upload->device);
     glObjectLabel(GL_BUFFER, upload->device, -1, "drawn particles");
     glNamedBufferStorage(upload->device, (GLsizeiptr)upload->layout.size, NULL, 0);
@@ -177,7 +177,7 @@ bool upload_write(Upload *upload, World *world, Error *error)
         return false;
     Slot *slot = &upload->slots[slots_write_begin(&upload->turn)];
     ParticleArrays arrays = slot_arrays(upload, slot);
-    arrays.scalar[SCALAR_BORN] = NULL; /* by ids */
+    arrays.scalar[SCALAR_BORN] = NULL; /* births come by id */
     if (!world_read(world, &arrays) || !world_births(world, &slot->births))
         return error_set(error, "no memory to read %zu particles", info.count);
     ParticleBuffers *out = &slot->state;
@@ -239,7 +239,7 @@ static void carry(const Upload *upload, ParticleAttribute *attribute, size_t cou
     attribute->buffer = upload->device;
 }
 
-/* GL draws from there in its order, so that one such buffer is enough. */
+/* One buffer is enough: GL runs copies and draws in order. */
 static void carry_over(Upload *upload)
 {
     ParticleBuffers *state = &upload->drawn_state;

@@ -15,7 +15,7 @@ void work_buffer_remake(unsigned *buffer, size_t size, const char *label)
 
 bool work_buffer_ask(unsigned *buffer, size_t size, const char *label)
 {
-    gl_debug_errors(); /* what is asked below is of this buffer */
+    gl_debug_errors(); /* drops earlier errors: the query below is for this buffer */
     gl_debug_asks_for_memory(true);
     work_buffer_remake(buffer, size, label);
     const bool none = gl_errors_take(GL_OUT_OF_MEMORY) > 0;
@@ -51,8 +51,8 @@ static size_t common_divisor(size_t a, size_t b)
     return b ? common_divisor(b, a % b) : a;
 }
 
-/* Near the golden section: parts of the groups that are done are spread evenly over all. The products stay
-   below 2^32. */
+/* A step near the golden section of the number of groups: at any time the finished groups are spread
+   evenly over all. The products stay below 2^32. */
 static size_t scatter_step(size_t groups)
 {
     size_t step = groups < 65536 ? groups * 618 / 1000 + 1 : 1;

@@ -1,30 +1,30 @@
-/* What views compute on the GPU before they draw: buffers that only shaders write, and rows of workgroups. */
+/* Compute work of views before drawing: buffers that only shaders write, and rows of workgroups. */
 #ifndef SLOSH_WORK_H
 #define SLOSH_WORK_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Replaces *buffer (0: none yet) by one of `size` bytes whose contents are not defined. */
+/* Replaces *buffer (0: no buffer yet) by a buffer of `size` bytes with undefined contents. */
 void work_buffer_remake(unsigned *buffer, size_t size, const char *label);
 
-/* The same where there may be no memory for it: false, and *buffer is 0. */
+/* As work_buffer_remake, for a buffer that may not fit into memory: then returns false, and *buffer is 0. */
 bool work_buffer_ask(unsigned *buffer, size_t size, const char *label);
 
-/* How many buffers are to have room for that have it for `capacity` (0: none yet) and need it for `count`,
-   which is more: half as much again, so that where particles are poured in not every picture makes them anew.
- */
+/* The new capacity of buffers that have room for `capacity` (0: no buffer yet) and need `count`, which is
+   larger: at least half as much again, so that pouring in particles does not remake buffers for each
+   picture. */
 size_t work_capacity(size_t capacity, size_t count);
 
-/* Runs that many workgroups of the current program, and lets shaders read from buffers what it wrote. A
-   driver may allow 65,535 along an axis only: beyond 32,768 they stand in rows along y, the last of which may
-   be longer than needed. */
+/* Runs `groups` workgroups of the current program; then a memory barrier lets shaders read the buffers. A
+   driver may allow only 65,535 workgroups along an axis: more than 32,768 are placed in rows along y, and
+   the last row may be longer than needed. */
 void work_dispatch(size_t groups);
 
-/* The same for so many invocations, of which a workgroup has 64. */
+/* As work_dispatch, with a number of invocations; a workgroup has 64. */
 void work_run(size_t invocations);
 
-/* The same for a program of shaders/common/scattered.glsl, which is in use. */
+/* As work_run, for the program in use, which includes shaders/common/scattered.glsl. */
 void work_run_scattered(size_t invocations);
 
 #endif
