@@ -9,7 +9,7 @@
 
 enum { FIND, SMOOTH, GATHER, COMPOSE };
 
-static const double SMOOTHED = 6; /* spacings; the weights' standard deviation is a third of that */
+static const double SMOOTHED = 6; /* half the width in spacings; three standard deviations of the weights */
 
 static void create_map(Caustics *caustics, int map, GLenum format, const char *label)
 {
@@ -81,7 +81,7 @@ static void smooth(const Caustics *caustics, const Frame *frame, double spacing)
     }
 }
 
-/* Twice as high above the floor as the fluid would be at rest, m. */
+/* Twice the height above the floor that the fluid would have at rest, m. */
 static double highest(const Frame *frame, const ParticleBuffers *particles)
 {
     const double *box = particles->box_size, side = particles->spacing;

@@ -8,9 +8,9 @@
 
 #include <epoxy/gl.h>
 
-/* m/s, at ViewDef.foam 1: where foam begins, and where there is no more of it. Turbulence of about a metre a
-   second breaks a surface of water against its weight and tension: Brocchini and Peregrine, The dynamics of
-   strong turbulence at free surfaces, 2001. */
+/* m/s, at ViewDef.foam 1: speeds where foam starts and is complete. Turbulence of about a metre per second
+   breaks a water surface against weight and tension: Brocchini and Peregrine, The dynamics of strong
+   turbulence at free surfaces, 2001. */
 static const double AIR_FROM = 0.15, AIR_TO = 0.55, SPEED_FROM = 0.2, SPEED_TO = 0.8;
 
 bool foam_create(Foam *foam, Error *error)
@@ -59,7 +59,7 @@ void foam_want(ParticleWants *wants)
 
 /* ---- depths ---- */
 
-/* A copy, since what a pass tests or could write it may not read. */
+/* A copy: a pass may not read the texture that its depth test uses. */
 static void copy_depth(GLuint *copy, const Frame *frame, const char *label)
 {
     const Target *target = frame->target;

@@ -1,5 +1,5 @@
-/* The panes of a box of glass: faint mirrors of sky and floor, by Fresnel's formula. Blends colour, tests
-   depth, leaves it as it is. Their edges are those of render/frame/edges.h. */
+/* The panes of a glass box: faint reflections of sky and floor, by Fresnel's formula. Blends colour; tests
+   depth but writes none. The edges of the panes: render/frame/edges.h. */
 #ifndef SLOSH_GLASS_H
 #define SLOSH_GLASS_H
 
@@ -7,16 +7,16 @@
 #include "sim/base/error.h"
 
 typedef struct Glass {
-    unsigned program; /* 0: not made yet */
+    unsigned program; /* 0: not created yet */
     unsigned vertex_array;
 } Glass;
 
-/* False when a shader does not compile. Nothing is done where it is made already. */
+/* Returns false if a shader does not compile. Does nothing if already created. */
 bool glass_create(Glass *glass, Error *error);
-void glass_destroy(Glass *glass); /* zeroed is allowed */
+void glass_destroy(Glass *glass); /* a zeroed struct is allowed */
 
-/* Draws the panes that face away from the eye (`behind`: before what is in the box) or the others (after it).
- */
+/* `behind`: draws the panes that face away from the eye (call before drawing the box's contents); else the
+   panes that face the eye (call after). */
 void glass_draw(const Glass *glass, const Frame *frame, bool behind);
 
 #endif

@@ -58,7 +58,7 @@ static GLuint chunks_of(size_t count)
     return (GLuint)((count + CHUNK - 1) / CHUNK);
 }
 
-/* In whole texels of `rows`. */
+/* Rounded up to whole texels of `rows`. */
 static size_t cells_of(const Grid *grid)
 {
     return (size_t)(grid->columns + 3) / 4 * 4 * grid->rows;
@@ -86,8 +86,8 @@ static GLuint clamp_to(double value, double low, double high)
     return (GLuint)fmax(low, fmin(value, high)); /* `low` for NaN */
 }
 
-/* Cells so large that the smallest sprite, `least` pixels wide within all of its rim, covers one wherever it
-   is: that has side + (side - 1) pixels. */
+/* The largest cells such that the smallest sprite, `least` pixels wide inside its rim, always covers a
+   whole cell: needs side + (side - 1) pixels. */
 static Grid make_grid(double width, double height, double least)
 {
     const double coarse = ceil(fmax(width, height) / CELLS_A_SIDE);
@@ -161,7 +161,7 @@ static void make(Cull *cull, const Grid *grid, const ParticleBuffers *particles,
     test(cull, grid, particles, frame, eps, vertices, hidden);
 }
 
-/* Pixels across of a sphere at that distance in the middle of the picture. */
+/* Diameter in pixels of a sphere at `distance` in the middle of the picture. */
 static double pixels_across(const Frame *frame, double distance)
 {
     return frame->particle_radius / fmax(distance, frame->camera.near_plane) / frame->camera.tangent[1] *

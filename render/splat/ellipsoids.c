@@ -9,7 +9,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-#define LEAST "#define LEAST 1e-3\n" /* of the largest: a sphere of no size has no normal */
+#define LEAST "#define LEAST 1e-3\n" /* fraction of the largest: a sphere of size 0 has no normal */
 
 const char *ellipsoids_defines(const SplatDef *def)
 {
@@ -63,9 +63,9 @@ static void reserve(Ellipsoids *ellipsoids, size_t count)
     work_buffer_remake(&ellipsoids->shapes, ellipsoids->capacity * floats * sizeof(GLfloat), "splat shapes");
 }
 
-/* The sum of weights from which on a particle belongs to the fluid: a quarter of what a lattice has, less
-   than at its corners or in a sheet one particle thick. The integral of 1 - q^3 over the ball, less the
-   particle itself. */
+/* A particle with at least this sum of weights belongs to the fluid: a quarter of the sum in a lattice,
+   less than at a lattice corner or in a sheet one particle thick. The integral of 1 - q^3 over the ball,
+   minus the particle itself. */
 static double full_sum(const ParticleBuffers *particles, bool flat)
 {
     static const double pi = 3.14159265358979323846;
@@ -73,7 +73,7 @@ static double full_sum(const ParticleBuffers *particles, bool flat)
     return 0.25 * fmax(flat ? 0.6 * pi * q * q - 1 : 2 * pi / 3 * q * q * q - 1, 1);
 }
 
-/* Of a drop of one particle; a disc in two dimensions. */
+/* Radius of a one-particle drop; of a disc in two dimensions. */
 static double drop_radius(const ParticleBuffers *particles, bool flat)
 {
     return particles->spacing * (flat ? 0.5641896 : 0.6203505); /* pi r^2 = 1; 4/3 pi r^3 = 1 */

@@ -1,11 +1,10 @@
-/* What stands for each particle in the view splat where it is not a sphere of the view's radius: an ellipsoid
-   from the covariance of its neighbours, after Yu and Turk, Reconstructing surfaces of particle-based fluids
-   using anisotropic kernels, 2013; or, of a particle with few neighbours, a ball on its way to the drop that
-   it is: one of its own volume, spacing^3. Both fade with the neighbours' weights, so that nothing pops.
-   Ellipsoids beside a wall of the box have images behind it for neighbours: a level is as flat there as
-   elsewhere.
+/* Shapes of the particles in the view splat, if not spheres of the view's radius. Ellipsoid: from the
+   covariance of the neighbours, after Yu and Turk, Reconstructing surfaces of particle-based fluids using
+   anisotropic kernels, 2013. Drop: a particle with few neighbours shrinks to a ball of its own volume,
+   spacing^3. Both change smoothly with the neighbours' weights, so that nothing pops. Ellipsoids beside a
+   wall of the box have mirror images as neighbours: a level surface is as flat at the wall as elsewhere.
 
-   That volume is not the solver's 1 / n: without neighbours to sum up, it is several times as large. */
+   The drop's volume is not the solver's 1 / n, which is several times too large without neighbours. */
 #ifndef SLOSH_ELLIPSOIDS_H
 #define SLOSH_ELLIPSOIDS_H
 
@@ -15,33 +14,32 @@
 
 typedef struct Ellipsoids {
     SplatDef def;
-    Neighbourhood neighbourhood; /* where ellipsoids_wanted */
-    unsigned program;            /* where ellipsoids_crowded */
-    unsigned scale;              /* program, of sizes by a scalar; else 0 */
-    unsigned shapes; /* buffer: see shaders/common/ball.glsl; three vec4 a particle, with drops alone a
-                        float */
+    Neighbourhood neighbourhood; /* if ellipsoids_wanted */
+    unsigned program;            /* if ellipsoids_crowded */
+    unsigned scale;              /* program for sizes by a scalar, else 0 */
+    unsigned shapes; /* buffer, see shaders/common/ball.glsl: three vec4 per particle, or one float if only
+                        drops */
     size_t capacity;
 } Ellipsoids;
 
-/* For shaders that include common/ball.glsl; none is longer than 60 characters. */
+/* Defines for shaders that include common/ball.glsl; at most 60 characters. */
 const char *ellipsoids_defines(const SplatDef *def);
 
-/* What the radius of a view whose sizes go with a scalar is multiplied by: it is then that of the largest,
-   and all are within it. 1 without. */
+/* Factor of the view's radius for sizes by a scalar: the result is the largest radius, an upper bound of
+   all. 1 without sizes. */
 double ellipsoids_unit(const ViewDef *def, const ParticleBuffers *particles);
 
 /* The longest axis of an ellipsoid, in radii of the view: of axes 5 : 1 : 1. */
 #define ELLIPSOID_REACH 2.95
 
-/* False when a shader does not compile; ellipsoids_destroy is needed in either case. */
+/* Returns false if a shader does not compile; call ellipsoids_destroy in either case. */
 bool ellipsoids_create(Ellipsoids *ellipsoids, const SplatDef *def, Error *error);
 void ellipsoids_destroy(Ellipsoids *ellipsoids);
 
-/* Makes the ellipsoids of these particles from their positions; nothing where the view wants no ellipsoids.
- */
+/* Makes the ellipsoids from the particles' positions; does nothing if the view has no ellipsoids. */
 void ellipsoids_make(Ellipsoids *ellipsoids, const ParticleBuffers *particles, const Frame *frame);
 
-/* Binds them for shaders that include common/ball.glsl; nothing where the view wants no ellipsoids. */
+/* Binds the shapes for shaders with common/ball.glsl; does nothing if the view has no ellipsoids. */
 void ellipsoids_bind(const Ellipsoids *ellipsoids);
 
 #endif

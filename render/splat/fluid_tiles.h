@@ -1,9 +1,8 @@
-/* The parts of a picture that the view splat may have to do with, in tiles of TILE x TILE pixels: its passes
-   over all pixels are drawn there alone. On a software driver each block of pixels costs, whatever its shader
-   does.
+/* The parts of a picture where the view splat may draw, in tiles of TILE x TILE pixels: full-screen passes
+   are drawn only there. On a software driver each block of pixels costs time, whatever the shader does.
 
-   Beside them the maps hold what earlier pictures left: only the map of nearest depths, which is cleared as a
-   whole, says where nothing is. */
+   Outside the tiles, the maps hold data of earlier pictures. Only the map of nearest depths is cleared
+   completely and marks pixels without fluid. */
 #ifndef SLOSH_FLUID_TILES_H
 #define SLOSH_FLUID_TILES_H
 
@@ -15,23 +14,23 @@
 typedef struct FluidTiles {
     unsigned list; /* program */
     unsigned marks, rects,
-        command;            /* buffers: a word a tile; rectangles of tiles in a row; what draws these */
+        command;            /* buffers: a word per tile; rectangles of tiles in a row; drawing command */
     unsigned none;          /* vertex array without attributes */
-    unsigned target_number; /* of the target that the buffers were made for */
+    unsigned target_number; /* number of the target that gave the buffers their size */
 } FluidTiles;
 
-/* False when a shader does not compile; fluid_tiles_destroy is needed in either case. */
+/* Returns false if a shader does not compile; call fluid_tiles_destroy in either case. */
 bool fluid_tiles_create(FluidTiles *tiles, Error *error);
 void fluid_tiles_destroy(FluidTiles *tiles);
 
-/* Makes the buffers anew when the target is another one: then each tile is marked. */
+/* Makes the buffers again for a new target: then all tiles are marked. */
 void fluid_tiles_follow(FluidTiles *tiles, const Target *target);
 
-/* Lists what has been marked (shaders/splat/tiles.glsl), with `all` the whole of the box's bounds. */
+/* Lists the marked tiles (shaders/splat/tiles.glsl); `all`: all tiles in the box's bounds. */
 void fluid_tiles_list(const FluidTiles *tiles, const Frame *frame, bool all);
 
-/* Draws what is listed, each pixel once, at depth 0, with the current program: its vertex shader is
- * FLUID_TILES_VERTEX. */
+/* Draws the listed tiles, each pixel once, at depth 0, with the current program. The program's vertex
+   shader must be FLUID_TILES_VERTEX. */
 void fluid_tiles_draw(const FluidTiles *tiles);
 #define FLUID_TILES_VERTEX "splat/tiles.vert"
 

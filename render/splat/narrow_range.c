@@ -62,7 +62,7 @@ static void follow(NarrowRange *filter, const Target *target)
     filter->target_number = target->number;
 }
 
-/* Smooths `from` into depth[to] and returns that. */
+/* Smooths `from` into depth[to]; returns depth[to]. */
 static unsigned smooth(const NarrowRange *filter, GLuint program, unsigned from, int to, int x, int y)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, filter->depth_framebuffer[to]);
@@ -77,7 +77,8 @@ static void set_uniforms(const NarrowRange *filter, const Frame *frame)
 {
     const SplatDef *def = splat_def(frame->def);
     const float radius = frame->particle_radius, range = (float)def->filter_range * radius;
-    const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* of 1 m at 1 m */
+    const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* pixels of 1 m at a
+                                                                                    distance of 1 m */
     const float reach = (float)def->filter_size * radius * pixels;
     for (int i = 0; i < 2; i++) {
         const GLuint program = i == 0 ? filter->along : filter->clean;
@@ -85,7 +86,7 @@ static void set_uniforms(const NarrowRange *filter, const Frame *frame)
         glProgramUniform1f(program, FILTER_RANGE_AT, range);
     }
     glProgramUniform1f(filter->normals, EDGE_STEP_AT,
-                       0.5F * range); /* filtered, the brim of a gap of one range is nearer */
+                       0.5F * range); /* filtering brings the rim of a gap of one range nearer */
 }
 
 SplatMaps narrow_range_draw(NarrowRange *filter, const SplatMaps *maps, const Frame *frame)

@@ -65,8 +65,8 @@ static void fill(const FluidTiles *tiles, GLuint framebuffer, GLuint program, fl
     fluid_tiles_draw(tiles);
 }
 
-/* The first pass leaves depths where the others have to look: a software driver branches by the test of
-   depth, and nowhere else. */
+/* The first pass writes depths where the later passes must look: a software driver skips pixels only by
+   the depth test. */
 static void run(const Silhouette *silhouette, const FluidTiles *tiles, float step)
 {
     const unsigned *programs = silhouette->programs;
@@ -86,7 +86,7 @@ static int clamp_to(int value, int end)
     return value < 0 ? 0 : value < end ? value : end;
 }
 
-/* Of the box's bounds, and what is mixed with from beside them. */
+/* Copies the box's bounds and a margin, which mixing reads. */
 static void take_picture(const Silhouette *silhouette, const Frame *frame)
 {
     int part[4];

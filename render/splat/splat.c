@@ -20,7 +20,7 @@
 #include <stdlib.h>
 
 typedef struct SplatView {
-    SplatDef def;                                          /* what the programs were made for */
+    SplatDef def;                                          /* settings compiled into the programs */
     GLuint depth[SPLAT_POINT + 1], blend[SPLAT_POINT + 1]; /* programs, by sprite */
     GLuint limit;                                          /* program */
     Casting casting;
@@ -28,14 +28,14 @@ typedef struct SplatView {
     SplatSprites sprites;
     Ellipsoids ellipsoids;
     SplatMaps maps;
-    Thickness thickness; /* where the shading wants it */
-    Panes panes;         /* where splat_clear */
-    NarrowRange filter;  /* where the def has it */
-    SplatMaps shown;     /* what is shaded: maps, or what panes and the filter made of them */
+    Thickness thickness; /* if the shading needs thickness */
+    Panes panes;         /* if splat_clear */
+    NarrowRange filter;  /* if the def has a filter */
+    SplatMaps shown;     /* the shaded maps: `maps`, or the results of panes and filter */
     SplatShade shade;
-    SplatLevel level;      /* where splat_level_wanted */
-    Spray spray;           /* where splat_sprays */
-    Silhouette silhouette; /* where it smooths outlines */
+    SplatLevel level;      /* if splat_level_wanted */
+    Spray spray;           /* if splat_sprays */
+    Silhouette silhouette; /* if silhouette_wanted */
 } SplatView;
 
 const SplatMaps *splat_maps(const void *state)
@@ -114,7 +114,7 @@ static bool create_shading(SplatView *splat, const Subject *subject, Error *erro
     return splat_shade_create(&splat->shade, subject, error);
 }
 
-/* Those that only some settings have, and shading. */
+/* Creates the passes that only some settings need, and the shading. */
 static bool create_passes(SplatView *splat, const Subject *subject, Error *error)
 {
     const SplatDef *own = &splat->def;
@@ -174,7 +174,7 @@ static float eps_of(const Frame *frame)
     return (float)splat_def(frame->def)->eps * frame->particle_radius;
 }
 
-/* How far behind the nearest sphere others matter, m. */
+/* Depth range behind the nearest sphere in which spheres matter, m. */
 static float reach_of(const SplatView *splat, const Frame *frame)
 {
     return splat_level_wanted(&splat->def) ? splat_level_range(frame) : eps_of(frame);
@@ -200,7 +200,7 @@ static void find_nearest(SplatView *splat, SplatSprite sprite, const ParticleBuf
         splat_level_find(&splat->level, &splat->maps, &splat->sprites, sprite, particles, frame);
 }
 
-/* And makes the sums nothing. */
+/* Sets the depth limit of blending, and clears the sums. */
 static void set_limit(SplatView *splat, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, splat->maps.blend_framebuffer);
@@ -218,7 +218,7 @@ static void set_limit(SplatView *splat, const Frame *frame)
 static void blend_attributes(SplatView *splat, SplatSprite sprite, const ParticleBuffers *particles,
                              const Frame *frame)
 {
-    const bool level = splat_level_wanted(&splat->def); /* its search has set the limit */
+    const bool level = splat_level_wanted(&splat->def); /* the search for the level has set the limit */
     for (int i = 0; level && i < 3; i++)
         glClearNamedFramebufferfv(splat->maps.blend_framebuffer, GL_COLOR, i, (GLfloat[4]){0});
     if (!level)
@@ -239,8 +239,7 @@ static void blend_attributes(SplatView *splat, SplatSprite sprite, const Particl
     glDisable(GL_BLEND);
 }
 
-/* Fluid that is farther behind is seen to be behind: it shares nothing with what is before. Levels are
-   smooth, and have no eps. */
+/* Fluid farther behind by this distance, m, is a separate surface. Levels are smooth and have no eps. */
 static float apart(const SplatView *splat, const Frame *frame)
 {
     return splat_level_wanted(&splat->def) ? frame->particle_radius / 2 : eps_of(frame);
@@ -254,7 +253,8 @@ static void draw_spray(SplatView *splat, SprayPart part, SplatSprite sprite, con
         {
             if (part == SPRAY_BEHIND)
                 spray_find(&splat->spray, sprite, particles);
-            color_table_bind(&splat->colors, &frame->def->color_curve); /* other passes have its unit */
+            color_table_bind(&splat->colors, &frame->def->color_curve); /* other passes have used the
+                                                                           texture unit */
             spray_draw(&splat->spray, part, splat->shown.nearest, &splat->shade.behind, &splat->shade.edges,
                        &splat->sprites, sprite, particles, frame);
         }
@@ -302,8 +302,8 @@ static void splat_draw(void *state, const ParticleBuffers *particles, const Fram
                       (uint64_t)frame->width * (uint64_t)frame->height);
 }
 
-/* A field needs the solver's support radius: with less it ripples too much for a level. Its surface casts the
-   shadow of the balls that particles have at the level when alone, but half a spacing at least. */
+/* A field needs the solver's support radius: smaller radii give ripples too large for a level. The shadow
+   is of balls with the radius of a lone particle at the level, at least half a spacing. */
 static void level_radii(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii)
 {
     const double spacing = particles->spacing;
@@ -348,13 +348,13 @@ static void splat_show_in(const ViewDef *def, Frame *frame)
     frame->refraction = (float)splat_def(def)->ior;
 }
 
-/* The filter is more than half of a picture's time. */
+/* The filter takes more than half of a picture's time. */
 static bool splat_dear(const ViewDef *def)
 {
     return splat_filter(splat_def(def)) != SPLAT_NO_FILTER;
 }
 
-/* What the filter makes smooth loses little by fewer pixels. */
+/* A filtered surface loses little by fewer pixels. */
 static void splat_quality(ViewDef *def, ViewQuality quality)
 {
     if (quality == VIEW_DRAFT && splat_dear(def) && def->resolution == 1)
@@ -368,7 +368,7 @@ static const KeyOwner spheres = {.key = "view.splat.level", .value = "0"};
 const ViewKind view_splat = {
     .name = "splat",
     .help = "one smooth surface, blended from spheres",
-    .radius = 1, /* a spacing: neighbours at rest overlap so far that no hole is left */
+    .radius = 1, /* one spacing: neighbours at rest overlap enough to leave no hole */
     .curves = VIEW_SIZE,
     .curves_where = &spheres,
     .radii = splat_radii,

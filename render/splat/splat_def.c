@@ -86,7 +86,7 @@ SplatDef *splat_def(const ViewDef *def)
     return view_own(def, &view_splat);
 }
 
-/* One surface: what shows spheres by themselves, or a level of their field, is left as it is. */
+/* True if the picture is one surface: pictures of single spheres, or of a level, stay unchanged. */
 static bool smooth(const SplatDef *def)
 {
     return !(def->level > 0) && (def->shading != SPLAT_PHONG || def->weights == SPLAT_W1W2);

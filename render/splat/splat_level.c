@@ -6,9 +6,9 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-/* Radii from one sample to the next, in the first round and in those after it: pieces are right to 1e-3 of
-   the field, so that a chord of the level is missed only where it is as good as none. And how far a root's
-   first guess may be off. */
+/* Distance between samples in radii, in the first round and in later rounds: the pieces have errors of
+   1e-3 of the field, so that only tiny chords of the level are missed. SLACK: the largest error of a
+   root's first guess. */
 static const float APART = 0.375F, APART_BEHIND = 0.5F, SLACK = 0.1F;
 
 float splat_level_range(const Frame *frame)
@@ -118,7 +118,7 @@ static void follow(SplatLevel *level, const SplatMaps *maps, const Target *targe
     level->target_number = target->number;
 }
 
-/* What one search needs in each of its passes. */
+/* Inputs of all passes of one search. */
 typedef struct Search {
     SplatLevel *level;
     SplatSprites *sprites;
@@ -126,13 +126,13 @@ typedef struct Search {
     const ParticleBuffers *particles;
     const Frame *frame;
     const SplatMaps *maps;
-    float target; /* the level over the gain */
+    float target; /* the level divided by the gain */
 } Search;
 
-/* Over all pixels that particles may cover; a depth that the shader writes becomes the limit. */
+/* Runs over all pixels that particles may cover; the shader's depth becomes the limit. */
 static void fill(const Search *search, GLuint program, GLuint framebuffer)
 {
-    glTextureBarrier(); /* some passes read the texels that they write */
+    glTextureBarrier(); /* some passes read and write the same texels */
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, search->frame->width, search->frame->height);
     glDisable(GL_BLEND);
@@ -146,7 +146,7 @@ static void fill(const Search *search, GLuint program, GLuint framebuffer)
     glDisable(GL_SCISSOR_TEST);
 }
 
-/* All sprites that reach before the limit. */
+/* Draws all sprites in front of the limit. */
 static void splat(const Search *search, GLuint program, GLuint framebuffer, GLenum equation)
 {
     const CullList list = CULL_BLEND;
@@ -160,7 +160,8 @@ static void splat(const Search *search, GLuint program, GLuint framebuffer, GLen
     counts_end(search->frame->counts, STAGE_VISIBILITY);
 }
 
-/* No shader reads what is attached: some drivers keep that in another form until it is let go. */
+/* Shaders must not read an attached texture here: some drivers keep attachments in another format until
+   unbound. */
 static void list_to_limit(const Search *search)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -169,8 +170,8 @@ static void list_to_limit(const Search *search)
                       search->sprite == SPLAT_POINT ? 1 : 6);
 }
 
-/* Whether the limit lets anything through: a triangle at the near plane, of which only the depth test sees
-   anything. */
+/* Asks if the limit lets anything through: draws a triangle at the near plane that only the depth test
+   sees. */
 static void ask(const Search *search, GLuint query)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, search->level->next_framebuffer);
@@ -204,7 +205,7 @@ static void look(const Search *search, float apart)
     fill(search, level->step, level->march_framebuffer);
 }
 
-/* Skipped where the last round left nothing to be searched; so are all after it. */
+/* Skipped if the last round left no pixel to search; later rounds are then skipped too. */
 static void look_again(const Search *search, int round)
 {
     SplatLevel *level = search->level;
@@ -239,7 +240,7 @@ void splat_level_find(SplatLevel *level, const SplatMaps *maps, SplatSprites *sp
     const Search search = {
         level, sprites, sprite, particles, frame, maps, (float)splat_def(frame->def)->level / gain};
     follow(level, maps, frame->target);
-    glDepthMask(GL_TRUE); /* clearing heeds it */
+    glDepthMask(GL_TRUE); /* clearing obeys the depth mask */
     glClearNamedFramebufferfv(level->march_framebuffer, GL_COLOR, 0, (GLfloat[4]){0});
     glClearNamedFramebufferfv(level->march_framebuffer, GL_DEPTH, 0, (GLfloat[]){1});
     glBindTextureUnit(NEAREST_UNIT, maps->nearest);

@@ -41,7 +41,8 @@ void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers)
         return;
     splat_maps_delete(maps);
     static const GLfloat none = 0;
-    const GLenum sums = gl_renderer_is_software() ? GL_RGBA32F : GL_RGBA16F; /* no halves in its hardware */
+    const GLenum sums = gl_renderer_is_software() ? GL_RGBA32F : GL_RGBA16F; /* software drivers compute no
+                                                                                halves */
     maps->nearest = splat_map_create(GL_R32F, target, "splat nearest");
     maps->color = splat_map_create(sums, target, "splat color");
     maps->normal = splat_map_create(sums, target, "splat normal");
@@ -50,7 +51,8 @@ void splat_maps_follow(SplatMaps *maps, const Target *target, bool covers)
     maps->blend_framebuffer =
         splat_framebuffer_create((GLuint[]){maps->color, maps->normal, maps->weight}, 3, "splat blend");
     maps->limit = splat_map_create(GL_DEPTH_COMPONENT32F, target, "splat limit");
-    glClearTexImage(maps->limit, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &none); /* beside the box nothing sets it */
+    glClearTexImage(maps->limit, 0, GL_DEPTH_COMPONENT, GL_FLOAT, &none); /* no pass sets the limit outside
+                                                                             the box */
     glNamedFramebufferTexture(maps->blend_framebuffer, GL_DEPTH_ATTACHMENT, maps->limit, 0);
     maps->target_number = target->number;
 }

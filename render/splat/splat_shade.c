@@ -54,7 +54,7 @@ void splat_shade_destroy(SplatShade *shade)
     edges_destroy(&shade->edges);
 }
 
-/* What a clear fluid's shading reads besides. */
+/* Sets the extra inputs of a clear fluid's shading. */
 static void look_through(SplatShade *shade, unsigned program, const Frame *frame)
 {
     const SplatDef *def = splat_def(frame->def);
@@ -64,7 +64,7 @@ static void look_through(SplatShade *shade, unsigned program, const Frame *frame
                        def->attenuation > 0 ? (float)def->attenuation : frame->attenuation);
 }
 
-/* Blends what the fluid covers of pixels with what is behind it. */
+/* Blends partly covered pixels with the background. */
 static void begin_mixing(const Frame *frame)
 {
     glUniform1f(COVER_STEP_AT, (float)splat_def(frame->def)->eps * frame->particle_radius);
@@ -73,8 +73,8 @@ static void begin_mixing(const Frame *frame)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* Tiles at depth 0 pass then where something has been drawn, and a software driver runs its shader
- * nowhere else. */
+/* Writes depths, so that tiles at depth 0 pass the test only on drawn pixels: a software driver then runs
+   the shader only there. */
 static void settle(const SplatShade *shade, const FluidTiles *tiles)
 {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);

@@ -11,22 +11,21 @@
 
 typedef struct SplatShade {
     unsigned program;
-    unsigned settle; /* program: the depth before the colour, so that shading runs where fluid is; 0 with
-                        solids, whose depths would let it run, too */
-    unsigned mixing; /* program for spheres smaller than pixels, which let through what is behind; where
+    unsigned settle; /* program: writes the depth before the colour, so that shading runs only on fluid; 0
+                        with solids, whose depths would let shading run too */
+    unsigned mixing; /* program for spheres smaller than pixels, which show the background; if
                         silhouette_by_discs */
-    bool clear;      /* water or jelly: what is behind shows through */
-    Behind behind;   /* where clear */
-    Edges edges;     /* where clear: of the box, seen through the fluid */
+    bool clear;      /* water or jelly: the background shows through */
+    Behind behind;   /* if clear */
+    Edges edges;     /* if clear: the box's edges, seen through the fluid */
 } SplatShade;
 
-/* False when a shader does not compile; splat_shade_destroy is needed in either case. */
+/* Returns false if a shader does not compile; call splat_shade_destroy in either case. */
 bool splat_shade_create(SplatShade *shade, const Subject *subject, Error *error);
 void splat_shade_destroy(SplatShade *shade);
 
-/* Writes colour and depth of the surface. Solids are in the target already: the test of depth says who hides
-   whom. `thickness`: where the shading reads it (splat_shade_wants_thickness), else of
-   zeros. */
+/* Writes the surface's colour and depth. Solids are already in the target: the depth test decides between
+   both. `thickness`: for shadings with splat_shade_wants_thickness, else zeroed. */
 void splat_shade_draw(SplatShade *shade, const SplatMaps *maps, const Thickness *thickness,
                       const FluidTiles *tiles, const Frame *frame);
 

@@ -33,7 +33,7 @@ bool splat_sprites_may(const SplatSprites *sprites, SplatSprite sprite)
            (sprites->def.sprite == SPLAT_AUTO && (sprite == SPLAT_QUAD || sprites->point_limit > 0));
 }
 
-/* An upper bound of the pixels across of the largest sphere, at the rim of the picture. */
+/* An upper bound of the largest sphere's diameter in pixels, at the rim of the picture. */
 SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame, float radius, float height)
 {
     const float *tangent = frame->camera.tangent, slant = 1 + camera_slant_square(&frame->camera);
@@ -47,10 +47,11 @@ SplatSprite splat_sprites_choose(const SplatSprites *sprites, const Frame *frame
 
 bool splat_sprites_small(const Frame *frame)
 {
-    const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* of 1 m at 1 m */
+    const float pixels = 0.5F * (float)frame->height / frame->camera.tangent[1]; /* pixels of 1 m at a
+                                                                                    distance of 1 m */
     const double spacings = frame->def->radius > 0 ? frame->def->radius : 1;
     const double drop =
-        splat_def(frame->def)->drops ? fmin(0.56 / spacings, 1) : 1; /* a disc's; a ball's is larger */
+        splat_def(frame->def)->drops ? fmin(0.56 / spacings, 1) : 1; /* a disc; a ball is larger */
     const ScalarCurve *size = &frame->def->size;
     const double most = fmax(control_points_most(&size->curve), 1e-30);
     const double least = size->by != 0 ? control_points_least(&size->curve) / most : 1;

@@ -7,7 +7,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-/* Texels that the support radius has at least, of a particle far away. */
+/* Least number of texels per support radius, for the farthest particle. */
 static const float TEXELS = 2;
 static const unsigned COARSEST = 8;
 
@@ -82,7 +82,7 @@ static void follow(Thickness *thickness, const Target *target, unsigned cell)
     thickness->cell = cell;
 }
 
-/* Within the bounds of the particles, a support around them: nowhere else is it read. */
+/* Fills only the particles' bounds and a support radius around: other texels are never read. */
 static void fill_box(const Thickness *thickness, float support, int width, int height, const Frame *frame)
 {
     int part[4];
@@ -113,7 +113,7 @@ void thickness_draw(Thickness *thickness, SplatSprites *sprites, const ParticleB
                     const Frame *frame)
 {
     const float far_pixel = pixel_at(frame, fmaxf(frame->farthest, frame->camera.near_plane));
-    /* Where the support radius is not even a pixel, a wider kernel keeps the sum right on the whole. */
+    /* If the support radius is below a pixel, a wider kernel keeps the total right. */
     const float support = fmaxf((float)particles->support_radius, 1.5F * far_pixel);
     const float fitting = support / (TEXELS * far_pixel);
     const unsigned cell = (unsigned)fmaxf(1, fminf(floorf(fitting), (float)COARSEST));

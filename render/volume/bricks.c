@@ -34,7 +34,7 @@ void bricks_destroy(Bricks *bricks)
     *bricks = (Bricks){0};
 }
 
-/* n voxels have n - 1 ways between them. */
+/* n voxels have n - 1 intervals between. */
 int bricks_of(const VolumeGrid *grid, int count[3])
 {
     int longest = 0;
@@ -46,7 +46,7 @@ int bricks_of(const VolumeGrid *grid, int count[3])
     return side;
 }
 
-/* Each brick has a face at most on every other of its sides: neighbours share them. */
+/* Neighbours share faces: at most one face per pair of bricks. */
 static size_t most_faces(const int size[3])
 {
     const size_t x = (size_t)size[0], y = (size_t)size[1], z = (size_t)size[2];
@@ -76,13 +76,13 @@ static void follow_size(Bricks *bricks, const VolumeGrid *grid)
     glNamedBufferStorage(bricks->found, (GLsizeiptr)(bricks->capacity * sizeof(GLuint)), NULL, 0);
 }
 
-/* An invocation a brick: at most BRICKS_ALONG^3. */
+/* One invocation per brick: at most BRICKS_ALONG^3. */
 static void dispatch(const Bricks *bricks)
 {
     glDispatchCompute(((GLuint)(bricks->size[0] * bricks->size[1] * bricks->size[2]) + 63) / 64, 1, 1);
 }
 
-/* What is summed at the sample may be anywhere. */
+/* Without a volume (field summed at the sample), every brick may hold fluid. */
 static void fill_map(const Bricks *bricks, const Volume *volume)
 {
     static const GLfloat much = 1e30F;

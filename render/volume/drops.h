@@ -1,6 +1,6 @@
-/* What the surface at a level leaves out: particles around which the field does not reach it, as balls of
-   their own volume. Reads the volume's field, the particles and what is behind; writes the target's colour
-   and depth. */
+/* Particles that the level surface leaves out: where the field stays below the level, particles are drawn
+   as balls of their own volume. Reads the volume's field, the particles and the background; writes the
+   target's colour and depth. */
 #ifndef SLOSH_VOLUME_DROPS_H
 #define SLOSH_VOLUME_DROPS_H
 
@@ -15,11 +15,11 @@ typedef struct VolumeDrops {
     QuadIndices quads;
 } VolumeDrops;
 
-/* `defines`: lines of SOLIDS and WATER, as raycasting has them. */
+/* `defines`: lines of SOLIDS and WATER, as in raycasting. */
 bool volume_drops_create(VolumeDrops *drops, const ViewDef *def, const char *defines, Error *error);
-void volume_drops_destroy(VolumeDrops *drops); /* zeroed is allowed */
+void volume_drops_destroy(VolumeDrops *drops); /* a zeroed struct is allowed */
 
-/* The blocks of volume and raycasting are bound, and of water what is behind. */
+/* The blocks of volume and raycasting must be bound; for water also the background. */
 void volume_drops_draw(VolumeDrops *drops, const ParticleBuffers *particles, const Frame *frame);
 
 #endif

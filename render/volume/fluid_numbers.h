@@ -1,5 +1,5 @@
-/* The particles' fluids as a scalar, for volumes that carry one: its mean between two fluids that follow each
-   other in the list is how they mix. Owns a float a particle. */
+/* The particles' fluids as a scalar, for volumes that carry a scalar: the mean between two fluids that
+   follow each other in the list is the mixing ratio. Owns a float per particle. */
 #ifndef SLOSH_FLUID_NUMBERS_H
 #define SLOSH_FLUID_NUMBERS_H
 
@@ -11,11 +11,11 @@ typedef struct FluidNumbers {
     size_t capacity; /* particles */
 } FluidNumbers;
 
-/* False when the shader does not compile; fluid_numbers_destroy is needed in either case. */
+/* Returns false if the shader does not compile; call fluid_numbers_destroy in either case. */
 bool fluid_numbers_create(FluidNumbers *numbers, Error *error);
 void fluid_numbers_destroy(FluidNumbers *numbers);
 
-/* The same particles with the scalar `fluid`, where their fluid is known. */
+/* Returns the state with the scalar `fluid`, if the particles' fluids are known. */
 ParticleBuffers fluid_numbers_add(FluidNumbers *numbers, const ParticleBuffers *particles);
 
 #endif

@@ -16,7 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* GATE: a copy of what says which pixels have a ray at all, for the test of depth before the shader. */
+/* GATE: a copy of ENTRY or EXIT, so that the depth test selects the pixels with rays before the shader
+   runs. */
 enum { ENTRY, EXIT, GATE, DEPTHS };
 enum { FACES_IN, FACES_OUT, MARCH, FRAMEBUFFERS };
 
@@ -27,14 +28,14 @@ struct Raycast {
     GLuint program, settle; /* march; write depth */
     GLuint block, screen;
     ColorTable colors;
-    Transfer transfer; /* where the curve or a scalar wants it */
+    Transfer transfer; /* if curve or opacity by a scalar needs a table */
     Bricks bricks;
-    Behind behind; /* of water: */
+    Behind behind; /* for water: */
     Edges edges;
     GLuint depths[DEPTHS], framebuffers[FRAMEBUFFERS];
-    GLuint found;           /* depth below the eye of what each ray met, m, R32F; 0: nothing */
-    unsigned target_number; /* which these were made for; 0: none */
-    VolumeDrops drops;      /* of surfaces of a volume; else nothing */
+    GLuint found;           /* distance of each ray's hit along the eye's axis, m, R32F; 0: no hit */
+    unsigned target_number; /* number of the target that gave the textures their size; 0: none */
+    VolumeDrops drops;      /* for surfaces of a volume, else zero */
     RaycastLook look;
     bool solids;
 };
@@ -59,7 +60,7 @@ void raycast_destroy(Raycast *raycast)
     free(raycast);
 }
 
-/* Lines of defines for translucent fluid. */
+/* Defines for translucent fluid, in lines. */
 static const char *translucent_defines(const ViewDef *def, char text[96])
 {
     const VolumeOpacity opacity = volume_opacity(def);
@@ -70,7 +71,7 @@ static const char *translucent_defines(const ViewDef *def, char text[96])
     return text;
 }
 
-/* Program text for what the def asks for, and for nothing else. */
+/* Compiles exactly the program parts that the def needs. */
 static GLuint create_program(const Subject *subject, const char *field, Error *error)
 {
     static const char *const stages[] = {"common/screen.vert", "volume/raycast.frag", NULL};
@@ -88,7 +89,7 @@ static GLuint create_program(const Subject *subject, const char *field, Error *e
     return program_create("raycast", stages, defines, error);
 }
 
-/* Where the picture is of a surface in a volume. */
+/* Creates the drops if the picture shows a surface in a volume. */
 static bool create_drops(Raycast *raycast, const Subject *subject, const Voxelizer *voxelizer, Error *error)
 {
     const VolumeDef *def = volume_def(subject->def);
@@ -180,7 +181,7 @@ static void follow_target(Raycast *raycast, const Target *target)
     raycast->target_number = target->number;
 }
 
-/* The grid's sides are along the box's axes: scale, move, and then the box's pose. */
+/* The grid's sides are along the box's axes: scale, translate, then apply the box's pose. */
 static void fill_matrices(RaycastBlock *block, const VolumeGrid *grid, const Frame *frame)
 {
     float box_to_eye[16], eye_to_box[16], to_volume[16] = {[15] = 1}, to_box[16] = {[15] = 1};
@@ -195,8 +196,8 @@ static void fill_matrices(RaycastBlock *block, const VolumeGrid *grid, const Fra
     matrix_multiply(box_to_eye, to_box, block->volume_to_eye);
 }
 
-/* Whether part of the near plane is in the volume: then faces before it are lost, and all rays start there.
- */
+/* True if part of the near plane is inside the volume: then front faces are clipped, and all rays start at
+   the near plane. */
 static bool near_is_inside(const RaycastBlock *block, const Frame *frame)
 {
     const float reach = frame->camera.near_plane * sqrtf(1 + camera_slant_square(&frame->camera));
@@ -209,8 +210,8 @@ static bool near_is_inside(const RaycastBlock *block, const Frame *frame)
     return inside;
 }
 
-/* Where no walls are, far outside. Particles at rest stand half a spacing before a wall; some are pressed
-   nearer to it and leave holes there, which the field that far from the wall does not have. */
+/* Walls, or far outside if there are none. Particles at rest are half a spacing from a wall; some are
+   pressed nearer and leave holes, which the field at that distance from the wall does not show. */
 static void fill_walls(RaycastBlock *block, const Volume *volume, const ParticleBuffers *particles)
 {
     const VolumeGrid *grid = &volume->grid;
@@ -234,7 +235,7 @@ static void fill_march(RaycastBlock *block, const RaycastDef *cast, const Volume
     block->jitter = cast->jitter;
 }
 
-/* Of translucent fluid: the opacity is that of one spacing of it. */
+/* For translucent fluid: `opacity` is of fluid one spacing deep. */
 static void fill_opacity(RaycastBlock *block, const RaycastDef *cast, double spacing)
 {
     block->ramp_begin = (float)cast->ramp[0];
@@ -265,7 +266,7 @@ static void fill_block(RaycastBlock *block, const Volume *volume, const Particle
     block->near_start = near_is_inside(block, frame) ? frame->camera.near_plane : 0;
 }
 
-/* The texture units of curves. Where particles lack the scalar, opacity is as without it. */
+/* Binds the tables of curves. If particles lack the scalar, opacity is as without a curve. */
 static void bind_transfer(Raycast *raycast, const Volume *volume, const ParticleBuffers *particles,
                           const Frame *frame, RaycastBlock *block)
 {
@@ -309,8 +310,8 @@ static void copy_depth(GLuint from, GLuint to, const Target *target)
                        target->height, 1);
 }
 
-/* The triangle over the picture passes where a face is; a software driver runs all of a shader where only
-   part of it is wanted. */
+/* The full-screen triangle passes the depth test only at faces: a software driver runs the whole shader
+   even if only part of the work is needed. */
 static void open_gate(const Raycast *raycast, const Target *target, bool inside)
 {
     copy_depth(raycast->depths[inside ? EXIT : ENTRY], raycast->depths[GATE], target);
@@ -319,7 +320,7 @@ static void open_gate(const Raycast *raycast, const Target *target, bool inside)
     glDepthRange(inside, inside);
 }
 
-/* Solids stand in the target's depth, which is not written until all rays are cast. */
+/* Solids are in the target's depth, which is written only after all rays are cast. */
 static void bind_maps(Raycast *raycast, const Frame *frame)
 {
     const Target *target = frame->target;
@@ -329,8 +330,8 @@ static void bind_maps(Raycast *raycast, const Frame *frame)
     glBindTextureUnit(TARGET_DEPTH_UNIT, raycast->solids ? target->depth : 0);
 }
 
-/* Without solids all that one looks through the fluid at is sky, floor and edges of the box: the first two
-   need no copy. */
+/* Without solids, only sky, floor and the box's edges are visible through the fluid: sky and floor need no
+   copy. */
 static void look_through(Raycast *raycast, const Frame *frame)
 {
     const RaycastDef *cast = &volume_def(frame->def)->raycast;
@@ -348,7 +349,7 @@ static void look_through(Raycast *raycast, const Frame *frame)
     }
 }
 
-/* Rays end at solids, so that what they find is always before them. */
+/* Rays end at solids: hits are always in front of solids. */
 static void march(Raycast *raycast, const Frame *frame, bool inside)
 {
     static const float nothing[4] = {0};
@@ -381,7 +382,7 @@ static void write_depth(const Raycast *raycast, const Frame *frame)
     glDisable(GL_DEPTH_TEST);
 }
 
-/* As uniforms: Mesa's zink over lavapipe (22.3) crashes where this vertex shader reads the block. */
+/* As uniforms: Mesa's zink over lavapipe (22.3) crashes if this vertex shader reads the block. */
 static void say_where_drops_are(GLuint program, const RaycastBlock *block, const VolumeGrid *grid)
 {
     const double *corner = grid->corner, side = grid->cell;
@@ -416,7 +417,7 @@ static void cast_rays(Raycast *raycast, const Volume *volume, const ParticleBuff
     }
 }
 
-/* Pixels whose depth is written: of translucent fluid those that it hides by half. */
+/* Counts pixels with written depth: for translucent fluid, pixels with at least half opacity. */
 static void count_covered(const Raycast *raycast, const Frame *frame)
 {
     ViewCounts *counts = frame->counts;

@@ -14,12 +14,12 @@
 
 enum { CELLS_MOST = 1 << 22, SIDE_MOST = 1024, SIDES = 36 };
 
-/* What one solid is made of. */
+/* The voxels of one solid. */
 typedef struct Block {
     GLuint texture;
     SolidDef shape;
-    double slab, wanted; /* m: what it was made for */
-    double low[3], cell; /* m: of the first texel; from one to the next */
+    double slab, wanted; /* m: inputs of the last voxelisation */
+    double low[3], cell; /* m: position of the first texel; distance between texels */
     int size[3];         /* texels */
 } Block;
 
@@ -82,7 +82,7 @@ void solid_voxels_bounds(const SolidDef *solid, double slab, double low[3], doub
         high[1] = 0;
 }
 
-/* A cell more on each side, so that the outermost texels are outside. */
+/* Adds a cell on each side, so that the outermost texels are outside. */
 static double texels_of(Block *block, const double low[3], const double high[3], double cell)
 {
     double texels = 1, most = 0;
@@ -102,7 +102,7 @@ typedef struct Work {
     float *distance;
 } Work;
 
-/* In two dimensions the shape of the plane, as deep as the box. */
+/* In two dimensions: the plane's shape, extruded through the box's depth. */
 static double distance_of(const Block *block, const double x[3])
 {
     const SolidDef *shape = &block->shape;
@@ -141,7 +141,7 @@ static void keep(Block *block, const float *distance)
     glTextureSubImage3D(block->texture, 0, 0, 0, 0, size[0], size[1], size[2], GL_RED, GL_FLOAT, distance);
 }
 
-/* False when memory is short: then there is no texture. */
+/* Returns false if memory is short: then there is no texture. */
 static bool voxelise(Block *block, const SolidDef *solid, double slab, double cell)
 {
     double low[3], high[3];
@@ -210,7 +210,7 @@ void solid_voxels_draw(SolidVoxels *voxels, double cell, const ParticleBuffers *
     for (int i = 0; i < world->solid_count; i++) {
         float to_eye[16];
         if (world->solids[i].kind == SOLID_MESH && !world->solids[i].mesh.shape)
-            continue; /* its file is gone, which was said */
+            continue; /* the mesh file is missing, as already reported */
         if (!follow(&voxels->block[i], &world->solids[i], frame->slab, cell)) {
             voxels->short_of_memory = true;
             continue;

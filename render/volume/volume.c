@@ -11,7 +11,7 @@ static double longest(const double size[3])
     return fmax(size[0], fmax(size[1], size[2]));
 }
 
-/* Of a cell, m. */
+/* Requested side of a cell, m. */
 static double asked_side(const VolumeDef *def, const ParticleBuffers *particles)
 {
     const double side = longest(particles->box_size) / def->cells;
@@ -27,7 +27,8 @@ bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, Vol
 {
     const double *box = particles->box_size, margin = particles->support_radius;
     const double asked = asked_side(def, particles);
-    const double cell = margin > 0 ? fmin(asked, margin) : asked; /* between wider ones fluid would be lost */
+    const double cell = margin > 0 ? fmin(asked, margin) : asked; /* wider cells could lose fluid between
+                                                                     samples */
     double all = 1;
     *grid = (VolumeGrid){.cell = cell};
     for (int k = 0; k < 3; k++) {
@@ -50,7 +51,7 @@ bool volume_grid_for(const VolumeDef *def, const ParticleBuffers *particles, Vol
                grid->size[0], grid->size[1], grid->size[2], CELLS_MAX);
 }
 
-/* The cell that a place is in, as near as the grid has it. */
+/* The cell of a position, clamped to the grid. */
 static int cell_of(const VolumeGrid *grid, int axis, double at)
 {
     const double cell = floor((at - grid->corner[axis]) / grid->cell);

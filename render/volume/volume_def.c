@@ -17,7 +17,7 @@ const char *const volume_axis_names[] = {"x", "y", "z", NULL};
 const char *const raycast_look_names[] = {
     [RAYCAST_OPAQUE] = "opaque", [RAYCAST_WATER] = "water", [RAYCAST_TRANSLUCENT] = "translucent", NULL};
 
-/* Above the ramp, as inside the fluid, the last y holds. */
+/* Above the ramp, inside the fluid, the last y applies. */
 const ControlPreset volume_presets[] = {{"ramp", {2, {0, 1}, {0, 1}}},
                                         {"fog", {2, {0, 1}, {0, 0.2}}},
                                         {"surface", {4, {0, 0.45, 0.55, 1}, {0, 0, 1, 1}}},
@@ -28,9 +28,9 @@ const VolumeDef volume_usual = {
     .cells = 128,
     .slice_axis = 2,
     .slice = 0.5,
-    .raycast = {.level = 0.5, /* of a fluid that fills half the space the field at its plane surface */
+    .raycast = {.level = 0.5, /* the field at a plane surface: the fluid fills half the space */
                 .step = 1,
-                .threshold = 0.99, /* what is left is 2 of 255 */
+                .threshold = 0.99, /* the rest is 2 of 255 */
                 .ramp = {0.35, 0.65},
                 .opacity = 0.04,
                 .skin = 0.4,

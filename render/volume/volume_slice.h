@@ -1,4 +1,4 @@
-/* One slice of a volume, as a picture for looking into it. */
+/* One slice of a volume as a picture, for inspection. */
 #ifndef SLOSH_VOLUME_SLICE_H
 #define SLOSH_VOLUME_SLICE_H
 
@@ -11,12 +11,12 @@ typedef struct VolumeSlice {
     ColorTable colors;
 } VolumeSlice;
 
-/* For volumes of that voxelizer. False when a shader does not compile or the def's colormap is unknown;
-   volume_slice_destroy is needed in either case. */
+/* For volumes of `voxelizer`. Returns false if a shader does not compile or the def's colormap is unknown;
+   call volume_slice_destroy in either case. */
 bool volume_slice_create(VolumeSlice *slice, const ViewDef *def, const Voxelizer *voxelizer, Error *error);
 void volume_slice_destroy(VolumeSlice *slice);
 
-/* Draws the slice that the def names into frame->target, colour and depth. The volume is bound. */
+/* Draws the def's slice into frame->target, colour and depth. The volume must be bound. */
 void volume_slice_draw(VolumeSlice *slice, const double box_size[3], const Frame *frame);
 
 #endif

@@ -15,13 +15,13 @@
 
 typedef struct VolumeView {
     Voxelizer *voxelizer;
-    VolumeWalls walls; /* of looks that are surfaces */
-    VolumeSlice slice; /* shown alone: nothing below is there */
-    Raycast *raycast;  /* NULL: the slice */
+    VolumeWalls walls; /* for looks that are surfaces */
+    VolumeSlice slice; /* if shown alone, all below is empty */
+    Raycast *raycast;  /* NULL: the view shows the slice */
     Casting casting;
-    Voxelizer *opacity;   /* of the scalar by which opacity goes, where that is another; else NULL */
-    SolidVoxels *solids;  /* NULL: the scene has none, or they are drawn as surfaces */
-    FluidNumbers numbers; /* where the volume carries fluids; else zero */
+    Voxelizer *opacity;   /* carries the scalar of opacity if not the colours' scalar; else NULL */
+    SolidVoxels *solids;  /* NULL: no solids, or solids drawn as surfaces */
+    FluidNumbers numbers; /* zero unless the volume carries fluids */
 } VolumeView;
 
 static void destroy(void *state)
@@ -45,7 +45,7 @@ static ParticleBuffers space_of(const WorldDef *world)
     return space;
 }
 
-/* What no driver could draw. What the present driver cannot draw is found when the view is made. */
+/* Rejects settings that no driver can draw. Limits of the present driver are found when the view is made. */
 static bool check(const Subject *subject, const char **key, Error *error)
 {
     const ParticleBuffers space = space_of(subject->world);
@@ -62,7 +62,7 @@ static bool has_room(Voxelizer *voxelizer, const VolumeDef *def, const ParticleB
            voxelizer_prepare(voxelizer, def, grid, error);
 }
 
-/* The box's volume: what the fluid's may become. */
+/* Checks the volume of the whole box: the fluid's volume may grow to that size. */
 static bool accepts(void *state, const Subject *subject, Error *error)
 {
     VolumeView *view = state;
@@ -84,8 +84,8 @@ static bool create_raycast(VolumeView *view, const Subject *subject, Error *erro
            (!surface || volume_walls_create(&view->walls, error));
 }
 
-/* The volume carries the fluids where the picture has the colours of several, and a scalar where it has that
- * scalar's colours. */
+/* The volume carries fluids if the picture shows the colours of several fluids, and a scalar if the
+   picture shows a scalar's colours. */
 static bool carries_fluids(const Subject *subject)
 {
     return volume_def(subject->def)->show == VOLUME_SHADED && view_color_by(subject->def) == SCALAR_FLUID &&
@@ -98,7 +98,7 @@ static bool carries(const Subject *subject)
            (view_color_by(subject->def) != SCALAR_FLUID || carries_fluids(subject));
 }
 
-/* Sampled as a texture, also where the field is not. */
+/* Always sampled as a texture, even if the field is not. */
 static bool create_opacity(VolumeView *view, const ViewDef *def, Error *error)
 {
     const VolumeMethod method = volume_def(def)->method;
@@ -136,7 +136,7 @@ static void *create(const Subject *subject, Error *error)
     return NULL;
 }
 
-/* A slice of the field casts none; the fluid does as its particles do. */
+/* A slice casts no shadow; fluid casts the shadow of its particles. */
 static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
 {
     const VolumeView *view = state;
@@ -165,7 +165,7 @@ static bool make_volume(VolumeView *view, const ParticleBuffers *particles, cons
     return true;
 }
 
-/* With the cells that the box's volume has, whatever part of it the fluid's covers. */
+/* Uses cells of the box's volume, even if the fluid's volume covers only a part. */
 static void draw_solids(VolumeView *view, const ParticleBuffers *particles, const Frame *frame)
 {
     VolumeGrid grid;
@@ -192,7 +192,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     {
         made = make_volume(view, particles, frame, &volume);
     }
-    if (!made) /* memory that was there at the start is not there now */
+    if (!made) /* memory that was there at the start may be gone */
         return;
     if (view->raycast) {
         raycast_draw(view->raycast, &volume, view->voxelizer, particles, frame);
@@ -205,13 +205,13 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     }
 }
 
-/* Clear water in the colours of a scalar would be no water. */
+/* Water in a scalar's colours would not look like water. */
 static bool own_colors(const ViewDef *def)
 {
     return volume_def(def)->raycast.look == RAYCAST_WATER;
 }
 
-/* The field is 1 in a fluid at rest, more where it is compressed; of steps raycast.frag shows 64. */
+/* The field is 1 in a fluid at rest, more in compressed fluid; raycast.frag shows up to 64 steps. */
 static void show(const ViewDef *def, Frame *frame)
 {
     const bool steps = volume_def(def)->show == VOLUME_STEPS;
@@ -230,14 +230,14 @@ static void show(const ViewDef *def, Frame *frame)
     frame->beyond[0] = frame->beyond[1] = false;
 }
 
-/* Where the rays show the fluid: translucent fluid where it hides half of what is behind. */
+/* Values are those where rays show the fluid: in translucent fluid, where half the background is hidden. */
 static ViewProbing probing(const void *state, const ViewDef *def)
 {
     (void)state;
     return (ViewProbing){.by = volume_def(def)->show == VOLUME_SHADED ? VIEW_PROBE_MEAN : VIEW_PROBE_NOTHING};
 }
 
-/* Which colours and opacities volume and shaders carry. */
+/* True if volume and shaders carry the same colours and opacities. */
 static bool same(const Subject *a, const Subject *b)
 {
     return volume_opacity(a->def) == volume_opacity(b->def) &&
@@ -247,8 +247,8 @@ static bool same(const Subject *a, const Subject *b)
            (a->world->fluid_count > 1) == (b->world->fluid_count > 1);
 }
 
-/* Of surfaces: in a draft the shadow map stands for the march to the light, and a cell is two. The best has
-   twice the cells each way, where they show anything. */
+/* Surfaces in a draft: shadow map instead of marching to the light, and cells twice as wide. Best: twice
+   the cells along each axis, as far as more cells show more. */
 static void quality(ViewDef *def, ViewQuality wanted)
 {
     VolumeDef *own = volume_def(def);

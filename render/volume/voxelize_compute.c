@@ -1,5 +1,5 @@
-/* Voxelization by compute shaders: particles scatter, or voxels gather; and the lists of the field without a
-   volume. */
+/* Voxelization by compute shaders: particles scatter or voxels gather; also makes the lists for the field
+   without a volume. */
 #include "render/particles/particle_bind.h"
 #include "render/particles/work.h"
 #include "render/volume/cell_lists.h"
@@ -14,9 +14,9 @@
 
 typedef struct ByCompute {
     VolumeMethod method;
-    bool scalar, atomics; /* float atomics are there */
+    bool scalar, atomics; /* float atomics are supported */
     GLuint program;       /* 0 with `direct` */
-    CellLists lists;      /* but with `scatter` */
+    CellLists lists;      /* empty with `scatter` */
 } ByCompute;
 
 static void compute_destroy(void *state)

@@ -1,4 +1,5 @@
-/* Voxelization by drawing: a particle becomes a point in each slice that it cuts, and blending sums up. */
+/* Voxelization by drawing: a particle becomes a point in each slice that the particle cuts, and blending
+   sums. */
 #include "render/particles/particle_bind.h"
 #include "render/volume/voxelize.h"
 #include "shaders/volume/volume_bindings.h"
@@ -9,17 +10,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Of a geometry shader's 1,024 components a point takes up to eleven. */
+/* A point takes up to eleven of a geometry shader's 1,024 components. */
 enum { GEOMETRY_POINTS = 80, PACKED = 4 };
 
 typedef struct ByPoints {
     VolumeMethod method;
     bool scalar;
-    const char *layer_extension; /* gl_Layer in a vertex shader; NULL: one draw a layer */
+    const char *layer_extension; /* for gl_Layer in a vertex shader; NULL: one draw per layer */
     GLuint program, unpack;
-    int discs; /* a particle, that `program` was made for; geometry only */
+    int discs; /* slices per particle that `program` is compiled for; geometry only */
     GLuint framebuffer, vertex_array;
-    GLuint packed[2]; /* textures of `planes`: four slices a texel */
+    GLuint packed[2]; /* textures of `planes`: four slices per texel */
     int packed_size[3];
 } ByPoints;
 
@@ -41,7 +42,7 @@ static int slices_a_pass(const ByPoints *own)
     return own->method == VOLUME_LAYERS && !own->layer_extension ? 1 : 0;
 }
 
-/* Makes the program for at most `discs` slices a particle; only the geometry shader must know them. */
+/* Compiles the program for at most `discs` slices per particle; only the geometry shader needs the number. */
 static GLuint create_program(const ByPoints *own, int discs, Error *error)
 {
     static const char *const plain[] = {"volume/voxelize.vert", "volume/voxelize.frag", NULL};
@@ -134,7 +135,7 @@ static void draw(const VoxelizeJob *job, GLsizei instances)
         glDrawArraysInstanced(GL_POINTS, 0, count, instances);
 }
 
-/* Layer -1: all of them. */
+/* Layer -1: all layers. */
 static void attach(const ByPoints *own, const GLuint textures[2], int layer)
 {
     for (int i = 0; i <= (int)own->scalar; i++)
@@ -198,7 +199,7 @@ static void unpack(const ByPoints *own, const GLuint textures[2], const int size
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
-/* As many slices as a particle of that radius may cut, in fours. */
+/* The number of slices that a particle of `radius` may cut, in multiples of four. */
 static bool follow_discs(ByPoints *own, double radius, Error *error)
 {
     const int discs = (int)ceil(2 * radius / 4 + 0.25) * 4;
@@ -242,7 +243,7 @@ static bool points_run(void *state, const VoxelizeJob *job, Error *error)
     else
         draw(job, own->method == VOLUME_LAYERS ? (GLsizei)ceil(2 * job->radius) + 1 : 1);
     glDisable(GL_BLEND);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0); /* what reads the volume must not find it attached */
+    glBindFramebuffer(GL_FRAMEBUFFER, 0); /* readers of the volume must not find the texture attached */
     if (planes)
         unpack(own, volume, job->volume->grid.size);
     return true;

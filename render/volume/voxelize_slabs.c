@@ -1,4 +1,4 @@
-/* Voxelization on the CPU by sim/mesh/field.h: for software drivers, whose memory is the CPU's. */
+/* Voxelization on the CPU by sim/mesh/field.h: for software drivers, which use the CPU's memory. */
 #include "render/volume/voxelize.h"
 #include "sim/base/parallel.h"
 #include "sim/kernel/kernel.h"
@@ -9,20 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Cells that may be other than 0; empty where end <= low. */
+/* Cells that may be nonzero; empty if end <= low. */
 typedef struct Region {
     int low[3], end[3];
 } Region;
 
 typedef struct Slabs {
     bool scalar;
-    size_t capacity;         /* particles that there is room for */
-    float *position, *value; /* of particles inside the grid; `value` is their scalar */
+    size_t capacity;         /* capacity in particles */
+    float *position, *value; /* particles inside the grid: `value` is the scalar */
     FieldSlabs slabs;
-    size_t cells;            /* that there is room for */
-    float *field, *weighted; /* values of the grid; the latter NULL without a scalar */
-    Region sent;             /* what is in the textures */
-    int sent_size[3];        /* of these, which are made anew when it changes */
+    size_t cells;            /* capacity in cells */
+    float *field, *weighted; /* values of the grid; `weighted` is NULL without a scalar */
+    Region sent;             /* region sent to the textures */
+    int sent_size[3];        /* size of the textures, which are made again for a new size */
 } Slabs;
 
 static void slabs_destroy(void *state)
@@ -78,7 +78,7 @@ static bool reserve(Slabs *own, size_t count, const VolumeGrid *grid, Error *err
     return reserve_cells(own, grid, error);
 }
 
-/* Into rows of `words` floats. */
+/* Reads an attribute into rows of `words` floats. */
 static bool read_attribute(const ParticleAttribute *from, size_t count, size_t words, float *to)
 {
     const size_t stride = from->stride / sizeof(float);
@@ -94,12 +94,12 @@ static bool read_attribute(const ParticleAttribute *from, size_t count, size_t w
     return true;
 }
 
-/* As volume_particle in shaders/volume/volume_particle.glsl has it. */
+/* Same rule as volume_particle in shaders/volume/volume_particle.glsl. */
 static bool counts(const float at[4], const VoxelizeJob *job)
 {
     bool inside = at[3] > 0 && at[3] < 1e30F;
     for (int k = 0; k < 3; k++)
-        inside = inside && at[k] >= (float)job->low[k] && at[k] <= (float)job->high[k]; /* not for NaN */
+        inside = inside && at[k] >= (float)job->low[k] && at[k] <= (float)job->high[k]; /* false for NaN */
     return inside;
 }
 
@@ -109,9 +109,10 @@ static bool read_particles(Slabs *own, const VoxelizeJob *job, FieldParticles *o
     const ParticleAttribute *scalar = &particles->scalar[job->carried];
     const size_t all = particles->count;
     const bool carried = own->scalar && scalar->buffer;
-    const float scale = (float)(job->amplitude / kernel_poly6(0, particles->support_radius)); /* 1 in space */
+    const float scale = (float)(job->amplitude / kernel_poly6(0, particles->support_radius)); /* 1 in three
+                                                                                                 dimensions */
     size_t count = 0;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a backend on the GPU may have written them */
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a GPU backend may have written the buffers */
     if (all > 0 && !(read_attribute(&particles->position, all, 4, own->position) &&
                      (!carried || read_attribute(scalar, all, 1, own->value))))
         return error_set(error, "no memory to read %zu particles", all);
@@ -169,7 +170,7 @@ static void send(const float *values, GLuint texture, const int size[3], const R
         GL_FLOAT, values + ((size_t)low[2] * (size_t)size[1] + (size_t)low[1]) * (size_t)size[0] + low[0]);
 }
 
-/* What is in the textures and no longer here is 0 now, and must be sent too; a new texture has nothing. */
+/* Cells sent before that are empty now are 0 and must be sent too; a new texture holds nothing. */
 static void send_changes(Slabs *own, const Volume *volume, const Region *now)
 {
     const bool fresh = memcmp(own->sent_size, volume->grid.size, sizeof own->sent_size) != 0;
