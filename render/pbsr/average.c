@@ -64,7 +64,7 @@ static bool follow_target(Average *average, const Target *target, Error *error)
         return true;
     glDeleteTextures(3, (GLuint[]){average->sum[0], average->sum[1], average->nearest});
     average->sum[0] = average->sum[1] = average->nearest = average->target_number = 0;
-    gl_debug_errors(); /* what is asked below is of these textures */
+    gl_debug_errors(); /* drops earlier errors: the query below is for these textures */
     average->nearest = make_texture(target, GL_R32F, "sets' nearest depth");
     for (int side = 0; side < 2; side++)
         average->sum[side] = make_texture(target, GL_RGBA32F, "sets' sum");
@@ -80,7 +80,7 @@ static bool follow_target(Average *average, const Target *target, Error *error)
     return true;
 }
 
-/* Where the fluid may be seen, at least a pixel; or the whole picture. */
+/* The bounds of the fluid, at least a pixel; or the whole picture. */
 static void follow_part(Average *average, const Frame *frame, bool whole)
 {
     const int size[2] = {frame->width, frame->height};
@@ -102,7 +102,7 @@ static bool make_sets(Average *average, size_t bytes)
     average->bytes = 0;
     glCreateBuffers(1, &average->sets);
     glObjectLabel(GL_BUFFER, average->sets, -1, "sets of points");
-    gl_debug_errors(); /* what is asked below is of this buffer */
+    gl_debug_errors(); /* drops earlier errors: the query below is for this buffer */
     gl_debug_asks_for_memory(true);
     glNamedBufferStorage(average->sets, (GLsizeiptr)bytes, NULL, average->by_cpu ? WAYS : 0);
     if (average->by_cpu)
@@ -114,7 +114,7 @@ static bool make_sets(Average *average, size_t bytes)
     return true;
 }
 
-/* As many sets as a block may hold, few enough to spare the memory. */
+/* As many sets as a storage block allows, limited to save memory. */
 static bool follow_sets(Average *average, Error *error)
 {
     const int height = average->part[3];
@@ -123,7 +123,7 @@ static bool follow_sets(Average *average, Error *error)
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
     const size_t shown = (size_t)block / row, rows = shown < 1 ? 1 : shown,
                  bands = ((size_t)height + rows - 1) / rows;
-    average->rows = (int)(((size_t)height + bands - 1) / bands); /* as high as each other */
+    average->rows = (int)(((size_t)height + bands - 1) / bands); /* bands of equal height */
     const size_t one = row * (size_t)average->rows;
     const size_t most = (size_t)block < BYTES_MOST ? (size_t)block : BYTES_MOST, room = most / one;
     average->room = (int)(room < 1 ? 1 : room > ROOM_MOST ? ROOM_MOST : room);
@@ -194,7 +194,7 @@ bool average_begin(Average *average, const Frame *frame, const AverageLook looks
     if (!follow_sets(average, error))
         return false;
     average->sight = sight_of(average, frame);
-    average->band[1] = 0; /* the block knows of none */
+    average->band[1] = 0; /* the block has no band yet */
     fill_block(average, frame, looks);
     glDisable(GL_SCISSOR_TEST);
     glClearNamedFramebufferfv(average->framebuffer[0], GL_COLOR, 0, nothing);
@@ -228,12 +228,12 @@ SetImage average_image(const Average *average, int number)
     return (SetImage){first, first + pixels, band[0], average->part[3] - band[0] - band[1]};
 }
 
-/* Pixels of the band: left, below, right, above. */
+/* A rectangle of the band: left, below, right, above; pixels. */
 typedef struct Piece {
     int x0, y0, x1, y1;
 } Piece;
 
-/* What of some rows has points, in any of so many sets. */
+/* The columns with points, in the given rows, in any of `sets` sets. */
 static Piece find_points(const Average *average, int sets, int y0, int y1)
 {
     const int width = average->part[2];
@@ -252,8 +252,8 @@ static Piece find_points(const Average *average, int sets, int y0, int y1)
     return piece;
 }
 
-/* A software driver pays for each pixel of a triangle, whatever an `if` leaves out: the parts of bands of
-   rows that have points. Returns how many. */
+/* Finds the rectangles with points, per group of rows: a software driver pays for each pixel of a
+   triangle, even if an `if` skips the work. Returns the number of rectangles. */
 static int find_pieces(const Average *average, int sets, Piece pieces[BANDS_MOST])
 {
     const int height = average->band[1], rows = height / BANDS_MOST + 1 > 32 ? height / BANDS_MOST + 1 : 32;
@@ -269,7 +269,7 @@ static int find_pieces(const Average *average, int sets, Piece pieces[BANDS_MOST
     return count;
 }
 
-/* `below`: the row of the part from which they count. */
+/* `below`: the part's row where the pieces' rows start. */
 static void draw_pieces(const Average *average, int below, const Piece pieces[], int count)
 {
     const int *part = average->part;
@@ -292,7 +292,7 @@ static void draw_part(const Average *average)
     draw_pieces(average, 0, &all, 1);
 }
 
-/* What the CPU writes next must not be read any more. */
+/* Waits until the GPU has read the buffer: the CPU writes next. */
 static void wait_for_reading(void)
 {
     static const GLuint64 second_ns = 1000000000;
@@ -326,7 +326,7 @@ void average_add(Average *average, int sets, const Frame *frame)
     glBlendEquation(GL_FUNC_ADD);
     if (average->split)
         add_side(average, SETS_BACK, pieces, count);
-    glBlendEquationi(1, GL_MAX); /* nearest */
+    glBlendEquationi(1, GL_MAX); /* keeps the nearest depth */
     add_side(average, SETS_FRONT, pieces, count);
     glBlendEquation(GL_FUNC_ADD);
     if (average->band[0] + average->band[1] == average->part[3])
@@ -361,7 +361,7 @@ void average_show_front(const Average *average, const Frame *frame)
 {
     if (average->count == 0)
         return;
-    glEnable(GL_DEPTH_TEST); /* without it none is left */
+    glEnable(GL_DEPTH_TEST); /* without depth test no depth is written */
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);
     show(average, SETS_FRONT, frame);

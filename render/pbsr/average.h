@@ -1,6 +1,6 @@
-/* The mean of the pictures of many sets of points (steps 2 and 3 of Tanaka et al. 2012): sets are projected,
-   some at a time, into a buffer of depths and words; their pictures are lit and added up; the mean goes over
-   what the target has. Needs a current OpenGL 4.5 core context. */
+/* The mean of the pictures of many point sets (steps 2 and 3 of Tanaka et al. 2012). Some sets at a time
+   are projected into a buffer of depths and words; the pictures of the sets are lit and summed; the mean
+   is drawn over the target. Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_AVERAGE_H
 #define SLOSH_AVERAGE_H
 
@@ -11,54 +11,56 @@
 
 enum { AVERAGE_NUMBERS_MAX = 16 };
 
-/* Of a layer, by its number. */
+/* The look of a layer, by the layer's number. */
 typedef struct AverageLook {
-    bool own; /* it has that colour; else its values have */
+    bool own; /* true: `color`; false: colours by values */
     float color[3];
     bool lit;
-    bool by_map;      /* its values go by the colormap where those of the fluid are its number */
-    float turn[3][3]; /* of its normals, to the box's frame */
+    bool by_map;      /* a value goes by the colormap even if the fluid's values are fluid numbers */
+    float turn[3][3]; /* turns normals to the box's frame */
 } AverageLook;
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct Average {
     unsigned add, mean, screen, block; /* GL names */
-    /* before overlays and edges, and behind them; the nearest depth of the former */
+    /* sums in front of overlays and edges, and behind; nearest depth of the front sum */
     unsigned framebuffer[2], sum[2], nearest;
-    unsigned sets;    /* buffer: of each set depths and then words, of each pixel of the part */
-    uint32_t *mapped; /* the buffer, where the CPU projects; else NULL */
+    unsigned sets;    /* buffer: per set, the depths of all pixels of the part, then the words */
+    uint32_t *mapped; /* the mapped buffer if the CPU projects; else NULL */
     bool by_cpu;
     size_t bytes;
     unsigned target_number;
-    int part[4]; /* of the picture: left, below, width, height; pixels */
-    int rows;    /* of the part, that a driver shows shaders at a time: a band; all where it can */
-    int band[2]; /* its first row and how many, at present */
-    int room;    /* sets of a band that the buffer has room for */
+    int part[4]; /* part of the picture: left, below, width, height; pixels */
+    int rows;    /* rows of a band: as many rows of the part as a shader can see at a time */
+    int band[2]; /* the present band: first row, number of rows */
+    int room;    /* capacity of the buffer in sets of a band */
     int count;   /* sets in the sums */
-    bool split;  /* there are overlays or edges */
+    bool split;  /* the picture has overlays or edges */
     SetSight sight;
     ColorTable colors;
 } Average;
 
-/* `by_cpu`: sets are projected there, else by shaders. */
+/* `by_cpu`: the CPU projects sets, else shaders. */
 bool average_create(Average *average, const Subject *subject, bool by_cpu, Error *error);
-void average_destroy(Average *average); /* a zeroed one is allowed */
+void average_destroy(Average *average); /* a zeroed struct is allowed */
 
-/* No set is in the sum. What the sets of this picture, and of those behind it that look the same, are seen
-   by. `whole`: not only where the box is seen. False when memory is short. */
+/* Clears the sums, and sets the sight of this picture and of later pictures with the same view. `whole`:
+   of the whole picture, not only the box's bounds. Returns false if memory is short. */
 bool average_begin(Average *average, const Frame *frame, const AverageLook looks[], bool whole, Error *error);
 
-/* Goes on to that band of the part, from 0: all sets of average_add are of it. False behind the last. */
+/* Selects a band of the part, from 0: average_add adds sets of this band. Returns false after the last
+   band. */
 bool average_band(Average *average, int number);
 
-/* Of the sets that the CPU projects, number 0 .. room - 1; cleared by its user. Waits for what reads it. */
+/* Buffer of set `number`, 0 .. room - 1, for projecting on the CPU; the caller clears the buffer. Waits
+   for the GPU's reading. */
 SetImage average_image(const Average *average, int number);
 
-/* Adds that many sets of the buffer to the sum; they count once all bands have them. */
+/* Adds `sets` sets of the buffer to the sums; the sets count after the last band. */
 void average_add(Average *average, int sets, const Frame *frame);
 
-/* The mean over the target: of what lies behind overlays and edges; then of what lies before them, with the
-   nearest depth of each pixel. */
+/* Draw the mean over the target: first the part behind overlays and edges, then the part in front, with
+   the nearest depth of each pixel. */
 void average_show_back(const Average *average, const Frame *frame);
 void average_show_front(const Average *average, const Frame *frame);
 

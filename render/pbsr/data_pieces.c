@@ -10,7 +10,7 @@ bool data_pieces_are(const PbsrLayer *said)
     return pbsr_of_file(said) && said->of >= PBSR_VOLUME && said->of <= PBSR_SLICE_Z;
 }
 
-/* Of the cells about all values. */
+/* Side of the data's block of cells around all values, m. */
 static double side_of(const VolumeData *volume, int axis)
 {
     return volume->spacing[axis] * volume->size[axis];
@@ -37,7 +37,7 @@ static LayerPoint point_at(const double place[3], float value, float inside)
 
 /* ---- slices ---- */
 
-/* The two triangles of the square whose first corner that is, in rows of `width` points. */
+/* Adds the two triangles of the square with the first corner `first`, in rows of `width` points. */
 static void add_square(Layer *out, size_t first, size_t width)
 {
     const uint32_t at = (uint32_t)first, up = (uint32_t)width;
@@ -75,7 +75,7 @@ static bool make_slice(const VolumeData *volume, const LevelField *field, int ax
 
 /* ---- the cloud ---- */
 
-/* Linear from the level to the greatest value. */
+/* Linear, from 0 at the level to 1 at the largest value. */
 static float density_of(const PbsrLayer *said, float value)
 {
     const float level = (float)said->level;

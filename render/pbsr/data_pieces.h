@@ -1,19 +1,20 @@
-/* Slices and the cloud of volume data, as pieces that points are strewn over: made once. */
+/* Slices and clouds of volume data, as pieces for random points: made once. */
 #ifndef SLOSH_DATA_PIECES_H
 #define SLOSH_DATA_PIECES_H
 
 #include "render/pbsr/layer.h"
 #include "render/pbsr/pbsr_def.h"
 
-/* Whether a layer is that. */
+/* True if the layer is a slice or cloud of a file. */
 bool data_pieces_are(const PbsrLayer *said);
 
-/* Of the field that still_field gives. A slice is as fine as the data. The cloud is as dense as values are
-   above the level, 1 at the greatest. False when memory is short, or there is nothing of it. */
+/* Makes the pieces from still_field's field. A slice has the data's resolution. A cloud's density is
+   proportional to the value above the level, 1 at the largest value. Returns false if memory is short, or
+   if the result would be empty. */
 bool data_pieces_make(const PbsrLayer *said, const LevelField *field, unsigned number, Layer *out,
                       Error *error);
 
-/* Points of a set as the layer's opacity asks for. */
+/* Density of the points of a set, from the layer's opacity. */
 double data_pieces_density(const PbsrLayer *said);
 
 #endif

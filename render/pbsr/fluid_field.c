@@ -24,7 +24,7 @@ static bool room(void **array, size_t *capacity, size_t count, size_t width)
     return *array != NULL;
 }
 
-/* ---- the particles that count ---- */
+/* ---- particles in the field ---- */
 
 static size_t larger(size_t a, size_t b)
 {
@@ -51,15 +51,15 @@ static void read_raw(FluidField *fluid, const ParticleAttribute *from, size_t co
                                 fluid->raw);
 }
 
-/* Inside the box, or as near as their kernel reaches; a fluid that has left it is not looked for. */
+/* True for particles in the box, or within a support radius: fluid that has left the box is ignored. */
 static bool counts(const float at[4], const ParticleBuffers *particles)
 {
     const double *box = particles->box_size, h = particles->support_radius;
     return at[3] > 0 && at[3] < 1e30F && fabs((double)at[0]) <= box[0] / 2 + h && at[1] >= -h &&
-           at[1] <= box[1] + h && fabs((double)at[2]) <= box[2] / 2 + h; /* not for NaN */
+           at[1] <= box[1] + h && fabs((double)at[2]) <= box[2] / 2 + h; /* false for NaN */
 }
 
-/* `scale`: of volumes, for the kernel of another dimension. */
+/* `scale`: factor of volumes, for the kernel of another dimension. */
 static void read_positions(FluidField *fluid, const FluidFieldJob *job, float scale)
 {
     const ParticleBuffers *particles = job->particles;
@@ -78,7 +78,7 @@ static void read_positions(FluidField *fluid, const FluidFieldJob *job, float sc
     }
 }
 
-/* Whether all are numbers. */
+/* Returns true if all values are numbers. */
 static bool read_values(FluidField *fluid, const ParticleBuffers *particles, Scalar scalar)
 {
     const ParticleAttribute *from = scalar == SCALAR_FLUID ? &particles->fluid : &particles->scalar[scalar];
@@ -115,7 +115,7 @@ static double grid_for(VolumeGrid *grid, const double low[3], const double high[
     }
     if (!flat)
         return all;
-    grid->size[2] = 1; /* its value lies at z = 0 */
+    grid->size[2] = 1; /* the layer's values are at z = 0 */
     grid->corner[2] = -cell / 2;
     return (double)grid->size[0] * grid->size[1] * FLAT_LAYERS;
 }
@@ -158,7 +158,7 @@ static void divide(void *context, size_t begin, size_t end)
                                                      : 0;
 }
 
-/* F, or with `scalar` that of the particles that have a number, and the sum of those. */
+/* Sums F; with `scalar`, F of the particles with a number, and the sum of the scalar. */
 static bool sum_of(FluidField *fluid, const FluidFieldJob *job, bool scalar, float *field, float *weighted,
                    Error *error)
 {
@@ -167,7 +167,7 @@ static bool sum_of(FluidField *fluid, const FluidFieldJob *job, bool scalar, flo
     return field_sum(&some, &fluid->grid, parallel_processors(), &fluid->slabs, field, weighted, error);
 }
 
-/* F comes with the first mean, where all have a number. */
+/* Computes F together with the first mean, if all particles have a number. */
 static bool sum_mean(FluidField *fluid, const FluidFieldJob *job, int m, Error *error)
 {
     const size_t cells = volume_grid_cells(&fluid->grid);
@@ -197,7 +197,7 @@ static bool sum(FluidField *fluid, const FluidFieldJob *job, Error *error)
     return true;
 }
 
-/* The one layer of values becomes several, through the depth of the box. */
+/* Copies the one layer of values to several, through the depth of the box. */
 static void deepen(FluidField *fluid, double flat)
 {
     const size_t slice = volume_grid_cells(&fluid->grid);
@@ -215,7 +215,7 @@ bool fluid_field_make(FluidField *fluid, const FluidFieldJob *job, Error *error)
 {
     const double h = job->particles->support_radius;
     const double scale = job->flat > 0 ? 4 / (PI * h * h) / kernel_poly6(0, h) : 1;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a backend on the GPU may have written them */
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a GPU backend may have written the buffers */
     if (!reserve(fluid, job->particles))
         return error_set(error, "no memory to read %zu particles", job->particles->count);
     read_positions(fluid, job, (float)scale);

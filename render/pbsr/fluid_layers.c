@@ -7,20 +7,20 @@
 #include <math.h>
 #include <string.h>
 
-/* Where F is less there is no fluid: a plane surface has 0.5. Isosurfaces of scalars and slices end there. */
+/* Less F means no fluid: F is 0.5 at a plane surface. Isosurfaces of scalars and slices end there. */
 static const float FLUID_LEAST = 0.5F;
 
-/* All that a layer is made from. */
+/* Inputs of a layer. */
 typedef struct Making {
     FluidLayers *out;
     const PbsrLayer *said;
-    const float *color; /* the mean that colours go by; NULL: none */
+    const float *color; /* the mean that gives colours; NULL: none */
     double spacing, flat, curved, support;
     bool failed[PBSR_LAYERS_MAX];
 } Making;
 
-/* Between the eight values around a place, given in values from the first, or those of them that are numbers.
- */
+/* Interpolates between the eight values around a position (in cells from the first value), leaving out NaN
+   values. */
 static float value_at(const FluidField *fluid, const float *values, const double index[3])
 {
     const int *size = fluid->grid.size;
@@ -48,7 +48,7 @@ static float value_at(const FluidField *fluid, const float *values, const double
     return (float)(all ? sum : sum / known);
 }
 
-/* ---- where values cross a level ---- */
+/* ---- isosurfaces ---- */
 
 static void set_vertex(const Making *making, const IsoMesh *mesh, size_t v, const float *values, bool ends,
                        LayerPoint *out)
@@ -87,7 +87,7 @@ static bool make_isosurface(const Making *making, const float *values, float lev
 
 /* ---- slices ---- */
 
-/* Corners of squares on the plane, as far apart as values are. */
+/* A grid of squares in the plane, at the spacing of the field's values. */
 static bool make_slice(const Making *making, int axis, double level, Layer *out)
 {
     const FluidField *fluid = &making->out->fluid;
@@ -98,7 +98,7 @@ static bool make_slice(const Making *making, int axis, double level, Layer *out)
     if (!layer_reserve(out, width * height, 2 * width * height))
         return false;
     if (!(index[axis] >= 0 && index[axis] <= fluid->grid.size[axis] - 1))
-        return true; /* no fluid is there */
+        return true; /* no fluid at this plane */
     for (size_t i = 0; i < width * height; i++) {
         LayerPoint *point = &out->point[i];
         const size_t column = i % width, row = i / width;
@@ -148,7 +148,7 @@ static bool make_volume(const Making *making, Layer *out)
     return true;
 }
 
-/* ---- the whole ---- */
+/* ---- all layers ---- */
 
 static bool make_layer(const Making *making, int number)
 {

@@ -60,14 +60,14 @@ void fluid_walk_begin(FluidWalk *walk, const PbsrLayer *said, FluidLayers *layer
     walk->made = walk->sph != NULL;
 }
 
-/* ---- what is seen ---- */
+/* ---- visible triangles ---- */
 
 static bool is_seen(const Layer *layer, size_t triangle)
 {
     return layer->share[triangle].expected > 0;
 }
 
-/* The triangles that are seen, with all vertices: those of no triangle are read by nobody. */
+/* Copies the visible triangles, and all vertices: unused vertices do no harm. */
 static bool take_near(FluidWalk *walk, const Layer *layer)
 {
     Error error;

@@ -1,7 +1,7 @@
-/* Surfaces of the fluid by the walk on the particles' own field, or between the values of the grid
-   (sim/surface/near_walk.h), near the triangles that the grid has. Points are made for some sets at a time,
-   as they are drawn, of what a look sees; so many of them are made as a picture's time allows, and none is
-   kept. On the CPU, in three dimensions. */
+/* Points on the fluid's surfaces by a random walk on the particles' own field, or on the interpolated grid
+   (sim/surface/near_walk.h), near the grid's triangles. Points are made for some sets at a time while
+   drawing, for the visible triangles only; as many as a picture's time allows, and none are kept. On the
+   CPU, in three dimensions. */
 #ifndef SLOSH_FLUID_WALK_H
 #define SLOSH_FLUID_WALK_H
 
@@ -9,36 +9,37 @@
 #include "render/pbsr/still_layers.h"
 #include "sim/surface/sph_field.h"
 
-enum { FLUID_WALK_SETS = 8 }; /* at a time, at most: for their memory */
+enum { FLUID_WALK_SETS = 8 }; /* most sets at a time, to limit memory */
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct FluidWalk {
-    bool walks;       /* points of these are drawn, and not of the layer's triangles */
-    bool made;        /* of the present state: */
-    SphField *sph;    /* particles with the layer's scalar; NULL: the walk is by the */
+    bool walks;       /* true: the walk's points are drawn instead of the layer's triangles */
+    bool made;        /* the inputs below are of the present state */
+    SphField *sph;    /* particles with the layer's scalar; NULL: the walk uses `grid` */
     VolumeData grid;  /* values of the fluid's layers */
-    StillLayer still; /* the points of the last sets */
-    Polygons near;    /* triangles of the last look */
-    const char *why;  /* static: why it is triangles though a walk was asked for; NULL: it is as asked */
+    StillLayer still; /* points of the last sets */
+    Polygons near;    /* triangles visible in the last look */
+    const char *why;  /* static: reason for triangles although a walk was asked for; NULL: none */
 } FluidWalk;
 
-/* Whether a walk is asked for. */
+/* True if the layer asks for a walk. */
 bool fluid_walk_said(const PbsrLayer *said);
 
-/* Whether it is one between the values of the fluid's grid, and not on the particles' sum. */
+/* True if the walk uses the fluid's grid, not the sum over particles. */
 bool fluid_walk_by_grid(const PbsrLayer *said);
 
-/* Readies the layer that has been made anew. `flat` as fluid_layers_make. */
+/* Prepares the walk after the layer was made again. `flat`: as in fluid_layers_make. */
 void fluid_walk_begin(FluidWalk *walk, const PbsrLayer *said, FluidLayers *layers,
                       const ParticleBuffers *particles, double flat, bool by_gpu);
 
-/* What a look sees, which layer_share has filled in. */
+/* Takes the visible triangles, from the shares that layer_share has filled in. */
 void fluid_walk_see(FluidWalk *walk, const PbsrLayer *said, const Layer *layer, const SetSight *sight);
 
-/* Points of the sets from `first` on. Where that fails the layer is of triangles, and `why` says so. */
+/* Makes the points of `count` sets from `first` on. On failure the layer uses triangles, and `why` gives
+   the reason. */
 void fluid_walk_sets(FluidWalk *walk, const PbsrLayer *said, const FluidLayers *layers, unsigned number,
                      int seed, int first, int count);
 
-void fluid_walk_free(FluidWalk *walk); /* a zeroed one is allowed */
+void fluid_walk_free(FluidWalk *walk); /* a zeroed struct is allowed */
 
 #endif

@@ -9,10 +9,10 @@
 
 enum { SHARES_PART = 4096 };
 
-/* Beyond this a triangle fills the picture many times over, from a tenth of a pixel's side away. */
+/* A triangle with more points fills the picture many times over, from a tenth of a pixel's side away. */
 static const float EXPECTED_MOST = 4e6F;
 
-/* The points of what reaches from the eye outwards are as dense as at this part of its depth at most. */
+/* For pieces that extend from the eye outwards: density as at this fraction of the largest depth, at most. */
 static const float NEAREST_PART = 0.25F;
 
 static bool room(void **array, size_t *capacity, size_t count, size_t width)
@@ -43,7 +43,7 @@ void layer_free(Layer *layer)
     *layer = (Layer){0};
 }
 
-/* ---- how many are expected ---- */
+/* ---- expected numbers ---- */
 
 typedef struct Sharing {
     Layer *layer;
@@ -51,7 +51,7 @@ typedef struct Sharing {
     _Atomic float beyond; /* Layer.beyond */
 } Sharing;
 
-/* As the rows of the sight have it. */
+/* Applies the rows of the sight. */
 static void see(const SetSight *sight, const float at[3], float seen[3])
 {
     for (int k = 0; k < 3; k++)
@@ -59,7 +59,7 @@ static void see(const SetSight *sight, const float at[3], float seen[3])
             sight->row[k][0] * at[0] + sight->row[k][1] * at[1] + sight->row[k][2] * at[2] + sight->row[k][3];
 }
 
-/* Bits of the sides of the picture's part, and of the near plane, that a place is beyond. */
+/* Bits: a side of the picture's part, or the near plane, that a position is beyond. */
 static unsigned beyond(const SetSight *sight, const float seen[3])
 {
     const float w = seen[2];
@@ -96,11 +96,11 @@ static LayerShare share_of(Sharing *sharing, float size, float low, float high)
     if (expected > EXPECTED_MOST)
         note_beyond(sharing, expected / EXPECTED_MOST);
     if (!(expected > 0))
-        return (LayerShare){0, 1}; /* NaN too: a corner is nowhere, beside particles without a number */
+        return (LayerShare){0, 1}; /* also NaN: a corner may be undefined beside particles without a number */
     return (LayerShare){fminf(expected, EXPECTED_MOST), nearest};
 }
 
-/* False where a point has none. */
+/* Returns false for a point without a normal. */
 static bool unit_normal(const LayerPoint *point, float unit[3])
 {
     const float *n = point->normal, length = sqrtf(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
@@ -115,8 +115,7 @@ static float apart(const float a[3], const float b[3])
     return sqrtf(x * x + y * y + z * z);
 }
 
-/* How many times as many points as `opacity` says a triangle gets: its curvature is by how much the normal
-   turns along it. */
+/* The factor of a triangle's number of points; curvature is the turning of the normal along the triangle. */
 static float bend_of(const Layer *layer, const LayerPoint *const p[3])
 {
     float normal[3][3], turn = 0, side = 0;
@@ -137,7 +136,7 @@ static bool has_normal(const LayerPoint *point)
     return n[0] != 0 || n[1] != 0 || n[2] != 0;
 }
 
-/* What has no normal, as a slice, has no edges. */
+/* Surfaces without normals, such as slices, have no edges. */
 static float edges_of(const SetSight *sight, const LayerPoint *const p[3])
 {
     return has_normal(p[0]) || has_normal(p[1]) || has_normal(p[2]) ? 1 + sight->edges : 1;
@@ -172,10 +171,10 @@ static void share_triangles(void *context, size_t begin, size_t end)
         sharing->layer->share[i] = share_of_triangle(sharing, sharing->layer->triangle[i]);
 }
 
-/* The near plane and the sides of the picture's part: a place beyond one gives less than 0. */
+/* The near plane and the sides of the picture's part: positions outside give less than 0. */
 typedef struct SightBounds {
     float plane[5][4];
-    float reach[5]; /* the most by which a cell's points give more than its centre */
+    float reach[5]; /* largest difference between a point of a cell and the cell's centre */
 } SightBounds;
 
 static SightBounds bounds_of(const SetSight *sight, const double cell[3])
@@ -205,7 +204,7 @@ static bool cell_unseen(const SightBounds *bounds, const float at[3])
     return false;
 }
 
-/* A cell reaches as far as its neighbours' centres, and is as dense as what is inside says. */
+/* A cell extends to its neighbours' centres; the density is the cell's `inside`. */
 static void share_cells(void *context, size_t begin, size_t end)
 {
     Sharing *sharing = context;
@@ -241,7 +240,7 @@ bool layer_share(Layer *layer, const SetSight *sight)
 
 /* ---- points ---- */
 
-/* All eight numbers of three corners, mixed. */
+/* Interpolates all eight numbers of three corners. */
 static void mix_corners(const LayerPoint *a, const LayerPoint *b, const LayerPoint *c, float u, float v,
                         LayerPoint *out)
 {
@@ -264,8 +263,8 @@ static void on_triangle(const Layer *layer, const uint32_t corner[3], uint64_t b
     mix_corners(&layer->point[corner[0]], &layer->point[corner[1]], &layer->point[corner[2]], u, v, out);
 }
 
-/* As far from the centre as two even numbers add up to: densities of cells are then linear between centres. A
-   slab is even along z. */
+/* Offsets are sums of two uniform random numbers: densities are then linear between cell centres. A slab
+   is uniform along z. */
 static void in_cell(const Layer *layer, const LayerPoint *centre, RandomStream *stream, LayerPoint *out)
 {
     const uint64_t one = random_bits(stream), other = random_bits(stream);
@@ -281,7 +280,7 @@ double layer_part(const Layer *layer)
     return layer->beyond > 1 ? 1 / layer->beyond : 1;
 }
 
-/* Of the points that are enough for what is seen edge on. */
+/* Fraction of the points that edge-on surfaces need. */
 static float part_of(const SetSight *sight, const LayerPoint *point)
 {
     return sight->edges > 0 && has_normal(point)
@@ -289,7 +288,7 @@ static float part_of(const SetSight *sight, const LayerPoint *point)
                : 1;
 }
 
-/* Thins out what is farther than the nearest of its share. */
+/* Thins out points farther than the nearest depth of the share. */
 static bool stays(const SetSight *sight, const LayerPoint *point, float nearest, float chance, float part)
 {
     const float *row = sight->row[2];

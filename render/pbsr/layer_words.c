@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* "surface 120 of head": the level is in the file's unit, which nobody said. */
+/* "surface 120 of head": the level is in the file's unit, which is unknown. */
 static void words_of_file(const PbsrLayer *said, char words[LAYER_WORDS_SIZE])
 {
     const char *slash = strrchr(said->file, '/'), *file = slash ? slash + 1 : said->file;
@@ -40,7 +40,7 @@ void layer_words(const PbsrLayer *said, char words[LAYER_WORDS_SIZE])
     }
 }
 
-/* Words that are gathered. */
+/* Text collected so far. */
 typedef struct Words {
     char *text;
     size_t size, used;
@@ -62,7 +62,7 @@ static const char *part_from(const Words *words)
     return words->used > 0 ? "; " : "";
 }
 
-/* No fluid where it is, or no place with its level. */
+/* True if no part of the layer is in the fluid, or the level is reached nowhere. */
 static bool is_missing(const Layer *layer, const StillLayer *still)
 {
     for (size_t i = 0; i < layer->point_count; i++)
@@ -71,7 +71,7 @@ static bool is_missing(const Layer *layer, const StillLayer *still)
     return still->sets == 0 && still->pieces.point_count == 0;
 }
 
-/* Layers count from 1. */
+/* Layer numbers start at 1. */
 static void add_part(Words *words, int number, const char *name, double opacity, double part)
 {
     if (part < 1)
@@ -79,14 +79,14 @@ static void add_part(Words *words, int number, const char *name, double opacity,
             name, 1 - pow(1 - fmin(opacity, OPACITY_MOST), part), opacity);
 }
 
-/* What the sampler says of its points. */
+/* Adds the sampler's note about its points. */
 static void add_note(Words *words, int number, const char *name, const StillLayer *still)
 {
     if (still->sets > 0 && still->note[0])
         add(words, "%slayer %d, %s: %s", part_from(words), number, name, still->note);
 }
 
-/* Of a layer of the fluid that was asked to be walked on. */
+/* Adds notes about a fluid layer with a walk. */
 static void add_walk(Words *words, int number, const PbsrLayer *said, const FluidWalk *walk)
 {
     char name[LAYER_WORDS_SIZE];
@@ -98,7 +98,7 @@ static void add_walk(Words *words, int number, const PbsrLayer *said, const Flui
     add_note(words, number, name, &walk->still);
 }
 
-/* All solids have one layer: the one that falls shortest speaks for it. */
+/* All solids form one layer: the solid with the lowest part decides. */
 static void add_solids(Words *words, int number, const PbsrLayer *said, const SolidLayers *solids)
 {
     double part = 1;
@@ -122,7 +122,7 @@ static void add_layer(Words *words, int number, const PbsrLayer *said, const Lay
     const double part = fmin(still_layer_part(still), walks ? 1 : layer_part(layer_pieces(still, layer)));
     layer_words(said, name);
     if (!(said->opacity > 0))
-        return; /* as it was said */
+        return; /* invisible as requested */
     if (still->trouble.message[0] && still->sets == 0 && still->pieces.point_count == 0)
         add(words, "%sno layer %d, %s: %s", part_from(words), number, name, still->trouble.message);
     else if (is_missing(layer, still))
@@ -132,7 +132,7 @@ static void add_layer(Words *words, int number, const PbsrLayer *said, const Lay
     add_note(words, number, name, still);
 }
 
-/* Keys that were said and change nothing. */
+/* Reports keys of the scene without effect. */
 static void add_idle(Words *words, int number, const PbsrLayer *said, double curved)
 {
     const double *at = said->position, *axis = said->axis;
@@ -157,7 +157,7 @@ static void add_idle(Words *words, int number, const PbsrLayer *said, double cur
             part_from(words), number);
 }
 
-/* Points that stay with the GPU are not asked where they are in the fluid. */
+/* Kept points in GPU memory have no colours from the fluid. */
 static void add_grey(Words *words, int number, const PbsrLayer *said)
 {
     char name[LAYER_WORDS_SIZE];

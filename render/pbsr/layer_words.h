@@ -1,4 +1,4 @@
-/* What people read of the layers of the view pbsr. */
+/* Texts for users about the layers of the view pbsr. */
 #ifndef SLOSH_LAYER_WORDS_H
 #define SLOSH_LAYER_WORDS_H
 
@@ -14,15 +14,15 @@ void layer_words(const PbsrLayer *said, char words[LAYER_WORDS_SIZE]);
 typedef struct LayersDrawn {
     const PbsrDef *def;
     const FluidLayers *layers;
-    const FluidWalk *walks;  /* PBSR_LAYERS_MAX of them */
-    const StillLayer *still; /* the same */
+    const FluidWalk *walks;  /* array of PBSR_LAYERS_MAX */
+    const StillLayer *still; /* array of PBSR_LAYERS_MAX */
     const SolidLayers *solids;
     bool by_gpu;                /* the GPU projects */
-    int sets;                   /* of the picture once it is whole */
+    int sets;                   /* sets of the finished picture */
     bool uncounted, over_lacks; /* no memory: to count points; for the depths of lines and arrows */
 } LayersDrawn;
 
-/* What of it is not as the def says, parts ended by "; " but for the last; returns the length, 0: all is. */
+/* Describes what differs from the def, parts separated by "; ". Returns the length; 0: nothing differs. */
 size_t layers_lack(const LayersDrawn *drawn, char *text, size_t size);
 
 #endif

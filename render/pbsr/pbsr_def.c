@@ -7,7 +7,7 @@
 
 const PbsrDef pbsr_usual = {.repeat = 64, .budget = 40, .cell = 0.75, .points = 1.2e7, .seed = 1};
 
-/* What a list without elements stands for. */
+/* The layer of an empty list. */
 static const PbsrLayer usual_layer = {
     .of = PBSR_SURFACE, .level = 0.5, .opacity = 0.4, .file = "none", .axis = {0, 1, 0}};
 

@@ -1,4 +1,4 @@
-/* The view pbsr's own settings: their keys and defaults. */
+/* Settings of the view pbsr: keys and defaults. */
 #ifndef SLOSH_PBSR_DEF_H
 #define SLOSH_PBSR_DEF_H
 
@@ -8,7 +8,7 @@
 
 enum { PBSR_LAYERS_MAX = 8, PBSR_FILE_SIZE = 96 };
 
-/* What a layer is of: one of these, or behind them, PBSR_SCALARS + a Scalar, where that is at the level. */
+/* Kinds of layers; from PBSR_SCALARS on, PBSR_SCALARS + a Scalar: the isosurface of a scalar. */
 enum {
     PBSR_SURFACE,
     PBSR_VOLUME,
@@ -19,44 +19,45 @@ enum {
     PBSR_TORUS,
     PBSR_GYROID,
     PBSR_WAVE,
-    PBSR_SOLIDS, /* of the scene: render/pbsr/solid_layers.h */
+    PBSR_SOLIDS, /* solids of the scene: render/pbsr/solid_layers.h */
     PBSR_SCALARS
 };
 
-/* Who makes and projects the points of fluids. */
+/* The processor that makes and projects the points of fluids. */
 typedef enum PbsrMethod { PBSR_AUTO, PBSR_CPU, PBSR_GPU } PbsrMethod;
 
-/* How points come onto a surface. */
+/* Methods of placing points on a surface. */
 typedef enum PbsrSampler { PBSR_SAMPLER_AUTO, PBSR_SAMPLER_WALK, PBSR_SAMPLER_TRIANGLES } PbsrSampler;
 
-/* Between which values a surface runs: those of a file, trilinear, and the sum over the fluid's particles; or
-   by PBSR_BY_GRID + a VolumeInterpolation those of a file, and those of the fluid's grid. */
+/* Interpolation of a surface's values. PBSR_BY_ITSELF: trilinear for a file, the sum over particles for
+   the fluid. PBSR_BY_GRID + a VolumeInterpolation: between the values of a file, or of the fluid's grid. */
 enum { PBSR_BY_ITSELF, PBSR_BY_GRID };
 
 typedef struct IN_A_ROOM PbsrLayer {
     int of;
     int sampler;               /* a PbsrSampler */
-    int interpolation;         /* PBSR_BY_ITSELF or behind it */
-    const RangedVolume *data;  /* of the file, from who read the scene; NULL: it has none */
-    char file[PBSR_FILE_SIZE]; /* of volume data; "none": the layer is of the fluid, or a formula */
-    double position[3];        /* m: moved by that, in the box's frame */
-    double axis[3], angle_deg; /* after it was turned about the middle of what it is made of; of any length */
-    double level; /* of the fluid's surface: of the field; of a slice: its place on its axis, m; of a scalar:
-                     in its unit; of a formula: a length, m */
+    int interpolation;         /* PBSR_BY_ITSELF, or PBSR_BY_GRID and up */
+    const RangedVolume *data;  /* the file's data, set by the scene's reader; NULL: none */
+    char file[PBSR_FILE_SIZE]; /* volume data; "none": the layer is of the fluid, or a formula */
+    double position[3];        /* translation in the box's frame, m */
+    double axis[3], angle_deg; /* rotation about the layer's middle, before the translation; `axis` has any
+                                  length */
+    double level;    /* fluid's surface: value of the field; slice: position on the axis, m; scalar: in the
+                        scalar's unit; formula: a length, m */
     double opacity;  /* 0 .. 1: of a surface seen from the front; of volume one spacing deep */
-    double color[3]; /* linear; black: what the view's colours are by */
+    double color[3]; /* linear; black: the view's colours */
 } PbsrLayer;
 
 typedef struct IN_A_ROOM PbsrDef {
     PbsrLayer layers[PBSR_LAYERS_MAX];
     int layer_count; /* 0: the fluid's surface alone */
     int repeat;      /* sets of a picture at rest: L_R */
-    int moving;      /* sets of a picture while something moves; 0: by the budget */
-    double budget;   /* ms of a picture that others follow */
-    double cell;     /* of the grid, spacings */
-    double curved;   /* so many times as many points more where a fluid's surface is bent */
-    double edges;    /* so many times as many points more where a surface is seen edge on */
-    double points;   /* of a layer whose points stay, as many sets as that is; 24 bytes each */
+    int moving;      /* sets of a picture during motion; 0: by the budget */
+    double budget;   /* ms per picture if further pictures follow */
+    double cell;     /* side of a grid cell, spacings */
+    double curved;   /* relative number of extra points where a fluid's surface is curved */
+    double edges;    /* relative number of extra points where a surface is seen edge-on */
+    double points;   /* kept points of a still layer, in as many sets as fit; 24 bytes each */
     int seed;
     PbsrMethod method;
 } PbsrDef;
@@ -66,34 +67,34 @@ extern const PbsrDef pbsr_usual; /* the defaults */
 extern const Key pbsr_keys[];    /* ended by a row without a path */
 extern const ViewGrade pbsr_grades[];
 
-/* Those of that def; not const, as memchr's result is not. */
+/* The settings of a def; not const, like memchr's result. */
 PbsrDef *pbsr_def(const ViewDef *def);
 
-/* Of what a layer is of; NULL behind the last. */
+/* Name of a kind of layer; NULL after the last. */
 const char *pbsr_layer_name(int index);
 
 /* ViewKind.files */
 int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX]);
 
-/* Whether it is of a file. */
+/* True if the layer is of a file. */
 bool pbsr_of_file(const PbsrLayer *layer);
 
-/* What is between its values, where they stand on a grid. */
+/* The interpolation of values on a grid. */
 VolumeInterpolation pbsr_interpolation(const PbsrLayer *layer);
 
-/* Whether it is no part of the fluid: of a file, or a formula. */
+/* True if the layer is not of the fluid: of a file, or a formula. */
 bool pbsr_still(const PbsrLayer *layer);
 
-/* Whether it is a formula without a colour: it has those of the fluid. */
+/* True for a formula without a colour, which takes the fluid's colours. */
 bool pbsr_painted(const PbsrLayer *layer);
 
-/* Whether it has a colour of its own. */
+/* True if the layer has a colour of its own. */
 bool pbsr_colored(const PbsrLayer *layer);
 
-/* The layers that there are; how many, at least 1. */
+/* Fills in the layers; returns their number, at least 1. */
 int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX]);
 
-/* Which scalars the layers are of, SCALAR_BIT. */
+/* The scalars of the layers, SCALAR_BIT. */
 uint64_t pbsr_scalars(const PbsrDef *def);
 
 #endif

@@ -17,13 +17,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A GPU says too late what a picture costs it. */
+/* Fixed number: timings from a GPU come too late for a budget. */
 enum { GPU_SETS = 8 };
 
-/* Of layers that stay, while looks at them change and nothing says how many. */
+/* Number of sets of still layers while looks change, if the def gives none. */
 enum { FEW_SETS = 8 };
 
-/* What layers are made of: while it stays they do. */
+/* Inputs of the layers: layers stay valid while these are equal. */
 typedef struct LayersFrom {
     PbsrDef def;
     uint64_t step;
@@ -33,10 +33,10 @@ typedef struct LayersFrom {
     size_t offset;
     Scalar color;
     double box_size[3], spacing, support;
-    WorldDef world; /* another scene may have as many particles in the same buffer at the same time */
+    WorldDef world; /* a new scene may have equal count, buffer and time */
 } LayersFrom;
 
-/* And what a picture's sets are seen by: while it stays more of them are added to the mean. */
+/* Inputs of a picture: while equal, further sets are added to the mean. */
 typedef struct PictureFrom {
     LayersFrom layers;
     ViewDef def;
@@ -49,22 +49,22 @@ typedef struct PictureFrom {
 
 typedef struct PbsrView {
     FluidLayers layers;
-    FluidWalk steps[PBSR_LAYERS_MAX]; /* where the walk is on the fluid */
+    FluidWalk steps[PBSR_LAYERS_MAX]; /* used by layers with a walk on the fluid */
     StillLayer still[PBSR_LAYERS_MAX];
     SolidLayers solids;
     Average average;
-    Project project;  /* nothing where the CPU projects */
-    SurfaceGpu walks; /* the same; makes the points of still layers */
+    Project project;  /* zero if the CPU projects */
+    SurfaceGpu walks; /* zero if the CPU projects; makes the points of still layers */
     Casting casting;
     LayersFrom made;
     PictureFrom drawn;
     bool valid;     /* `made` and `drawn` are of the last picture */
     int wanted;     /* sets of a picture at rest */
-    int there;      /* of them that layers that stay have points for */
-    int added;      /* sets of the last picture that was not counted */
-    bool uncounted; /* points were asked for, and memory was short */
+    int there;      /* sets for which still layers have points */
+    int added;      /* sets of the last picture whose points were not counted */
+    bool uncounted; /* counting points failed: memory was short */
     char lack[1400], note[1500];
-    size_t lacked; /* length of the former */
+    size_t lacked; /* length of `lack` */
     Error trouble;
 } PbsrView;
 
@@ -85,7 +85,7 @@ static void destroy(void *state)
     free(view);
 }
 
-/* Of surfaces that are formulas the level is a length. */
+/* The level of a formula's surface is a length. */
 static bool check(const Subject *subject, const char **key, Error *error)
 {
     PbsrLayer said[PBSR_LAYERS_MAX];
@@ -109,7 +109,7 @@ static bool projects_on_cpu(const PbsrDef *def)
     return def->method == PBSR_CPU || (def->method == PBSR_AUTO && gl_renderer_is_software());
 }
 
-/* Who projects makes the points that stay. */
+/* The GPU that projects also makes the kept points. */
 static bool create_gpu(PbsrView *view, Error *error)
 {
     if (!project_create(&view->project, error))
@@ -142,9 +142,9 @@ static void cast(void *state, const ParticleBuffers *particles, const Frame *fra
     casting_draw(&view->casting, particles);
 }
 
-/* ---- what a picture is of ---- */
+/* ---- inputs of a picture ---- */
 
-/* Of structs that were zeroed first: what lies between members is 0 then. */
+/* For structs zeroed first, so that padding is 0. */
 static bool same_bytes(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
@@ -156,7 +156,7 @@ static void layers_from(LayersFrom *from, const ParticleBuffers *particles, cons
     memcpy(&from->def, pbsr_def(frame->def), sizeof from->def);
     from->def.repeat = from->def.moving = 0;
     from->def.budget = from->def.points = from->def.edges = from->def.seed = 0;
-    for (int i = 0; i < from->def.layer_count; i++) { /* poses make no layer anew */
+    for (int i = 0; i < from->def.layer_count; i++) { /* a new pose needs no new layer */
         PbsrLayer *layer = &from->def.layers[i];
         layer->angle_deg = 0;
         memset(layer->position, 0, sizeof layer->position);
@@ -231,7 +231,7 @@ static void find_looks(const PbsrDef *def, const WorldDef *world, bool by_gpu,
         }
 }
 
-/* Layers that stay make all sets at once where pictures do not follow each other: a file has what it says. */
+/* If no further pictures follow, as for a file, still layers make all sets at once. */
 static void hurry(PbsrView *view, const PbsrDef *def, const Frame *frame)
 {
     const int moving = !frame->more ? 0 : def->moving > 0 ? def->moving : FEW_SETS;
@@ -250,7 +250,7 @@ static bool layers_wait(const PbsrView *view)
     return any;
 }
 
-/* What of a layer follows from how it is seen. */
+/* Updates the parts of layers that depend on the sight. */
 static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const PbsrDef *def,
                        const Frame *frame)
 {
@@ -262,7 +262,8 @@ static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const P
             return error_set(&view->trouble, "no memory for the points of a layer");
         fluid_walk_see(&view->steps[i], &said[i], &view->layers.layers[i], &view->average.sight);
         (void)still_layer_follow(&view->still[i], &said[i], def, particles->box_size, (unsigned)i,
-                                 &view->average.sight); /* one that cannot be is left out: the note says so */
+                                 &view->average.sight); /* a layer that fails is left out, and the note
+                                                           says so */
         still_layer_paint(&view->still[i], &said[i], &view->layers);
         if (view->project.program &&
             !project_take(&view->project, i, layer_pieces(&view->still[i], &view->layers.layers[i]),
@@ -288,7 +289,7 @@ static bool make_layers(PbsrView *view, const ParticleBuffers *particles, const 
     return true;
 }
 
-/* Layers and sum for this picture; what is still right of the last stays. */
+/* Updates layers and sums for this picture; valid results of the last picture stay. */
 static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame *frame)
 {
     AverageLook looks[AVERAGE_NUMBERS_MAX];
@@ -311,12 +312,12 @@ static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame
     return view->valid = true;
 }
 
-/* ---- its sets ---- */
+/* ---- sets of a picture ---- */
 
 typedef struct Projecting {
     const PbsrView *view;
     uint64_t seed;
-    int first; /* number of the set that goes to the buffer's first place */
+    int first; /* number of the set in the buffer's first place */
 } Projecting;
 
 static void project_some(void *context, size_t begin, size_t end)
@@ -385,8 +386,8 @@ static bool walks_on_fluid(const PbsrView *view)
     return false;
 }
 
-/* As many as there are threads at a time, or one where a walk on the fluid has all threads by itself, of
- * which the first are drawn whatever they cost. */
+/* Adds as many sets at a time as there are threads; one set if a walk on the fluid uses all threads. The
+   first sets are drawn at any cost. */
 static void add_in_budget(PbsrView *view, double begun, const Frame *frame)
 {
     const PbsrDef *def = pbsr_def(frame->def);
@@ -403,8 +404,7 @@ static void add_in_budget(PbsrView *view, double begun, const Frame *frame)
     }
 }
 
-/* Points that stay are dealt to as many sets as their memory allows: one that is drawn twice says nothing
-   new. */
+/* Kept points fill as many sets as memory allows: drawing a set twice adds no information. */
 static void limit_sets(PbsrView *view, const StillLayer *still)
 {
     if (still->sets == 0)
@@ -423,7 +423,7 @@ static void find_sets_wanted(PbsrView *view, const PbsrDef *def)
         limit_sets(view, &view->solids.still[k]);
 }
 
-/* What a picture adds to the mean, up to all that is wanted. */
+/* Adds a picture's sets to the mean, up to all wanted sets. */
 static void add_wanted(PbsrView *view, double begun, const Frame *frame)
 {
     const PbsrDef *def = pbsr_def(frame->def);
@@ -439,7 +439,7 @@ static void add_wanted(PbsrView *view, double begun, const Frame *frame)
         add_sets(view, least(room, most - view->average.count), frame);
 }
 
-/* Found once a picture. */
+/* Called once per picture. */
 static void find_lacks(PbsrView *view, const Frame *frame)
 {
     const PbsrDef *def = pbsr_def(frame->def);
@@ -462,7 +462,7 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     bool made = false;
     GL_STAGE(frame->timer, STAGE_VOXELIZE)
     made = follow(view, particles, frame);
-    if (!made) { /* memory that was there is not there now: the note says so */
+    if (!made) { /* memory that was there before may be gone: the note says so */
         view->average.count = 0;
         return;
     }
@@ -483,7 +483,7 @@ static void draw_front(void *state, const Frame *frame)
     average_show_front(&view->average, frame);
 }
 
-/* The nearest of all sets' points is what is under the mouse. */
+/* The value under the mouse is of the nearest point of all sets. */
 static ViewProbing probing(const void *state, const ViewDef *def)
 {
     (void)state;
@@ -517,7 +517,7 @@ static const char *note(void *state, bool *behind)
     return view->note;
 }
 
-/* Solids of several colours stand in the legend with that of the first. */
+/* In the legend, solids of several colours have the first solid's colour. */
 static float part_color(const WorldDef *world, const PbsrLayer *layer, int k)
 {
     if (layer->of == PBSR_SOLIDS && !pbsr_colored(layer) && world->solid_count > 0)
@@ -525,7 +525,7 @@ static float part_color(const WorldDef *world, const PbsrLayer *layer, int k)
     return (float)layer->color[k];
 }
 
-/* Layers that are said have their names, and the bar stands where one goes by it. */
+/* Lists the def's layers in the legend; the colour bar is shown if a layer uses it. */
 static void show(const ViewDef *def, Frame *frame)
 {
     const PbsrDef *own = pbsr_def(def);

@@ -11,7 +11,7 @@ static uint64_t covered_by(const SetImage *image, size_t pixels)
     return covered;
 }
 
-/* Of a set: each point stays by chance, the farther the surer. */
+/* Expected points of a set: nearer points are kept with higher probability. */
 static double expected_of(const StillLayer *still, const SetSight *sight)
 {
     const float *row = sight->row[2];
@@ -26,7 +26,7 @@ static double expected_of(const StillLayer *still, const SetSight *sight)
     return still->sets > 0 ? all / still->sets : 0;
 }
 
-/* Points that stay in GL's memory are read for that: `points` of the copy is the caller's then. */
+/* Reads points from GL memory into `copy`; the caller frees copy->points. */
 static bool here(const StillLayer *still, StillLayer *copy)
 {
     *copy = *still;
@@ -39,7 +39,7 @@ static bool here(const StillLayer *still, StillLayer *copy)
     return copy->points.point != NULL;
 }
 
-/* Adds what a set has of a layer. */
+/* Adds the points that a set has of a layer. */
 static bool add_set(const Layer *layer, const StillLayer *still, const SetSight *sight, const SetImage *image,
                     double *points)
 {

@@ -9,7 +9,7 @@
 
 enum { POINTS, CORNERS, SHARES, STILL, BUFFERS };
 
-/* A block has a buffer, also where nothing is read of it. */
+/* Each block needs a buffer, even if the shader reads nothing. */
 static const float nothing[4] = {0};
 
 bool project_create(Project *project, Error *error)
@@ -46,7 +46,7 @@ static void send(unsigned buffer, const void *data, size_t bytes)
         glNamedBufferData(buffer, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
 }
 
-/* How many invocations share the points of the piece that has most. */
+/* Number of invocations that share the points of the largest piece. */
 static unsigned parts_of(const Layer *layer, size_t shares)
 {
     float most = 0;
@@ -91,7 +91,7 @@ bool project_take_solid(Project *project, int index, const StillLayer *still, Er
     return is_there(error);
 }
 
-/* In rows, since an axis may have 65,535 groups only. */
+/* In rows, since an axis may be limited to 65,535 groups. */
 static void dispatch(size_t pieces, int sets)
 {
     enum { GROUP = 64, ROW = 32768 };
@@ -108,8 +108,8 @@ static void look(const SetSight *sight)
     glUniform2f(PIECE_RANGE_AT, sight->low, sight->scale);
 }
 
-/* As many cells at a time as a block may have points; so many are a whole number of 256 bytes of either
-   buffer, where a binding may begin. */
+/* Dispatches as many cells at a time as a block can hold points. This number makes offsets in both buffers
+   multiples of 256 bytes, as bindings need. */
 static void dispatch_cells(const Project *project, const ProjectLayer *from, size_t count, int sets)
 {
     enum { STEP = 32 };
@@ -145,8 +145,8 @@ static void project_layer(const Project *project, int index, const Layer *layer,
         dispatch(layer->triangle_count, sets->count * (int)from->parts);
 }
 
-/* As many points at a time as a block may have; so many are a whole number of 256 bytes, where a binding may
- * begin. */
+/* Dispatches as many points at a time as a block can hold. This number makes offsets multiples of 256
+   bytes, as bindings need. */
 static void dispatch_still(const Project *project, unsigned buffer, size_t count)
 {
     enum { STEP = 32 };

@@ -1,5 +1,5 @@
-/* Numbers by a counter: each stream is the same whoever draws from it, and when. After: G. Steele, D. Lea,
-   C. Flood, "Fast splittable pseudorandom number generators", 2014 (SplitMix64). */
+/* Random numbers from a counter: a stream gives the same numbers on any thread, at any time. After: G.
+   Steele, D. Lea, C. Flood, "Fast splittable pseudorandom number generators", 2014 (SplitMix64). */
 #ifndef SLOSH_PBSR_RANDOM_H
 #define SLOSH_PBSR_RANDOM_H
 
@@ -27,13 +27,13 @@ static inline uint64_t random_bits(RandomStream *stream)
     return random_mix(stream->counter += UINT64_C(0x9E3779B97F4A7C15));
 }
 
-/* 0 <= r < 1 of bits shift .. shift + 20: three of one word. */
+/* 0 <= r < 1 from bits shift .. shift + 20: one word gives three numbers. */
 static inline float random_part(uint64_t bits, int shift)
 {
     return (float)(bits >> shift & 0x1FFFFF) * 0x1p-21F;
 }
 
-/* The gap between events that come one a unit in the mean: -log of a number in (0, 1]. */
+/* The gap between events with a mean distance of 1: -log of a number in (0, 1]. */
 static inline float random_gap(RandomStream *stream)
 {
     return -logf((float)((random_bits(stream) >> 40) + 1) * 0x1p-24F);

@@ -3,11 +3,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Where all three rows are 0: Cramer's rule. */
+/* The eye is where all three rows are 0: Cramer's rule. */
 void set_sight_find_eye(SetSight *sight)
 {
     const float *a = sight->row[0], *b = sight->row[1], *c = sight->row[2];
-    double of[4]; /* the determinant, and those with the last column in place of each */
+    double of[4]; /* the determinant, and the determinants with a column replaced by the last column */
     for (int n = 0; n < 4; n++) {
         const int x = n == 1 ? 3 : 0, y = n == 2 ? 3 : 1, z = n == 3 ? 3 : 2;
         of[n] = (double)a[x] * ((double)b[y] * (double)c[z] - (double)b[z] * (double)c[y]) -
@@ -44,7 +44,7 @@ static uint32_t folded(float a, float sum)
     return (uint32_t)((0.5F + 0.5F * a / sum) * 1023 + 0.5F);
 }
 
-/* Seen from +z the upper half is the inner square, the lower one is folded outwards. */
+/* Seen from +z, the upper half is the inner square; the lower half is folded outwards. */
 static uint32_t normal_bits(const float n[3])
 {
     const float x = n[0], y = n[1], sum = fabsf(x) + fabsf(y) + fabsf(n[2]);
@@ -66,7 +66,7 @@ uint32_t set_word(const LayerPoint *point, const SetSight *sight, unsigned layer
     return normal_bits(point->normal) | value_bits(point->value, sight) << 20 | layer << 28;
 }
 
-/* A coordinate from 16 bits with sign to 10 without. */
+/* Converts a coordinate from 16 bits, signed, to 10 bits, unsigned. */
 static uint32_t fewer_bits(uint32_t half)
 {
     return (uint32_t)((float)(int16_t)half * (511.5F / 32767) + 512);
@@ -88,7 +88,7 @@ bool set_image_spot(const SetImage *image, const SetSight *sight, const float at
     const float w = row_at(sight->row[2], at), by = 1 / w;
     const float x = row_at(sight->row[0], at) * by, y = row_at(sight->row[1], at) * by;
     if (!(w > sight->near_plane && x >= 0 && x < (float)sight->width && y >= (float)image->below &&
-          y < (float)(sight->height - image->above))) /* not for NaN */
+          y < (float)(sight->height - image->above))) /* false for NaN */
         return false;
     const float deep = sight->near_plane * by;
     spot->pixel = (size_t)((int)y - image->below) * (size_t)sight->width + (size_t)(int)x;

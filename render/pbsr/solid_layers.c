@@ -21,7 +21,7 @@ static bool same_color(const SolidDef *a, const SolidDef *b)
     return a->color[0] == b->color[0] && a->color[1] == b->color[1] && a->color[2] == b->color[2];
 }
 
-/* Which of the solids' colours solid number `index` has, in the order in which they come. */
+/* Index of a solid's colour, in the order of first use. */
 static int color_of(const WorldDef *world, int index)
 {
     int colors = 0;
@@ -93,7 +93,7 @@ static void begin(StillLayer *still, const SolidDef *solid, const PbsrDef *def, 
 
 /* ---- poses ---- */
 
-/* From the solid's frame to the box's. */
+/* Rotation from the solid's frame to the box's frame. */
 static void turn_of(const BoxState *pose, float turn[3][3])
 {
     for (int k = 0; k < 3; k++) {
@@ -118,7 +118,7 @@ static void see_from(StillLayer *still, const BoxState *pose, const SetSight *si
         }
 }
 
-/* ---- the whole ---- */
+/* ---- all solids ---- */
 
 static bool same(const SolidLayers *layers, int index, const SolidDef *solid, const PbsrDef *def, double slab,
                  unsigned number, int count)

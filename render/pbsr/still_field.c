@@ -6,7 +6,7 @@
 
 static const double DEGREE = 3.14159265358979323846 / 180;
 
-/* Of a torus: a ring's tube. */
+/* Radius of a torus's tube, as a fraction of the ring's radius. */
 static const double TUBE = 1.0 / 3;
 
 bool still_field(const PbsrLayer *said, const double box[3], LevelField *field, Error *error)
@@ -36,7 +36,7 @@ bool still_field(const PbsrLayer *said, const double box[3], LevelField *field, 
     return true;
 }
 
-/* About an axis by an angle: O. Rodrigues, 1840. */
+/* Rotation about an axis by an angle: O. Rodrigues, 1840. */
 void still_turn(const PbsrLayer *said, double turn[3][3])
 {
     const double *a = said->axis, length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
@@ -52,8 +52,8 @@ void still_turn(const PbsrLayer *said, double turn[3][3])
     }
 }
 
-/* A row of places in the box is one of places in the layer's frame: place = turn (x - middle) + middle +
-   position. */
+/* Converts a row for positions x in the box's frame to the layer's frame: place = turn (x - middle) +
+   middle + position. */
 static void move_row(const float row[4], const double turn[3][3], const double middle[3],
                      const double position[3], float out[4])
 {

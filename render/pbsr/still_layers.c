@@ -9,14 +9,14 @@
 #include <epoxy/gl.h>
 #include <string.h>
 
-/* Points of a set that is the only one. */
+/* Largest number of points if there is only one set. */
 static const double ONE_MOST = 4.8e7;
 
-/* Points whose pixels are on their way from memory; and how many of a set before a point is read. */
+/* Number of pixels prefetched at a time; number of points of a set prefetched in advance. */
 enum { SPOTS = 64, AHEAD = 12 };
 
-/* Points are as dense as the least power of this that a look needs: the same for looks from about the same
-   distance, whichever were before, and enough for who comes a tenth nearer. */
+/* The density is the smallest power of this number that a look needs: equal for looks from about the same
+   distance, whatever came before, and enough for coming a tenth nearer. */
 static const double NEARER = 1.25;
 
 static float depth_of(const SetSight *sight, const double at[3])
@@ -25,7 +25,8 @@ static float depth_of(const SetSight *sight, const double at[3])
     return row[0] * (float)at[0] + row[1] * (float)at[1] + row[2] * (float)at[2] + row[3];
 }
 
-/* The least depth of the field's bounds, m; of what is turned, of the ball about them: it may turn on. */
+/* The least depth of the field's bounds, m; for a turned layer, of the bounding ball, since the layer may
+   keep turning. */
 static double nearest_of(const StillLayer *still, bool turned)
 {
     const LevelField *field = &still->field;
@@ -45,7 +46,7 @@ static double nearest_of(const StillLayer *still, bool turned)
     return fmax(nearest, (double)still->sight.near_plane);
 }
 
-/* A field's bounds have faces of so many m2. */
+/* Area of the faces of a field's bounds, m2. */
 static double faces_of(const LevelField *field)
 {
     double faces = 0;
@@ -61,7 +62,7 @@ static void drop_buffer(StillLayer *still)
     still->buffer = 0;
 }
 
-/* By the GPU, if it is one that makes points, and has the field. */
+/* Uses the GPU if available for the sampler and field. */
 static bool make(StillLayer *still, const SurfaceRequest *said, SurfaceResult *result)
 {
     SurfaceRequest request = *said;
@@ -73,7 +74,7 @@ static bool make(StillLayer *still, const SurfaceRequest *said, SurfaceResult *r
     bool made = still->polygons.vertex_count > 0
                     ? polygons_sample(&still->polygons, &request, &still->points, result, &still->trouble)
                     : surface_sample(&request, &still->points, result, &still->trouble);
-    if (!made && by_gpu) { /* it may be too much for the GPU alone */
+    if (!made && by_gpu) { /* the CPU may manage what is too much for the GPU */
         request.device = NULL;
         request.stay = false;
         made = surface_sample(&request, &still->points, result, &still->trouble);
@@ -85,7 +86,7 @@ static bool make(StillLayer *still, const SurfaceRequest *said, SurfaceResult *r
     return true;
 }
 
-/* So many sets, or one, of that density. */
+/* Makes `sets` sets (at least one) with the given density. */
 static bool make_sets(StillLayer *still, unsigned number, double density, double sets, SurfaceResult *result)
 {
     const LevelField *field = &still->field;
@@ -99,8 +100,8 @@ static bool make_sets(StillLayer *still, unsigned number, double density, double
         .sets = most > 1 ? most : 1,
         .seed = random_mix(random_mix((uint64_t)still->seed) + still->stream),
         .surface = number,
-        .pixel =
-            sqrt(still->wanted * (1 + (double)still->sight.edges) / still->needed), /* where it is nearest */
+        .pixel = sqrt(still->wanted * (1 + (double)still->sight.edges) / still->needed), /* where the layer is
+                                                                                            nearest */
         .points_most = (size_t)(most > 1 ? still->most : fmax(still->most, ONE_MOST * still->share))};
     still->points.count = 0;
     still->sets = 0;
@@ -114,11 +115,11 @@ static bool make_sets(StillLayer *still, unsigned number, double density, double
     return true;
 }
 
-/* How many sets fit, by the area of few points: what is inside the bounds may have much less than they, or
-   more. */
+/* Finds how many sets fit, from the area of a few points: the area inside the bounds may differ much from
+   the bounds' faces. */
 static bool find_sets(StillLayer *still, unsigned number, double *sets)
 {
-    static const double FEW = 2e4, SPARE = 0.95; /* the area is known to some hundredths */
+    static const double FEW = 2e4, SPARE = 0.95; /* the area has an error of some hundredths */
     SurfaceResult result;
     if (!make_sets(still, number, fmin(FEW / faces_of(&still->field), still->asked), 1, &result))
         return false;
@@ -126,7 +127,7 @@ static bool find_sets(StillLayer *still, unsigned number, double *sets)
     return true;
 }
 
-/* A gyroid may have some times the area of its bounds' faces. */
+/* FOLDS: a gyroid may have several times the area of its bounds' faces. */
 static bool sample(StillLayer *still, unsigned number, int most)
 {
     static const double FOLDS = 8;
@@ -139,7 +140,7 @@ static bool sample(StillLayer *still, unsigned number, int most)
     return make_sets(still, number, still->asked, fmin(sets, most), &result);
 }
 
-/* Of all but the pose and the looks. */
+/* Compares everything except pose and look. */
 static bool same_surface(const PbsrLayer *a, const PbsrLayer *b)
 {
     return a->of == b->of && a->level == b->level && a->sampler == b->sampler && a->data == b->data &&
@@ -153,7 +154,7 @@ static bool same(const StillLayer *still, const PbsrLayer *said, const PbsrDef *
            still->box[2] == box[2];
 }
 
-/* The field and, of slices and clouds, the pieces. */
+/* Makes the field; for slices and clouds also the pieces. */
 static bool begin(StillLayer *still, const PbsrLayer *said, const PbsrDef *def, const double box[3],
                   unsigned number)
 {
@@ -181,7 +182,7 @@ static bool see_pieces(StillLayer *still, const PbsrLayer *said)
 
 static double reserve_of(double needed)
 {
-    return pow(NEARER, ceil(log(needed) / log(NEARER) + 1e-9)); /* no less than needed, by rounding */
+    return pow(NEARER, ceil(log(needed) / log(NEARER) + 1e-9)); /* rounding must not give less than needed */
 }
 
 bool still_layer_waits(const StillLayer *still)
@@ -190,8 +191,8 @@ bool still_layer_waits(const StillLayer *still)
            (still->few || (still->sets < still->repeat && still->needed < still->asked / 2));
 }
 
-/* Whether points are made anew: without `moving` where other looks would have left others; else where there
-   are too few of them, and at rest where there might be more sets. */
+/* True if new points are needed. Without `moving`: if other looks would have left other points. With
+   `moving`: if points are too few, or at rest if more sets are possible. */
 static bool falls_short(const StillLayer *still, bool changes)
 {
     if (still->moving == 0)
@@ -252,7 +253,7 @@ double still_layer_part(const StillLayer *still)
     return still->sets > 0 && still->needed > still->density ? still->density / still->needed : 1;
 }
 
-/* So that a point stays or goes for itself, and does not flicker. */
+/* A fixed number per point, so that points do not flicker. */
 static float chance_of(size_t point)
 {
     return (float)(random_mix(point + 1) >> 40) * 0x1p-24F;
@@ -279,7 +280,7 @@ void still_layer_paint(StillLayer *still, const PbsrLayer *said, const FluidLaye
     }
 }
 
-/* Gives a point its colour; the number of its look. */
+/* Colours a point; returns the number of the point's look. */
 static unsigned paint(const StillLayer *still, LayerPoint *point, unsigned number)
 {
     const float *at = point->at;
@@ -319,7 +320,7 @@ float still_layer_boost(const StillLayer *still, const SurfacePoint *from)
     return set_sight_boost(&still->sight, from->position, normal);
 }
 
-/* Whether a point is one of those that its depth needs. */
+/* True if the point is needed at its depth. */
 static bool stays(const StillLayer *still, const SurfacePoint *from, size_t i)
 {
     const float *at = from->position;

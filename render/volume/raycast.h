@@ -27,7 +27,7 @@ bool raycast_is_whole(const ViewDef *def);
 bool raycast_is_curved(const ViewDef *def);
 
 /* Draws into frame->target, within the stage `raycast`. Call after target_begin; solids must be in the
-   target's depth. From `particles`, reads the spacing and the box. */
+   target's depth. `particles`: the state that `volume` was made from. */
 void raycast_draw(Raycast *raycast, const Volume *volume, const Voxelizer *voxelizer,
                   const ParticleBuffers *particles, const Frame *frame);
 

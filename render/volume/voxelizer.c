@@ -1,5 +1,4 @@
-/* The grid, the textures and the constants of a volume; its values come from the methods of
- * render/volume/voxelize.h. */
+/* Grid, textures and constants of a volume; the methods of render/volume/voxelize.h compute the values. */
 #include "render/particles/particle_bind.h"
 #include "render/volume/cell_lists.h"
 #include "render/volume/voxelize.h"
@@ -19,9 +18,9 @@ struct Voxelizer {
     VolumeMethod method;
     bool scalar;
     const VoxelizeMethod *by;
-    void *state;          /* of the method */
+    void *state;          /* state of the method */
     GLuint block, bounds; /* buffers */
-    GLuint find_bounds;   /* program, made when the bounds of the fluid are first wanted */
+    GLuint find_bounds;   /* program, made when fluid bounds are first wanted */
     Volume volume;
 };
 
@@ -33,8 +32,8 @@ static const VoxelizeMethod *const methods[] = {
     [VOLUME_GATHER] = &voxelize_compute,  [VOLUME_SLABS] = &voxelize_slabs,
     [VOLUME_DIRECT] = &voxelize_compute};
 
-/* On a software driver its memory is ours, and sums on the CPU are by far the fastest; on hardware the
- * paper's way. */
+/* Software driver: the driver's memory is the CPU's, and sums on the CPU are by far the fastest. Hardware:
+   the paper's method. */
 static VolumeMethod choose(VolumeMethod method)
 {
     if (method != VOLUME_AUTO)
@@ -99,7 +98,7 @@ unsigned volume_texture(const int size[3], unsigned format, const char *label)
 {
     static const GLfloat none[4] = {0};
     GLuint texture;
-    gl_debug_errors(); /* what is asked below is of this texture */
+    gl_debug_errors(); /* drops earlier errors: the query below is for this texture */
     glCreateTextures(GL_TEXTURE_3D, 1, &texture);
     glObjectLabel(GL_TEXTURE, texture, -1, label);
     glTextureStorage3D(texture, 1, format, size[0], size[1], size[2]);
@@ -136,7 +135,7 @@ bool voxelizer_fits(const Voxelizer *voxelizer, const VolumeGrid *grid, double s
     const double bytes = bytes_of(grid, voxelizer->scalar);
     if (voxelizer->method == VOLUME_DIRECT)
         return true;
-    const double needed = 2.5 * bytes; /* planes and slabs take as much again for themselves */
+    const double needed = 2.5 * bytes; /* planes and slabs need the same amount again */
     if (!driver_takes(grid) || needed > gl_memory())
         return error_set(
             error,
@@ -183,7 +182,7 @@ static void fill_block(const Voxelizer *voxelizer, const VoxelizeJob *job, const
     glBindBufferBase(GL_UNIFORM_BUFFER, VOLUME_BLOCK, voxelizer->block);
 }
 
-/* From the numbers of shaders/volume/volume_bounds.comp. */
+/* Decodes the numbers of shaders/volume/volume_bounds.comp. */
 static double ordered(GLuint value)
 {
     const GLuint bits = value & 0x80000000U ? value & 0x7fffffffU : ~value;
@@ -208,7 +207,7 @@ bool voxelizer_prepare(Voxelizer *voxelizer, const VolumeDef *def, const VolumeG
            (!voxelizer->by->reserve || voxelizer->by->reserve(voxelizer->state, whole, error));
 }
 
-/* Asks the GPU, which this waits for: the grid's size is known on this side. */
+/* Waits for the GPU: the CPU needs the grid's size. */
 static void find_bounds(const Voxelizer *voxelizer, const VoxelizeJob *job, GLuint found[6])
 {
     enum { GROUP = 256, GROUPS_MOST = 256 };
@@ -237,8 +236,8 @@ static void crop_to_fluid(const Voxelizer *voxelizer, const VoxelizeJob *job, co
     volume_grid_crop(whole, low, high, job->particles->support_radius, grid);
 }
 
-/* A scene of two dimensions is as deep as its particles; their volumes are areas, and the kernel is that of
- * the plane. */
+/* A two-dimensional scene is as deep as one particle layer; the volumes are areas, and the kernel is the
+   plane's. */
 static bool is_flat(const ParticleBuffers *particles)
 {
     return fabs(particles->box_size[2] - particles->spacing) < 1e-6 * particles->spacing;

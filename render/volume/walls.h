@@ -1,6 +1,6 @@
-/* The walls of the box in a volume: fluid at a wall reaches it, as if its mirror image stood behind. Changes
-   the volume's textures in place, whichever method made them; a field that is summed at the sample has none.
- */
+/* The walls of the box in a volume: the field extends to a wall, as if a mirror image of the fluid were
+   behind. Changes the volume's textures in place, for any method; does nothing for a field that is summed
+   at the sample. */
 #ifndef SLOSH_VOLUME_WALLS_H
 #define SLOSH_VOLUME_WALLS_H
 
@@ -13,10 +13,10 @@ typedef struct VolumeWalls {
 } VolumeWalls;
 
 bool volume_walls_create(VolumeWalls *walls, Error *error);
-void volume_walls_destroy(VolumeWalls *walls); /* zeroed is allowed */
+void volume_walls_destroy(VolumeWalls *walls); /* a zeroed struct is allowed */
 
-/* At the sides of the box that are walls: not those of a periodic axis, nor front and back of a scene of two
-   dimensions. Says in the volume which axes have them. */
+/* Mirrors at all walls of the box: not at sides of a periodic axis, nor at front and back in two
+   dimensions. Sets volume->walled. */
 void volume_walls_mirror(const VolumeWalls *walls, const ParticleBuffers *particles, const bool periodic[3],
                          Volume *volume);
 
