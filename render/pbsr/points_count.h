@@ -6,9 +6,9 @@
 #include "render/pbsr/fluid_walk.h"
 #include "render/pbsr/solid_layers.h"
 
-/* Fills in frame->counts: the pixels that one set covers, and as fragments of STAGE_BLEND the points of
-   `sets` such sets. For counting, the CPU projects one set, even if the GPU projects the picture: both
-   differ only by chance. Returns false, with nothing counted, if memory is short. */
+/* Counts into frame->counts: the pixels covered by one set, and as fragments of STAGE_BLEND the points of
+   `sets` sets. For counting, the CPU projects one set, even if the GPU projects the picture: both differ
+   only by chance. Returns false, with nothing counted, if memory is short. */
 bool points_count(const FluidLayers *layers, const FluidWalk walks[], const StillLayer still[],
                   const SolidLayers *solids, const SetSight *sight, int sets, const Frame *frame);
 

@@ -108,7 +108,7 @@ static void look(const SetSight *sight)
     glUniform2f(PIECE_RANGE_AT, sight->low, sight->scale);
 }
 
-/* Dispatches as many cells at a time as a block can hold points. This number makes offsets in both buffers
+/* Dispatches as many cells at a time as a block can hold points; offsets in both buffers are then
    multiples of 256 bytes, as bindings need. */
 static void dispatch_cells(const Project *project, const ProjectLayer *from, size_t count, int sets)
 {
@@ -145,8 +145,8 @@ static void project_layer(const Project *project, int index, const Layer *layer,
         dispatch(layer->triangle_count, sets->count * (int)from->parts);
 }
 
-/* Dispatches as many points at a time as a block can hold. This number makes offsets multiples of 256
-   bytes, as bindings need. */
+/* Dispatches as many points at a time as a block can hold; offsets are then multiples of 256 bytes, as
+   bindings need. */
 static void dispatch_still(const Project *project, unsigned buffer, size_t count)
 {
     enum { STEP = 32 };

@@ -49,7 +49,7 @@ typedef struct StillLayer {
     PbsrLayer said;
     unsigned stream; /* random stream: equal layers get independent points */
     int seed, repeat;
-    double most, share; /* points; and which part they are of what a layer may have, PbsrDef.points */
+    double most, share; /* number of points; fraction of the points that a layer may have, PbsrDef.points */
     double box[3];
 } StillLayer;
 
@@ -60,7 +60,7 @@ bool still_layer_follow(StillLayer *still, const PbsrLayer *said, const PbsrDef 
                         unsigned number, const SetSight *sight);
 
 /* Begins a layer of polygons, and takes ownership of the polygons; at least one vertex is needed.
-   `stream`: unique; layers of the list use their numbers. `share`: fraction of the points that a layer may
+   `stream`: unique; listed layers use their numbers. `share`: fraction of the points that a layer may
    have. */
 void still_layer_of_polygons(StillLayer *still, Polygons *polygons, const PbsrDef *def, unsigned stream,
                              double share);

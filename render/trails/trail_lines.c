@@ -113,7 +113,7 @@ static void set_color(const TrailStore *store, const Frame *frame, GLuint progra
     glUniform1ui(TRAIL_IS_FLUID_AT, view_color_by(frame->def) == SCALAR_FLUID);
 }
 
-/* From the column before to that one, by the program in use. */
+/* Draws the pieces from column number - 1 to column `number`, with the program in use. */
 static void draw_column(TrailLines *lines, const TrailStore *store, uint64_t number, Scalar scalar)
 {
     const TrailRing *ring = &store->ring;
@@ -129,7 +129,7 @@ static void draw_column(TrailLines *lines, const TrailStore *store, uint64_t num
     quad_indices_draw(&lines->quads, (size_t)store->slots);
 }
 
-/* Of all columns, where it is of another look; else those that are new. */
+/* Draws all columns for a new look, else the new columns. */
 static void keep_by_gpu(TrailLines *lines, const TrailStore *store, const TrailLook *look)
 {
     const TrailRing *ring = &store->ring;
@@ -157,7 +157,7 @@ static TrailPoints points_of(const TrailStore *store, uint64_t number)
     return (TrailPoints){store->mapped_places + 4 * begin, store->mapped_owners + begin};
 }
 
-/* Whether lines lead from a column to that later one. */
+/* True if lines lead from column `from` to the later column `to`. */
 static bool leads(const TrailRing *ring, uint64_t from, uint64_t to)
 {
     bool joins = true;
@@ -166,7 +166,7 @@ static bool leads(const TrailRing *ring, uint64_t from, uint64_t to)
     return joins;
 }
 
-/* From numbers[1] to numbers[2]; of numbers[0] lines may lead there. */
+/* Pieces from numbers[1] to numbers[2]; `earlier` is numbers[0] if lines lead from there. */
 static TrailPieces pieces_of(const TrailStore *store, const uint64_t numbers[3], Scalar scalar)
 {
     const TrailRing *ring = &store->ring;
@@ -180,8 +180,8 @@ static TrailPieces pieces_of(const TrailStore *store, const uint64_t numbers[3],
     return pieces;
 }
 
-/* The column at which the pieces from that one end: a multiple of the step, so that they stay the same from
-   state to state, or the last one that is fixed, and behind that the present one. */
+/* The end column of the pieces that start at `from`: a multiple of the step, so that pieces stay the same
+   from state to state, or the last fixed column; after that the present column. */
 static uint64_t next_column(const TrailLines *lines, const TrailRing *ring, uint64_t from)
 {
     const uint64_t next = (from / lines->step + 1) * lines->step;
@@ -198,7 +198,7 @@ static bool reserve(TrailLines *lines, size_t count)
     return count <= lines->pieces_room;
 }
 
-/* Columns from `first` on, and the present state's. */
+/* Draws the columns from `first` on, and the present state. */
 static bool draw_columns(TrailLines *lines, const TrailStore *store, uint64_t first)
 {
     const TrailRing *ring = &store->ring;
@@ -218,8 +218,8 @@ static bool draw_columns(TrailLines *lines, const TrailStore *store, uint64_t fi
                             (size_t)store->slots);
 }
 
-/* The step of a picture that is drawn anew: all columns, or while the look changes so many that the pieces
-   are no more than the def asks for. A longer piece across a periodic side might be taken for a short one. */
+/* The step for a complete redraw: 1, or while the look changes so large that the def's limit of pieces
+   holds. With periodic sides always 1: a long piece across a side could be taken for a short one. */
 static uint64_t step_of(const TrailLines *lines, const TrailStore *store, const Frame *frame, bool changed)
 {
     const double columns = (double)(store->ring.end - store->ring.begin),
@@ -230,7 +230,7 @@ static uint64_t step_of(const TrailLines *lines, const TrailStore *store, const 
     return (uint64_t)fmax(1, ceil(columns * store->slots / most));
 }
 
-/* False when memory is short. */
+/* Returns false if memory is short. */
 static bool keep_by_cpu(TrailLines *lines, TrailStore *store, const TrailLook *look, const Frame *frame)
 {
     const TrailRing *ring = &store->ring;
@@ -264,7 +264,7 @@ static void show(TrailLines *lines, const TrailStore *store, const Frame *frame,
     glBindVertexArray(lines->screen);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     if (store->ring.head < store->ring.end)
-        return; /* the newest state is in the kept picture */
+        return; /* the newest state is already in the kept picture */
     set_lines(&lines->look, lines->head);
     set_color(store, frame, lines->head, strength);
     draw_column(lines, store, store->ring.head, view_color_by(frame->def));
@@ -273,7 +273,7 @@ static void show(TrailLines *lines, const TrailStore *store, const Frame *frame,
 static void show_all(TrailLines *lines, const TrailStore *store, const Frame *frame)
 {
     const float through = (float)trails_def(frame->def)->through;
-    const bool all = frame->slab > 0; /* in two dimensions particles do not hide them */
+    const bool all = frame->slab > 0; /* two dimensions: particles do not hide trails */
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
     glViewport(0, 0, frame->width, frame->height);
     glEnable(GL_DEPTH_TEST);

@@ -39,7 +39,7 @@ static double newest(const TrailRing *ring)
     return trail_ring_at(ring, ring->end - 1)->time;
 }
 
-/* A time that is as good as that one is of the same state, or of one that stands in for it. */
+/* Almost equal times are of the same state, or of a substitute. */
 static void drop_newer(TrailRing *ring, double time)
 {
     const uint64_t end = ring->end;
@@ -57,8 +57,8 @@ static void drop_old(TrailRing *ring)
         ring->begin++;
 }
 
-/* Nobody knows what particles did in a gap that is longer than a trail, or long all of a sudden: a jump to
-   another time, or a window that stood still. A film that plays fast has such gaps throughout. */
+/* The motion during a gap is unknown if the gap is longer than a trail, or suddenly long: a jump in time,
+   or a window that stood still. A film that plays fast has such gaps all the time, which are no jumps. */
 static bool is_jump(const TrailRing *ring, double gap)
 {
     return gap > ring->length || (ring->gap > 0 && gap > 8 * ring->gap && gap > ring->length / 4);

@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRIPE = TRAIL_TILE, SEEN_FLOATS = 5 }; /* a tile is of one thread alone */
+enum { STRIPE = TRAIL_TILE, SEEN_FLOATS = 5 }; /* a tile belongs to one thread */
 
-/* A column as the eye sees it: x y z in its frame, and pixels from where its axis is in the picture. */
+/* A column in the eye's frame: x y z, and pixels from the position of the axis in the picture. */
 typedef struct Seen {
     float *x, *y, *z, *px, *py;
 } Seen;
@@ -19,13 +19,13 @@ typedef struct Job {
     const TrailPieces *pieces;
     const TrailPicture *picture;
     size_t count, slots, parts;
-    float scale[2]; /* pixels: at.xy / -at.z times this */
+    float scale[2]; /* pixels = at.xy / -at.z times scale */
 } Job;
 
-/* A thread's own: which rows are its, and the three columns of the piece in hand. */
+/* Data of a thread: its stripes, and the three columns of the present pieces. */
 typedef struct Part {
     const Job *job;
-    const TrailPieces *pieces; /* of the column in hand */
+    const TrailPieces *pieces; /* the present column's pieces */
     size_t number;
     Seen seen[3]; /* earlier, from, to */
 } Part;
@@ -35,15 +35,15 @@ typedef struct Corner {
     float x, y;
 } Corner;
 
-/* What a piece leaves: at its beginning, and how it changes to its end. */
+/* Values at a piece's start and end, interpolated between. */
 typedef struct Ink {
     float time[2], value[2], depth[2], half;
     bool known;
 } Ink;
 
-/* ---- what the eye sees ---- */
+/* ---- eye space ---- */
 
-/* Points at the eye's plane or behind it have pixels of no use: nobody reads them. */
+/* Points at or behind the eye's plane get useless pixels, which are never read. */
 static void see(const Job *job, const float *restrict place, Seen *seen)
 {
     const float *m = job->sight->box_to_eye;
@@ -92,8 +92,8 @@ static int whole(float x, int most)
     return x > 0 ? x < (float)most ? (int)x : most : 0;
 }
 
-/* The pixels whose centres lie in a triangle, edges included, and in the part's stripes. `share` and `across`
-   at its corners. */
+/* Fills the pixels with centres in a triangle, edges included, in the part's stripes. `share` and
+   `across`: values at the corners. */
 static void fill(const Part *part, const Ink *ink, const Corner c[3], const float share[3],
                  const float across[3])
 {
@@ -107,7 +107,7 @@ static void fill(const Part *part, const Ink *ink, const Corner c[3], const floa
     const int first = whole(ceilf(left - 0.5F), picture->width),
               end = whole(floorf(right + 0.5F), picture->width);
     const int top = whole(floorf(high + 0.5F), picture->height);
-    /* weights of corners 1 and 2 change so from pixel to pixel along a row */
+    /* change of the weights of corners 1 and 2 from pixel to pixel along a row */
     const float step1 = (c[2].y - c[0].y) * inverse, step2 = -(c[1].y - c[0].y) * inverse;
     for (int y = whole(ceilf(low - 0.5F), picture->height); y < top; y++) {
         if ((size_t)(y / STRIPE) % part->job->parts != part->number)
@@ -124,21 +124,21 @@ static void fill(const Part *part, const Ink *ink, const Corner c[3], const floa
     }
 }
 
-/* The share of the way to the other end at which this end is before the eye. */
+/* The fraction of the way to the other end where the piece is first in front of the eye. */
 static float cut(const TrailSight *sight, float own, float other)
 {
     const float clear = -2 * sight->near_plane;
     return own <= clear ? 0 : (own - clear) / (own - other);
 }
 
-/* Across a way, of length 1. */
+/* A unit vector perpendicular to `along`. */
 static Corner across_of(Corner along)
 {
     const float length = sqrtf(along.x * along.x + along.y * along.y), most = fmaxf(length, 1e-9F);
     return (Corner){-along.y / most, along.x / most};
 }
 
-/* An end of the piece i at that share of its way, in pixels from the middle, and its depth. */
+/* The point of piece i at the fraction `share` of its length, in pixels from the middle; and the depth. */
 static Corner end_of(const Part *part, size_t i, float share, float *depth)
 {
     const Seen *from = &part->seen[1], *to = &part->seen[2];
@@ -154,7 +154,8 @@ static Corner end_of(const Part *part, size_t i, float share, float *depth)
     return (Corner){x / -z * part->job->scale[0], y / -z * part->job->scale[1]};
 }
 
-/* Across the way in which the trail comes, where it comes from before the eye and does not turn back. */
+/* The side direction at the start: perpendicular to the previous piece, if that piece is in front of the
+   eye and the trail does not turn back. */
 static Corner side_at_start(const Part *part, size_t i, Corner first, Corner along)
 {
     const Seen *earlier = &part->seen[0];
@@ -172,7 +173,7 @@ static float mix(float a, float b, float share)
     return a + (b - a) * share;
 }
 
-/* Whether none of the rows is the part's, or none of the picture's. */
+/* True if the piece is outside the picture or outside the part's rows. */
 static bool is_elsewhere(const Part *part, Corner a, Corner b, float reach)
 {
     const TrailPicture *picture = part->job->picture;
@@ -219,14 +220,14 @@ static void draw_piece(const Part *part, size_t i)
          (float[]){reach, -reach, reach});
 }
 
-/* ---- the whole ---- */
+/* ---- all pieces ---- */
 
 static Seen seen_at(float *at, size_t slots)
 {
     return (Seen){at, at + slots, at + 2 * slots, at + 3 * slots, at + 4 * slots};
 }
 
-/* Columns follow one another: what was seen of the last one serves the next. */
+/* Columns follow each other: eye-space points of one column serve the next. */
 static void draw_part(const Job *job, size_t number)
 {
     const size_t column = SEEN_FLOATS * job->slots;
@@ -291,7 +292,7 @@ void trail_rows_free(TrailRows *rows)
     *rows = (TrailRows){0};
 }
 
-/* Where a tile begins, and how many pixels wide and high it is. */
+/* The first pixel of a tile; `size`: width and height in pixels. */
 static float *tile_of(const TrailPicture *picture, size_t tile, int size[2])
 {
     const int x = (int)(tile % (size_t)picture->columns) * TRAIL_TILE,

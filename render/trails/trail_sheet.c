@@ -40,7 +40,7 @@ void trail_sheet_destroy(TrailSheet *sheet)
     *sheet = (TrailSheet){0};
 }
 
-/* Mapped as long as it is there; NULL when memory is short. */
+/* Creates a buffer that stays mapped; returns NULL if memory is short. */
 static void *make(unsigned *buffer, size_t bytes, const char *label)
 {
     const GLbitfield access =
@@ -92,7 +92,7 @@ void trail_sheet_clear(TrailSheet *sheet)
     trail_picture_clear(&sheet->kept);
 }
 
-/* What was drawn over it in the last picture, or has come since, is as in `kept` again. */
+/* Restores the tiles drawn over in the last picture, or changed since, from `kept`. */
 static void restore(TrailSheet *sheet, size_t tiles)
 {
     for (size_t i = 0; i < tiles; i++) {
@@ -102,7 +102,7 @@ static void restore(TrailSheet *sheet, size_t tiles)
     }
 }
 
-/* Whether something is in that block; none is beyond the picture. */
+/* True if the block has any trail; false beyond the picture. */
 static bool is_block(const TrailSheet *sheet, int column, int row)
 {
     enum { SIDE = TRAIL_BLOCK_SIDE / TRAIL_TILE };
@@ -121,7 +121,7 @@ static int blocks_along(int pixels)
     return (pixels + TRAIL_BLOCK_SIDE - 1) / TRAIL_BLOCK_SIDE;
 }
 
-/* Neighbours in a row as one. */
+/* Lists neighbouring blocks of a row as one entry. */
 static void list(TrailSheet *sheet)
 {
     const int columns = blocks_along(sheet->kept.width), rows = blocks_along(sheet->kept.height);

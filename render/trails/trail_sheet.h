@@ -1,6 +1,5 @@
-/* The picture of all trails where the CPU draws it (render/trails/trail_rows.h): what is fixed is kept, the
-   piece that leads to the present state is drawn over it; only blocks in which something is are laid over the
-   view.
+/* The picture of all trails drawn by the CPU (render/trails/trail_rows.h). Fixed pieces are kept, pieces
+   to the present state are drawn over these; only blocks with trails are drawn over the view.
 
    Needs a current OpenGL 4.5 core context of a software driver. */
 #ifndef SLOSH_TRAIL_SHEET_H
@@ -9,38 +8,37 @@
 #include "render/trails/trail_rows.h"
 #include "sim/base/error.h"
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct TrailSheet {
     unsigned program;
     unsigned none;           /* vertex array without attributes */
-    TrailPicture kept;       /* of what is fixed: in memory; */
-    TrailPicture shown;      /* the same with the present state: in a buffer that stays mapped, */
-    unsigned pixels, texels; /* which is this one and this texture */
-    uint8_t *changed;        /* tiles of `kept`, since it was last copied into `shown` */
-    unsigned list;           /* buffer that stays mapped: */
-    uint32_t *block;         /* rows of blocks to show: row, first and end, 10 bits each, */
-    size_t blocks;           /* so many; a software driver has tiles of that size, and is quick where one is
-                                covered whole */
+    TrailPicture kept;       /* the fixed pieces, in memory */
+    TrailPicture shown;      /* with the present state, in a mapped buffer */
+    unsigned pixels, texels; /* that buffer and its texture */
+    uint8_t *changed;        /* tiles of `kept` changed since the last copy to `shown` */
+    unsigned list;           /* mapped buffer: */
+    uint32_t *block;         /* rows of blocks to show: row, first and end, 10 bits each */
+    size_t blocks;           /* length of `block`; a software driver has tiles of the block's size, and
+                                fills whole tiles fast */
     TrailRows rows;
 } TrailSheet;
 
-/* False when the shader does not compile; trail_sheet_destroy is needed in either case. */
+/* Returns false if the shader does not compile; call trail_sheet_destroy in either case. */
 bool trail_sheet_create(TrailSheet *sheet, Error *error);
 void trail_sheet_destroy(TrailSheet *sheet);
 
-/* For pictures of that size; *anew: nothing is there now. False when memory is short. Nothing that reads the
-   sheet may be under way, here and in what follows. */
+/* Adapts to pictures of width x height; *anew: the picture is empty now. Returns false if memory is short.
+   The GPU must not be reading the sheet, in this function and the next two. */
 bool trail_sheet_follow(TrailSheet *sheet, int width, int height, bool *anew);
 
-/* Nothing is fixed any more. */
+/* Removes the fixed pieces. */
 void trail_sheet_clear(TrailSheet *sheet);
 
-/* As trail_rows_draw: `fixed` columns that stay, and behind them `count - fixed` that the next call leaves
-   out. */
+/* As trail_rows_draw: `fixed` columns to keep, then `count - fixed` columns for this picture only. */
 bool trail_sheet_draw(TrailSheet *sheet, const TrailSight *sight, const TrailPieces *pieces, size_t fixed,
                       size_t count, size_t slots);
 
-/* Lays it over the bound target, by the GL state and the uniforms of the program that are set. */
+/* Draws the sheet over the bound target. The caller sets GL state and uniforms of the program. */
 void trail_sheet_show(const TrailSheet *sheet);
 
 #endif

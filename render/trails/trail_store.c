@@ -15,12 +15,13 @@
 #include <string.h>
 
 enum {
-    SLOTS_LEAST = 1024,    /* so that a tap that begins to run does not make all anew at each picture */
-    POINTS_MOST = 8 << 20, /* of all trails: 160 MB */
+    SLOTS_LEAST = 1024,    /* growing slowly at first: a tap that opens would otherwise restart the trails
+                              at each picture */
+    POINTS_MOST = 8 << 20, /* points of all trails: 160 MB */
     POINT_BYTES = 4 * sizeof(float)
 };
 
-static const uint32_t NOBODY = UINT32_MAX; /* no listed id: those are numbers of 31 bits */
+static const uint32_t NOBODY = UINT32_MAX; /* never a listed id: ids have 31 bits */
 
 bool trail_store_create(TrailStore *store, const Subject *subject, Error *error)
 {
@@ -66,7 +67,7 @@ static void clear(unsigned buffer, size_t first, size_t count, uint32_t value)
                               (GLsizeiptr)(count * sizeof value), GL_RED_INTEGER, GL_UNSIGNED_INT, &value);
 }
 
-/* How many trails there are, and every how many ids. */
+/* Computes the number of trails and the stride in ids. */
 static void count_slots(TrailStore *store, const TrailsDef *def, int points)
 {
     const size_t most = (size_t)fmin(TRAILS_MOST, floor(POINTS_MOST / (double)(points + 1)));
@@ -74,10 +75,10 @@ static void count_slots(TrailStore *store, const TrailsDef *def, int points)
     store->stride = wanted > most ? (int)((store->capacity + most - 1) / most) : def->stride;
     store->slots = (int)(wanted > most ? most : wanted > store->least ? wanted : store->least);
     if (store->listed_count > 0)
-        store->slots = TRAILS_LISTED_MAX; /* others may come */
+        store->slots = TRAILS_LISTED_MAX; /* room for later additions */
 }
 
-/* As work_buffer_remake, where the CPU draws them too. */
+/* As work_buffer_remake, mapped for drawing by the CPU. */
 static const void *make_mapped(unsigned *buffer, size_t size, const char *label)
 {
     const GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
@@ -103,7 +104,7 @@ static void make_points(TrailStore *store, size_t points)
 static bool make_buffers(TrailStore *store)
 {
     const size_t slots = (size_t)store->slots, points = slots * (size_t)store->ring.room;
-    gl_debug_errors(); /* what is asked below is of these buffers */
+    gl_debug_errors(); /* drops earlier errors: the query below is for these buffers */
     make_points(store, points);
     work_buffer_remake(&store->seen, slots * sizeof(uint32_t), "trails seen");
     work_buffer_remake(&store->claims, slots * sizeof(uint32_t), "trails claimed");
@@ -111,7 +112,7 @@ static bool make_buffers(TrailStore *store)
     return gl_errors_take(GL_OUT_OF_MEMORY) == 0;
 }
 
-/* Whether the ids are the same, or a list as before: each has a slot. */
+/* True if the ids are unchanged, or if a list follows a list: then each id has a slot. */
 static bool list_goes_on(const TrailStore *store, const TrailsDef *def)
 {
     uint32_t ids[TRAILS_LISTED_MAX];
@@ -126,7 +127,7 @@ static int place_of(const uint32_t ids[], int count, uint32_t id)
     return at;
 }
 
-/* The slot is nobody's, in no column. */
+/* Frees a slot in all columns. */
 static void forget(TrailStore *store, int slot)
 {
     for (int k = 0; k < store->ring.room; k++)
@@ -136,7 +137,7 @@ static void forget(TrailStore *store, int slot)
     store->made++;
 }
 
-/* Who stays keeps slot and past, and new ones take the slots of who is gone. */
+/* Ids that stay keep slot and past; new ids take freed slots. */
 static void follow_list(TrailStore *store, const TrailsDef *def)
 {
     uint32_t ids[TRAILS_LISTED_MAX];
@@ -153,7 +154,7 @@ static void follow_list(TrailStore *store, const TrailsDef *def)
     }
 }
 
-/* Whether there is room for that state by those settings; else all begins anew. */
+/* True if the present buffers fit the state and settings; else the trails restart. */
 static bool has_room(const TrailStore *store, const TrailsDef *def, size_t count)
 {
     const TrailsDef *was = &store->def;
@@ -195,7 +196,7 @@ static bool same3(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Another choice of particles begins now; another box is another fluid. */
+/* A new choice of particles starts now; a new box means a new fluid. */
 static void follow_choice(TrailStore *store, const TrailsDef *def, const ParticleBuffers *particles)
 {
     const TrailsDef *was = &store->def;
@@ -212,7 +213,7 @@ static void follow_choice(TrailStore *store, const TrailsDef *def, const Particl
     store->def = *def;
 }
 
-/* After a step back the choice is that of the time: what crossed the plane later has not done so yet. */
+/* After a step back, restores the choice of that time: later plane crossings have not happened yet. */
 static void go_back(const TrailStore *store)
 {
     const TrailRing *ring = &store->ring;
@@ -244,8 +245,7 @@ void trail_store_bind(const TrailStore *store)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, TRAIL_OWNERS_STORAGE, store->owners);
 }
 
-/* Ids may go on for ever where particles come and go, and the store outlives the scene that it was made for.
- */
+/* Ids may grow without limit where particles come and go, and the store outlives the first scene. */
 static bool claim(const TrailStore *store, const ParticleBuffers *particles)
 {
     if (store->listed_count > 0)
@@ -314,7 +314,7 @@ void trail_store_take(TrailStore *store, const ParticleBuffers *particles, const
 {
     const TrailsDef *own = trails_def(def);
     const bool has = particle_shown(particles, view_color_by(def))->buffer;
-    const Scalar scalar = has ? view_color_by(def) : SCALAR_COUNT; /* which none shows */
+    const Scalar scalar = has ? view_color_by(def) : SCALAR_COUNT; /* a scalar that no view shows */
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     make_room(store, own, particles->count);
     if (store->slots == 0 || (particles->count > 0 && !particles->id.buffer))

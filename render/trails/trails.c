@@ -68,7 +68,7 @@ static bool unfinished(const void *state)
     return trail_lines_unfinished(&((const Trails *)state)->lines);
 }
 
-/* What is not as the keys say. */
+/* Reports differences from the keys. */
 static void legend(void *state, const Frame *frame, char *line, size_t size)
 {
     const TrailStore *store = &((const Trails *)state)->store;
@@ -88,7 +88,7 @@ static void wants(const ViewDef *def, ParticleWants *wants)
     wants->attributes |= PARTICLE_ID;
 }
 
-/* False where the list has no room for it: nothing is added. */
+/* Returns false, and adds nothing, if the list is full. */
 static bool add_id(char list[TRAILS_IDS_SIZE], uint32_t id)
 {
     const size_t used = strlen(list), room = TRAILS_IDS_SIZE - used;
@@ -99,7 +99,7 @@ static bool add_id(char list[TRAILS_IDS_SIZE], uint32_t id)
     return fits;
 }
 
-/* The list of ids without that one; whether it was there. */
+/* Writes the list of ids without `id`; returns true if `id` was in the list. */
 static bool without(const uint32_t ids[], int count, uint32_t id, char list[TRAILS_IDS_SIZE])
 {
     bool was = false;
@@ -115,7 +115,8 @@ static bool without(const uint32_t ids[], int count, uint32_t id, char list[TRAI
 #define IDS_ARE "view.trails.ids="
 _Static_assert(sizeof((ViewSetting *)0)->text >= sizeof IDS_ARE + TRAILS_IDS_SIZE, "a full list fits");
 
-/* Its trail is added to those that are shown, or taken away. Of all by stride it becomes the only one. */
+/* Adds the particle's trail to the shown trails, or removes the trail. If trails were by stride, the
+   particle's trail becomes the only one. */
 static int choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX], char words[160])
 {
     const TrailsDef *own = trails_def(def);

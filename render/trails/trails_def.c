@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A trail of a second through as many points as a window has pictures; as many pieces while it moves as two
-   processors draw in some 5 ms. */
+/* A trail of a second with a point per picture of a window; during motion as many pieces as two processors
+   draw in some 5 ms. */
 const TrailsDef trails_usual = {.stride = 20, .length = 1, .width = 1.5, .moving = 50000, .ids = "all"};
 
 #define AT(field) offsetof(TrailsDef, field)

@@ -10,7 +10,7 @@
 
 enum { GROUP = 64 };
 
-/* One side of one axis. */
+/* A side of an axis. */
 typedef struct Wall {
     int axis, inwards, cells;
     double place; /* cells from the volume's corner */
