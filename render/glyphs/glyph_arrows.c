@@ -60,7 +60,7 @@ static void begin(const GlyphArrows *arrows)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, GLYPH_ARROWS_STORAGE, arrows->arrows);
 }
 
-/* The vector that is shown; buffer 0: the state has none. */
+/* The vector shown; buffer 0: the state lacks the vector. */
 static const ParticleAttribute *vector_of(const ParticleBuffers *particles, const Frame *frame)
 {
     return &particles->vector[glyphs_def(frame->def)->vector];
@@ -97,13 +97,13 @@ static void of_particles(GlyphArrows *arrows, const ParticleBuffers *particles, 
     work_run(particles->count);
 }
 
-/* Where samples stand: a lattice with three steps, m. */
+/* Positions of samples: a lattice with three steps, m. */
 typedef struct Samples {
     double first[3], step[3][3];
     int count[3];
 } Samples;
 
-/* Along `size` m from `corner` on, as many as fit, in the middle. */
+/* Centres as many samples as fit along `size` m. */
 static void fit(Samples *samples, int axis, double size, double cell, const double way[3])
 {
     samples->count[axis] = (int)fmax(floor(size / cell + 1e-6), 1);
@@ -130,7 +130,7 @@ static void plane_samples(Samples *samples, const Plane *plane, double cell)
     fit(samples, 1, plane->size[1], cell, plane->up);
 }
 
-/* False where there is none: a plane that misses the box. */
+/* Returns false if there are no samples: the plane misses the box. */
 static bool make_samples(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame,
                          Samples *samples)
 {

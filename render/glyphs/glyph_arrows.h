@@ -1,4 +1,4 @@
-/* Which arrows there are: feet and vectors of the present state, on the GPU.
+/* The arrows of the present state on the GPU: feet and vectors.
 
    Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_GLYPH_ARROWS_H
@@ -8,28 +8,28 @@
 #include "render/particles/neighbourhood.h"
 #include "render/particles/particle_bind.h"
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct GlyphArrows {
     unsigned particles, samples; /* programs */
     Neighbourhood neighbourhood;
-    bool sorts;           /* `neighbourhood` is there, or what a failure has left of it */
-    unsigned arrows;      /* buffer: foot and vector, two vec4 an arrow */
-    GlyphTallies tallies; /* and the command that draws: six indices an arrow */
-    unsigned no_scalar;   /* buffer: stands in for a scalar that is not there */
-    size_t capacity;      /* arrows that there is room for */
-    size_t most;          /* that the last run may have made; 0: none */
-    double apart;         /* from one to the next, about, m */
-    bool coarser;         /* than was asked for: there would be too many */
+    bool sorts;           /* `neighbourhood` has been created, at least in part */
+    unsigned arrows;      /* buffer: foot and vector, two vec4 per arrow */
+    GlyphTallies tallies; /* counts, and the drawing command: six indices per arrow */
+    unsigned no_scalar;   /* buffer: replaces a missing scalar */
+    size_t capacity;      /* capacity in arrows */
+    size_t most;          /* largest number of arrows of the last run; 0: none */
+    double apart;         /* approximate distance between arrows, m */
+    bool coarser;         /* spacing is larger than asked: there would be too many arrows */
 } GlyphArrows;
 
-/* False when a shader does not compile; glyph_arrows_destroy is needed in either case. */
+/* Returns false if a shader does not compile; call glyph_arrows_destroy in either case. */
 bool glyph_arrows_create(GlyphArrows *arrows, Error *error);
 void glyph_arrows_destroy(GlyphArrows *arrows);
 
-/* Those of that state. */
+/* Makes the arrows of a state. */
 void glyph_arrows_make(GlyphArrows *arrows, const ParticleBuffers *particles, const Frame *frame);
 
-/* What is counted of those made last, of that state: as glyph_tallies_follow. */
+/* The counts of the last arrows, of the same state: as glyph_tallies_follow. */
 const GlyphTally *glyph_arrows_count(GlyphArrows *arrows, const ParticleBuffers *particles,
                                      const Frame *frame);
 

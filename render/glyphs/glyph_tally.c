@@ -21,7 +21,7 @@ static bool same3(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Whether both have the same arrows. */
+/* True if both give the same arrows. */
 static bool same_def(const GlyphsDef *a, const GlyphsDef *b)
 {
     return a->vector == b->vector && a->at == b->at && a->stride == b->stride && a->cell == b->cell &&
@@ -35,7 +35,7 @@ static bool same(const GlyphTallyOf *a, const GlyphTallyOf *b)
            same_def(&a->def, &b->def);
 }
 
-/* What has come, or never will: the context is lost. */
+/* Takes an answer; NULL: none will come, since the context is lost. */
 static void take(GlyphTallies *tallies, const void *came)
 {
     tallies->tally = (GlyphTally){{0}, 0};

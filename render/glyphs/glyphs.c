@@ -15,9 +15,9 @@ typedef struct Glyphs {
     unsigned program;
     ColorTable colors;
     QuadIndices quads;
-    double unit, length; /* an arrow of `length` m stands for `unit`; 0: there are none */
-    uint32_t left_out;   /* vectors without a number, where the legend or the scale asks for it */
-    bool plain;          /* the state has no scalar to colour them by */
+    double unit, length; /* an arrow of `length` m means `unit`; 0: no arrows */
+    uint32_t left_out;   /* NaN vectors, if legend or scale need the count */
+    bool plain;          /* the state lacks the scalar for colours */
 } Glyphs;
 
 static void destroy(void *state)
@@ -46,7 +46,7 @@ static void *create(const Subject *subject, Error *error)
     return NULL;
 }
 
-/* An arrow of the usual length is half as long again as the way from one to the next. */
+/* An arrow of the usual magnitude is one and a half times as long as the arrows' spacing. */
 static void make_scale(Glyphs *glyphs, const ParticleBuffers *particles, const Frame *frame)
 {
     const GlyphsDef *def = glyphs_def(frame->def);
@@ -60,7 +60,8 @@ static void make_scale(Glyphs *glyphs, const ParticleBuffers *particles, const F
 
 static void set_look(const Glyphs *glyphs, const Frame *frame)
 {
-    static const float tip_length = 0.3F, tip_radius = 0.09F, shaft_radius = 0.035F; /* of the usual length */
+    static const float tip_length = 0.3F, tip_radius = 0.09F, shaft_radius = 0.035F; /* fractions of the
+                                                                                        usual length */
     const GlyphsDef *def = glyphs_def(frame->def);
     const float size = (float)glyphs->length;
     const double lift = frame->slab > 0 ? frame->slab / 2 + (double)tip_radius * glyphs->length : 0;
@@ -126,7 +127,7 @@ static bool check(const Subject *subject, const char **key, Error *error)
            error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
 }
 
-/* Ids choose among particles. */
+/* Ids select the particles with arrows. */
 static void wants(const ViewDef *def, ParticleWants *wants)
 {
     wants->vectors |= def ? VECTOR_BIT(glyphs_def(def)->vector) : UINT32_MAX;

@@ -1,4 +1,4 @@
-/* The overlay glyphs' own settings: their keys, names and defaults. */
+/* Settings of the overlay glyphs: keys, names and defaults. */
 #ifndef SLOSH_GLYPHS_DEF_H
 #define SLOSH_GLYPHS_DEF_H
 
@@ -10,10 +10,10 @@ typedef enum GlyphsColor { GLYPHS_BY_SCALAR, GLYPHS_PLAIN } GlyphsColor;
 typedef struct IN_A_ROOM GlyphsDef {
     bool show; /* as OverlayShow */
     Vector vector;
-    GlyphsAt at;  /* where arrows stand */
-    int stride;   /* at particles: every so many ids */
-    double cell;  /* on a grid or a plane: from one to the next, m; 0: a 24th of the longest side */
-    double scale; /* m in a unit of the vector; 0: by the vectors themselves */
+    GlyphsAt at;  /* positions of the arrows */
+    int stride;   /* at particles: one id per stride has an arrow */
+    double cell;  /* on a grid or a plane: distance between arrows, m; 0: a 24th of the longest side */
+    double scale; /* m per unit of the vector; 0: chosen by the vectors' magnitudes */
     double plane_point[3], plane_normal[3]; /* box's frame; the point in m */
     GlyphsColor color_by;
     double color[3]; /* linear RGB */
@@ -21,7 +21,7 @@ typedef struct IN_A_ROOM GlyphsDef {
 
 extern const OverlayKind overlay_glyphs;
 
-/* Those of that def; not const, as memchr's result is not. */
+/* The settings of a def; not const, like memchr's result. */
 GlyphsDef *glyphs_def(const ViewDef *def);
 
 extern const GlyphsDef glyphs_usual; /* the defaults */

@@ -31,7 +31,7 @@ static void make_axes(const double normal[3], Plane *plane)
 }
 
 typedef struct Extent {
-    double low[2], high[2]; /* from the point, m */
+    double low[2], high[2]; /* relative to the point, m */
 } Extent;
 
 static void add_point(const Plane *plane, const double from_point[3], Extent *extent)
@@ -43,7 +43,7 @@ static void add_point(const Plane *plane, const double from_point[3], Extent *ex
     }
 }
 
-/* Corner `number` of the box, from the point. */
+/* Corner `number` of the box, relative to the point. */
 static void box_corner(const double size[3], const double point[3], int number, double out[3])
 {
     out[0] = size[0] * ((number & 1) ? 0.5 : -0.5) - point[0];
@@ -51,7 +51,7 @@ static void box_corner(const double size[3], const double point[3], int number, 
     out[2] = size[2] * ((number & 4) ? 0.5 : -0.5) - point[2];
 }
 
-/* Where the plane cuts the edge between two corners. */
+/* Adds the point where the plane cuts the edge between two corners. */
 static void add_edge(const Plane *plane, const double a[3], const double b[3], Extent *extent)
 {
     const double above = dot(a, plane->normal), below = dot(b, plane->normal);

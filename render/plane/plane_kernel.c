@@ -39,7 +39,7 @@ static double cusp(double q)
     return (1 - q) * (1 - q);
 }
 
-/* Their order is that of shaders/common/plane_kernel.glsl. The test integrates each to 1. */
+/* Same order as in shaders/common/plane_kernel.glsl. The test integrates each kernel to 1. */
 const PlaneKernel plane_kernels[] = {
     {.name = "solver", .help = "the method's own"},
     {"cubic", "cubic spline: Monaghan and Lattanzio 1985", cubic, {40 / (7 * M_PI), 8 / M_PI}},

@@ -1,4 +1,4 @@
-/* The kernels by which the view slice sums: those of solvers and some more, in two and three dimensions. */
+/* Kernels for the sums of the view slice: the solvers' kernels and some more, in two and three dimensions. */
 #ifndef SLOSH_PLANE_KERNEL_H
 #define SLOSH_PLANE_KERNEL_H
 
@@ -13,14 +13,14 @@ typedef struct PlaneKernel {
 /* The first is "solver", without a shape: see plane_kernel_of. Ended by a NULL name. */
 extern const PlaneKernel plane_kernels[];
 
-/* The index of the kernel asked for: of "solver" (0) that of the def's method, or the cubic spline where
-   there is none. At least 1; shaders know kernels by this number. */
+/* The kernel's index: for `asked` "solver" (0) the kernel of the world's method, or the cubic spline
+   without a method. At least 1; shaders use the same numbers. */
 int plane_kernel_of(int asked, const WorldDef *world);
 
-/* By a name as solvers have it; 1, the cubic spline, for one that is not known. */
+/* The kernel's index by the solvers' name; 1, the cubic spline, for unknown names. */
 int plane_kernel_named(const char *name);
 
-/* W(r), 1/m3 or in two dimensions 1/m2; 0 for r >= h. */
+/* W(r), 1/m3, or in two dimensions 1/m2; 0 for r >= h. */
 double plane_kernel_value(int kernel, int dimensions, double r, double h);
 
 #endif

@@ -1,5 +1,5 @@
-/* Single samples of the sums of a slice. Of sums on the CPU they are there at once; on a GPU they are asked
-   for, copied behind the picture, and there when that is done: nothing waits. */
+/* Reads single samples of a slice's sums. Sums on the CPU are available at once; on a GPU the samples are
+   copied after the picture and available once the copy is done: nothing waits. */
 #ifndef SLOSH_PLANE_PROBE_H
 #define SLOSH_PLANE_PROBE_H
 
@@ -7,28 +7,28 @@
 
 enum { PLANE_PROBES_MAX = 16 };
 
-/* Samples and where they are. */
+/* Positions of samples. */
 typedef struct PlaneProbes {
     int count;
-    int sample[PLANE_PROBES_MAX][2]; /* column and row; one that is not on the raster has no answer */
-    /* The asker's own: */
+    int sample[PLANE_PROBES_MAX][2]; /* column and row; a sample outside the raster has no answer */
+    /* The caller's data: */
     double at[PLANE_PROBES_MAX][3];
-    uint64_t run;   /* which sums these are of */
-    unsigned shown; /* what was made of them */
+    uint64_t run;   /* number of the sums */
+    unsigned shown; /* quantity shown */
     double cut;
-    const char *name, *unit; /* of that; static */
+    const char *name, *unit; /* name and unit of the quantity; static */
 } PlaneProbes;
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct PlaneProbe {
     unsigned buffer;
-    void *fence;        /* a GLsync behind the copy that is asked for; NULL: none is */
-    PlaneProbes asked;  /* by that copy */
-    PlaneProbes probes; /* what `sums` are of: the last that came */
+    void *fence;        /* a GLsync after the requested copy; NULL: no request */
+    PlaneProbes asked;  /* samples of that copy */
+    PlaneProbes probes; /* samples of `sums`: the last answer */
     float sums[PLANE_PROBES_MAX][4];
 } PlaneProbe;
 
-/* Asks for samples of the last run, and takes what has come. */
+/* Requests samples of the last run, and takes an answer that has arrived. */
 void plane_probe_ask(PlaneProbe *probe, const PlaneSum *sum, const PlaneProbes *probes);
 void plane_probe_destroy(PlaneProbe *probe);
 

@@ -10,23 +10,23 @@
 #include <string.h>
 
 enum {
-    BAND = 16,     /* rows: of 1024 samples they stay in a core's cache */
-    LANES = 8,     /* samples at a time; rows are that much longer, and what is beyond a disc gets 0 */
-    PIECE = 256,   /* samples along a row at a time, of a disc */
-    READ = 1 << 16 /* particles at a time: they stay in a core's cache */
+    BAND = 16,     /* rows: 16 rows of 1024 samples fit into a core's cache */
+    LANES = 8,     /* samples at a time; rows are longer by this number; samples outside the disc get 0 */
+    PIECE = 256,   /* samples of a disc along a row at a time */
+    READ = 1 << 16 /* particles at a time: fit into a core's cache */
 };
 
-/* What a particle's ball cuts out of the plane, as shaders/render/plane_sum.vert has it. */
+/* The section of the plane with a particle's ball, as in shaders/render/plane_sum.vert. */
 struct PlaneDisc {
-    int cell[2];     /* the sample that the centre is in */
-    float within[2]; /* where in it, 0 .. 1 */
+    int cell[2];     /* the sample of the centre */
+    float within[2]; /* position in the sample, 0 .. 1 */
     float away;      /* (distance / h)^2 */
     float most;      /* V times the kernel's peak */
-    float value;     /* 0 where it is no number: */
+    float value;     /* 0 if NaN: */
     bool known;
 };
 
-/* Inlined into a function for each instruction set; samples are independent, so the bits are the same. */
+/* Inlined into a function per instruction set; samples are independent, so the bits are the same. */
 #define INLINE static inline __attribute__((always_inline))
 
 INLINE float positive(float a)
@@ -34,9 +34,9 @@ INLINE float positive(float a)
     return a > 0 ? a : 0;
 }
 
-/* ---- which particles reach the rectangle ---- */
+/* ---- particles that reach the rectangle ---- */
 
-/* Of a job, in doubles: samples and support radii a m. */
+/* Scales of a job, in doubles: samples per m and support radii per m. */
 typedef struct Measure {
     double along[3], up[3], normal[3], side[2], reach[2]; /* reach: h in samples */
     float peak;
@@ -64,7 +64,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* False where the particle reaches no sample, or has no place or volume. */
+/* Returns false if the particle reaches no sample, or has no valid position or volume. */
 static bool make_disc(const PlaneJob *job, const Measure *measure, const float p[4], float value,
                       PlaneDisc *disc)
 {
@@ -89,7 +89,7 @@ static bool make_disc(const PlaneJob *job, const Measure *measure, const float p
     return true;
 }
 
-/* Into rows of `words` floats. */
+/* Reads into rows of `words` floats. */
 static void read_part(const ParticleAttribute *from, size_t first, size_t count, size_t words, float *to)
 {
     const size_t stride = from->stride / sizeof(float);
@@ -118,7 +118,7 @@ static bool list_discs(PlaneRows *rows, const PlaneJob *job, const ParticleBuffe
     const ParticleAttribute *position = &particles->position, *scalar = &particles->scalar[job->scalar];
     float *values = rows->read + READ * (position->stride / sizeof(float));
     rows->count = 0;
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a backend on the GPU may have written them */
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT); /* a GPU backend may have written the buffers */
     for (size_t first = 0; first < particles->count; first += READ) {
         const size_t count = particles->count - first < READ ? particles->count - first : READ;
         read_part(position, first, count, 4, rows->read);
@@ -130,14 +130,14 @@ static bool list_discs(PlaneRows *rows, const PlaneJob *job, const ParticleBuffe
     return true;
 }
 
-/* ---- which of them reach into which band ---- */
+/* ---- discs per band ---- */
 
 static int whole_of(double x, int most)
 {
     return x > 0 ? x < most ? (int)x : most : 0;
 }
 
-/* The samples along an axis whose centres are less than that far from the centre; none where first >= end. */
+/* The samples along an axis with centres nearer to the disc's centre than `half`; none if first >= end. */
 static void reached(const PlaneDisc *disc, int axis, double half, int samples, int *first, int *end)
 {
     const double at = disc->cell[axis] + (double)disc->within[axis] - 0.5;
@@ -179,7 +179,8 @@ INLINE float power5(float a)
     return a * a * a * a * a;
 }
 
-/* The kernel's shape at q <= 1, where all end at 0; as render/plane/plane_kernel.c, splines as sums. */
+/* The kernel's shape at q <= 1, where all kernels end at 0; as in render/plane/plane_kernel.c, splines as
+   sums. */
 INLINE float shape(int kernel, float q)
 {
     const float t = 1 - q;
@@ -199,12 +200,12 @@ INLINE float shape(int kernel, float q)
     }
 }
 
-/* Where a row of a band gets what a disc adds to it. */
+/* The row of a band that a disc adds to. */
 typedef struct RowSums {
-    float *weighted, *weight; /* of V W s; of V W */
+    float *weighted, *weight; /* sums of V W s; of V W */
 } RowSums;
 
-/* `squares`: of the distances along the row, in h; `above`: of those across it. */
+/* `squares`: squared distances along the row, in h2; `above`: squared distance across the row. */
 INLINE void add_piece(int kernel, const RowSums *to, const float *restrict squares, int count, float above,
                       const PlaneDisc *disc)
 {
@@ -261,22 +262,22 @@ static void add(int kernel, const RowSums *to, const float *squares, int count, 
     add_by_kernel(kernel, to, squares, count, above, disc);
 }
 
-/* A band that is being summed. */
+/* The band being summed. */
 typedef struct Band {
     const PlaneRows *rows;
     const PlaneJob *job;
     int first, end;  /* rows */
-    float side[2];   /* of a sample, h */
-    double reach[2]; /* h, samples */
+    float side[2];   /* size of a sample, in h */
+    double reach[2]; /* h in samples */
 } Band;
 
-/* From a disc's centre to that sample, along the axis: h. */
+/* Distance from a disc's centre to a sample, along the axis, in h. */
 static float offset(const Band *band, const PlaneDisc *disc, int axis, int sample)
 {
     return ((float)(sample - disc->cell[axis]) + (0.5F - disc->within[axis])) * band->side[axis];
 }
 
-/* Adds to the samples of a row that are in the piece from `at` on, of which `squares` are. */
+/* Adds a disc to the samples of a row in the piece from `at` on; `squares` are for this piece. */
 static void add_row(const Band *band, const PlaneDisc *disc, int row, int at, const float *squares)
 {
     const PlaneRows *rows = band->rows;
@@ -285,7 +286,7 @@ static void add_row(const Band *band, const PlaneDisc *disc, int row, int at, co
     if (!(above < 1))
         return;
     reached(disc, 0, sqrt(1 - (double)above) * band->reach[0], band->job->samples[0], &from, &end);
-    from = from > at ? at + (from - at) / LANES * LANES : at; /* a whole piece has whole lanes */
+    from = from > at ? at + (from - at) / LANES * LANES : at; /* keeps whole lanes */
     end = end < at + PIECE ? end : at + PIECE;
     const size_t first = rows->stride * (size_t)row + (size_t)from;
     const RowSums to = {rows->sums[0] + first, rows->sums[disc->known ? 1 : 2] + first};
@@ -313,7 +314,7 @@ static void add_disc(const Band *band, const PlaneDisc *disc)
     }
 }
 
-/* The channels side by side, as a texture has them. */
+/* Interleaves the channels, as a texture needs. */
 static void interleave(const PlaneRows *rows, int row, int samples)
 {
     const float *a = rows->sums[0] + rows->stride * (size_t)row,
@@ -352,7 +353,7 @@ static void sum_bands(void *context, size_t begin, size_t end)
         sum_band(context, begin);
 }
 
-/* ---- the whole ---- */
+/* ---- all bands ---- */
 
 static bool reserve(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers *particles)
 {

@@ -1,7 +1,6 @@
-/* The sums of a slice on the CPU, for software drivers: their memory is the CPU's, and a blended fragment
-   costs ten times what a sample costs here. Particles near the plane are listed, those that reach into each
-   band of rows are added to it in their order, and threads take bands: the same bits for any number of
-   threads. */
+/* The sums of a slice on the CPU, for software drivers: the driver's memory is the CPU's, and a blended
+   fragment costs ten times a sample here. Particles near the plane are listed, then sorted into bands of
+   rows in order. Threads take bands: the same bits for any number of threads. */
 #ifndef SLOSH_PLANE_ROWS_H
 #define SLOSH_PLANE_ROWS_H
 
@@ -12,20 +11,20 @@
 
 typedef struct PlaneDisc PlaneDisc;
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct PlaneRows {
-    float *read;                  /* a part of the particles: positions, then scalars */
+    float *read;                  /* work array for a part of the particles: positions, then scalars */
     size_t read_capacity;         /* floats */
-    PlaneDisc *discs;             /* of the particles that reach the rectangle */
+    PlaneDisc *discs;             /* discs of particles that reach the rectangle */
     size_t count, discs_capacity; /* of discs */
     Bins bands;                   /* discs by band of rows */
     float *sums[3];               /* as the channels of PlaneSum.sums, rows of `stride` floats */
     size_t sums_capacity[3], stride;
-    float *out; /* 4 floats a sample, rows from the bottom up */
+    float *out; /* 4 floats per sample, rows from the bottom up */
     size_t out_capacity;
 } PlaneRows;
 
-/* Fills in `out`; false where memory does not suffice. Waits for what the GPU writes to the particles. */
+/* Computes `out`. Returns false if memory is short. Waits for the GPU's writes to the particles. */
 bool plane_rows_run(PlaneRows *rows, const PlaneJob *job, const ParticleBuffers *particles, Error *error);
 void plane_rows_free(PlaneRows *rows);
 

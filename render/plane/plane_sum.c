@@ -114,7 +114,7 @@ bool plane_sum_none(PlaneSum *sum, bool *behind)
     return sum->none;
 }
 
-/* The CPU's sums become the texture. */
+/* Sums on the CPU and uploads the texture. */
 static bool add_rows(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *particles, Error *error)
 {
     if (!plane_rows_run(&sum->rows, job, particles, error))
@@ -139,9 +139,9 @@ bool plane_sum_run(PlaneSum *sum, const PlaneJob *job, const ParticleBuffers *pa
     create(sum);
     if (!plane_sum_prepare(sum, job->kernel, error) || !follow_samples(sum, job->samples, error))
         return false;
-    fill(sum, job); /* which what shows the sums reads too */
+    fill(sum, job); /* showing the sums reads these uniforms too */
     bool lost = false;
-    plane_sum_none(sum, &lost); /* of the run before, before it is forgotten */
+    plane_sum_none(sum, &lost); /* takes the pending answer of the previous run */
     sum->asked = false;
     sum->by_rows = some && by_rows(job);
     if (sum->by_rows)

@@ -16,7 +16,7 @@ _Static_assert(sizeof(ProbeAnswer) == 64, "as std430 has it");
 
 enum { PART_BYTES = 5 * 4, GROUP = 64 * PROBE_LANE };
 
-/* How far beyond a ball's radius a place on it may be by rounding, in radii. */
+/* Tolerance of a position on a ball's surface, for rounding, in radii. */
 static const double ROUNDING = 1e-3;
 
 /* ---- programs and buffers ---- */
@@ -84,7 +84,7 @@ static int count_of(const ViewAsks *asks)
     return asks->count + asks->mouse;
 }
 
-/* Rows of a target are from below. */
+/* Rows of a target count from below. */
 static void find_places(const ParticleProbe *probe, const ProbedPicture *picture, const ViewAsks *asks)
 {
     GLfloat asked[PROBES_MAX][4] = {{0}};
@@ -97,7 +97,7 @@ static void find_places(const ParticleProbe *probe, const ProbedPicture *picture
         pixel[1] = (GLfloat)(picture->target.height - 1 - floor(asks->pixel[1]));
         pixel[3] = 1;
     }
-    glBindFramebuffer(GL_FRAMEBUFFER, 0); /* nothing draws into the depth that is read */
+    glBindFramebuffer(GL_FRAMEBUFFER, 0); /* unbinds the depth texture that is read */
     glUseProgram(probe->place);
     glUniform1ui(PROBE_COUNT_AT, (GLuint)count_of(asks));
     glUniform4fv(PROBE_ASKED_AT, PROBES_MAX, asked[0]);
@@ -105,7 +105,7 @@ static void find_places(const ParticleProbe *probe, const ProbedPicture *picture
     work_dispatch(1);
 }
 
-/* No buffer stands in two blocks. */
+/* No buffer may be bound to two blocks. */
 static void bind(const ParticleProbe *probe, unsigned program, const ProbedPicture *picture)
 {
     const ParticleBuffers *particles = &picture->particles;
@@ -172,7 +172,7 @@ static void take(ParticleProbe *probe)
     probe->known = probe->sent;
 }
 
-/* Of a ball it is the particle's own; else the mean there, of fluids the nearest one's. */
+/* For a ball, the particle's own value; else the mean, for fluids the nearest particle's fluid. */
 static void tell(const ProbeAsked *asked, const ProbeAnswer *answer, const WorldDef *world, ViewProbe *out)
 {
     const bool ball = asked->how.by == VIEW_PROBE_BALL, mean = !ball && !asked->by_fluid;
@@ -191,7 +191,7 @@ static void tell(const ProbeAsked *asked, const ProbeAnswer *answer, const World
         out->id = answer->id;
 }
 
-/* Under the mouse that of a ball is where its particle is. */
+/* Under the mouse, the position of a ball's value is the particle's position. */
 static void place(const ProbeAsked *asked, int index, const ProbeAnswer *answer, double at[3])
 {
     const bool mouse = index == asked->asks.count;
@@ -225,7 +225,7 @@ static void tell_all(const ParticleProbe *probe, const ProbedPicture *picture, V
         place(asked, i, answer, told->at);
         told->seen = sight_pixel(&picture->sight, told->at, told->pixel);
         if (i == asked->asks.count && told->what == VIEW_PROBE_EMPTY)
-            continue; /* under the mouse is no fluid */
+            continue; /* no fluid under the mouse */
         out->count++;
         out->mouse |= i == asked->asks.count;
     }
@@ -236,7 +236,7 @@ bool particle_probe_ask(ParticleProbe *probe, const ProbedPicture *picture, cons
 {
     *out = (ViewProbes){.count = 0};
     if (probe->failed || count_of(asks) == 0 || picture->particles.count == 0) {
-        out->now = out->asked = true; /* and no more will be known */
+        out->now = out->asked = true; /* nothing more will be known */
         return true;
     }
     take(probe);

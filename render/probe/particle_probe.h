@@ -1,5 +1,5 @@
-/* What the particles of a picture are at places of it: under the mouse, whose place follows from the
-   picture's depth, and at places that are said. Found on the GPU and there when that is done: nothing waits.
+/* Finds the particles or values of a picture at positions: under the mouse, by the picture's depth, and at
+   given positions. Computed on the GPU and read once done: nothing waits.
 
    Needs a current OpenGL 4.5 core context. */
 #ifndef SLOSH_PARTICLE_PROBE_H
@@ -9,19 +9,19 @@
 #include "render/frame/view.h"
 #include "sim/gl/mailbox.h"
 
-/* A picture that was drawn. */
+/* A drawn picture. */
 typedef struct ProbedPicture {
-    ParticleBuffers particles; /* as its passes read them */
+    ParticleBuffers particles; /* as the passes read the particles */
     Target target;             /* the renderer's */
-    unsigned uniforms;         /* buffer: those of its frame */
+    unsigned uniforms;         /* buffer: uniforms of the picture's frame */
     ViewProbing how;
     Scalar scalar;
-    bool by_fluid;           /* it shows fluids in place of the scalar */
-    int kernel;              /* of plane_kernels, for means */
-    uint64_t number;         /* another where it may differ in anything from the one before */
-    Sight sight;             /* reach is not used */
-    const char *name, *unit; /* of what it shows; static */
-    const WorldDef *world;   /* which has the fluids' names; up to the next answer */
+    bool by_fluid;           /* shows fluids instead of the scalar */
+    int kernel;              /* index in plane_kernels, for means */
+    uint64_t number;         /* changes whenever the picture may differ from the previous picture */
+    Sight sight;             /* `reach` is not used */
+    const char *name, *unit; /* name and unit of the value; static */
+    const WorldDef *world;   /* for the fluids' names; must be valid until the next answer */
 } ProbedPicture;
 
 /* Block Answers of shaders/render/probe.glsl. */
@@ -33,7 +33,7 @@ typedef struct ProbeAnswer {
     uint32_t fluid, id, unused;
 } ProbeAnswer;
 
-/* What is asked of a picture. */
+/* A request for a picture. */
 typedef struct ProbeAsked {
     ViewAsks asks;
     uint64_t number;
@@ -44,19 +44,20 @@ typedef struct ProbeAsked {
 
 enum { PROBE_STAND_INS = 3 };
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct ParticleProbe {
     unsigned place, sum[2], find;             /* programs; sum[1]: with radii */
-    int kernel;                               /* that sum is for */
+    int kernel;                               /* kernel of `sum` */
     unsigned parts, nothing[PROBE_STAND_INS]; /* buffers */
-    size_t capacity;                          /* parts */
+    size_t capacity;                          /* capacity of `parts` */
     Mailbox mailbox;
-    bool failed; /* a shader does not compile, or memory is short: it knows nothing */
+    bool failed; /* a shader does not compile, or memory is short: gives no values */
     ProbeAsked sent, known;
-    ProbeAnswer answers[VIEW_PROBES_MAX]; /* to `known` */
+    ProbeAnswer answers[VIEW_PROBES_MAX]; /* answers to `known` */
 } ParticleProbe;
 
-/* Asks, unless that is asked already, and takes what has come. False: nothing is known yet. */
+/* Sends the request, unless already sent, and takes an answer that has arrived. Returns false if nothing
+   is known yet. */
 bool particle_probe_ask(ParticleProbe *probe, const ProbedPicture *picture, const ViewAsks *asks,
                         ViewProbes *out);
 void particle_probe_destroy(ParticleProbe *probe);

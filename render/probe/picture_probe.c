@@ -74,7 +74,7 @@ static bool is_at(const ViewProbe *probe, const double at[3])
     return probe->at[0] == at[0] && probe->at[1] == at[1] && probe->at[2] == at[2];
 }
 
-/* The mouse asks for the place that the view shows there. */
+/* For the mouse, asks for the position that the view shows at the pixel. */
 static bool ask_view(View *view, const ViewAsks *asks, ViewProbes *out)
 {
     double at[VIEW_PROBES_MAX][3];

@@ -1,4 +1,4 @@
-/* The view slice's own settings: their keys, names and defaults. */
+/* Settings of the view slice: keys, names and defaults. */
 #ifndef SLOSH_SLICE_DEF_H
 #define SLOSH_SLICE_DEF_H
 
@@ -6,33 +6,33 @@
 #include "sim/base/room.h"
 
 typedef enum SliceShow {
-    SLICE_PLANE, /* where it is in space */
-    SLICE_FLAT   /* filling the picture, a sample a pixel */
+    SLICE_PLANE, /* at its position in space */
+    SLICE_FLAT   /* filling the picture, a sample per pixel */
 } SliceShow;
 
 typedef enum SliceParticles {
     SLICE_ALONE,  /* the plane without particles */
-    SLICE_BEHIND, /* with those that the normal points away from */
-    SLICE_BOTH    /* with all */
+    SLICE_BEHIND, /* with particles on the side away from the normal */
+    SLICE_BOTH    /* with all particles */
 } SliceParticles;
 
 typedef struct IN_A_ROOM SliceDef {
-    double point[3],
-        normal[3]; /* of the plane, box's frame; the point in m, the normal of any length but 0 */
-    double play;   /* m/s of simulated time along the normal, to and fro through the box */
+    double point[3], normal[3]; /* plane in the box's frame; point in m, normal of any nonzero length */
+    double play;                /* m/s of simulated time along the normal, to and fro through the box */
     SliceShow show;
-    int kernel;               /* of plane_kernels; 0: the solver's */
-    bool raw;                 /* the sum as it is; else over that of the kernels */
-    int samples;              /* along the longer side where it is shown in space */
-    double cut;               /* samples are empty whose sum V W is less */
-    SliceParticles particles; /* shown with it in space, as the first view of the list draws them */
+    int kernel;               /* index in plane_kernels; 0: the solver's kernel */
+    bool raw;                 /* show the plain sum; else divide by the sum of kernels */
+    int samples;              /* samples along the longer side, if shown in space */
+    double cut;               /* samples with a smaller sum V W are empty */
+    SliceParticles particles; /* particles shown with the plane in space, drawn by the first view of the
+                                 list */
     double opacity;           /* of the plane in space */
-    int isolines;             /* between the ends of the range; 0: none */
+    int isolines;             /* number of isolines between the ends of the range; 0: none */
 } SliceDef;
 
 extern const ViewKind view_slice;
 
-/* Those of that def; not const, as memchr's result is not. */
+/* The settings of a def; not const, like memchr's result. */
 SliceDef *slice_def(const ViewDef *def);
 
 extern const SliceDef slice_usual; /* the defaults */

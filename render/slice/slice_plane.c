@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double STEP_SHARE = 0.02;         /* of the box's extent along the normal */
+static const double STEP_SHARE = 0.02;         /* fraction of the box's extent along the normal */
 static const double STEP_TURN = M_PI / 36;     /* radians */
-static const double ARROW = 0.22, RING = 0.09; /* of the box's diagonal */
+static const double ARROW = 0.22, RING = 0.09; /* fractions of the box's diagonal */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -27,7 +27,7 @@ static void unit_normal(const SliceDef *def, double normal[3])
         normal[k] = def->normal[k] / length;
 }
 
-/* The box between two planes across the unit normal: where they are along it, m. */
+/* The box's extent along the unit normal, m. */
 static void extent(const double size[3], const double normal[3], double *low, double *high)
 {
     const double middle = normal[1] * size[1] / 2,
@@ -37,7 +37,7 @@ static void extent(const double size[3], const double normal[3], double *low, do
     *high = middle + half;
 }
 
-/* To and fro between 0 and `width`. */
+/* Moves to and fro between 0 and `width`. */
 static double fold(double x, double width)
 {
     const double in_period = x - 2 * width * floor(x / (2 * width));
@@ -75,7 +75,7 @@ bool slice_plane(const SliceDef *def, const ParticleBuffers *particles, Plane *p
 
 enum { SHIFT, SLIDE, TURN, HANDLES };
 
-/* The point itself, or the nearest to it where the plane is in the box. */
+/* The point itself, or the nearest point of the rectangle. */
 static void middle_of(const Plane *plane, const double point[3], double middle[3])
 {
     double from[3];
@@ -117,7 +117,7 @@ static void set_vector(ViewSetting *setting, const char *path, const double valu
              value[2]);
 }
 
-/* A plane that is taken stands still. */
+/* Taking a moving plane stops the motion. */
 static int set_point(const SliceDef *def, const double point[3], ViewSetting settings[VIEW_SETTINGS_MAX])
 {
     set_vector(&settings[0], "view.slice.point", point);
@@ -135,7 +135,7 @@ static int set_plane(const SliceDef *def, const double point[3], const double no
     return count + 1;
 }
 
-/* The plane stays in the box. */
+/* Keeps the plane in the box. */
 static void keep_in_box(const double size[3], const double normal[3], double point[3])
 {
     double low, high;
@@ -192,7 +192,7 @@ int slice_step(const ViewDef *view, const ParticleBuffers *particles, ViewStep s
     if (is_flat_scene(particles))
         return 0;
     slice_point(def, particles->box_size, particles->time, point);
-    slice_plane(def, particles, &plane); /* its axes are there in any case */
+    slice_plane(def, particles, &plane); /* the axes are valid in any case */
     switch (step) {
     case VIEW_STEP_BACK:
         return shift(def, particles->box_size, point, -STEP_SHARE, settings);

@@ -7,7 +7,7 @@
 
 _Static_assert((int)VIEW_PROBES_MAX <= (int)PLANE_PROBES_MAX, "all that may be asked of a view has room");
 
-/* Where on the rectangle a place is, in samples, and how far off the plane, m. */
+/* `samples`: position on the rectangle, in samples. Returns the distance from the plane, m. */
 static double on_plane(const PlaneJob *job, const double at[3], double samples[2])
 {
     const Plane *plane = &job->plane;
@@ -63,8 +63,8 @@ static bool pixel_of(const SliceProbe *probe, const double at[3], double pixel[2
     return true;
 }
 
-/* The sample that a place is in; -1, -1 beside the rectangle and where the plane is farther from the place
-   than half a sample. */
+/* The sample at a position; -1, -1 outside the rectangle, or if the position is more than half a sample
+   off the plane. */
 static void sample_of(const PlaneJob *job, const double at[3], int sample[2])
 {
     double samples[2];

@@ -1,4 +1,4 @@
-/* What the last picture of the view slice shows at a place. */
+/* Values that the last picture of the view slice shows at positions. */
 #ifndef SLOSH_SLICE_PROBE_H
 #define SLOSH_SLICE_PROBE_H
 
@@ -6,7 +6,7 @@
 #include "render/plane/plane_probe.h"
 #include "render/slice/slice_def.h"
 
-/* The state that sums are of. */
+/* The state of the sums. */
 typedef struct PlaneFrom {
     uint64_t step;
     double time;
@@ -14,22 +14,23 @@ typedef struct PlaneFrom {
     ParticleAttribute position;
 } PlaneFrom;
 
-/* The last picture; zero-initialise it. */
+/* The last picture. Zero-initialise. */
 typedef struct SliceProbe {
     PlaneProbe probe;
-    bool drawn;   /* the plane is in it: */
-    uint64_t run; /* number of its sums: another where they may be others than in the picture before */
+    bool drawn;   /* the plane is in the picture: */
+    uint64_t run; /* number of the sums: changes whenever the sums may change */
     PlaneFrom from;
     PlaneJob job;
     Sight sight;
     bool flat;
-    int part[4];    /* of the picture that is the slice, where flat: x, y from below, width, height */
+    int part[4];    /* for a flat slice, the slice's rectangle in the picture: x, y from below, width,
+                       height */
     unsigned shown; /* SLICE_MEAN, ... */
     double cut;
-    const char *name, *unit; /* of what is shown */
+    const char *name, *unit; /* name and unit of the quantity shown */
 } SliceProbe;
 
-/* As ViewKind has them. */
+/* As in ViewKind. */
 bool slice_probe_pick(const SliceProbe *probe, const double pixel[2], double at[3]);
 int slice_probe_read(SliceProbe *probe, const PlaneSum *sum, const double (*at)[3], int count,
                      ViewProbe *out);

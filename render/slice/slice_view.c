@@ -19,15 +19,15 @@
 #include <string.h>
 
 typedef struct SliceView {
-    PlaneSum sum, veil; /* of what is shown; of what opacity goes by, where that is another */
+    PlaneSum sum, veil; /* sums of the scalar shown; sums of the opacity's scalar, if different */
     unsigned program, vertex_array;
     ColorTable colors;
-    bool has_scalar; /* that is shown */
+    bool has_scalar; /* the particles have the scalar shown */
     SliceProbe probe;
-    View *balls; /* draws particles beside the plane; NULL: none are shown */
+    View *balls; /* draws particles beside the plane; NULL: no particles shown */
     ViewDef balls_def;
     ParticleHalf half;
-    ParticleBuffers shown; /* of this picture */
+    ParticleBuffers shown; /* particles shown in this picture */
 } SliceView;
 
 static void destroy(void *state)
@@ -52,7 +52,7 @@ static bool check(const Subject *subject, const char **key, Error *error)
            error_set(error, "a normal of length 0 is across no plane; [0, 0, 1] looks along z");
 }
 
-/* That of the list's first view, with the slice's colours; opacity is that of the plane. */
+/* Settings of the list's first view, with the slice's colours; the def's opacity is for the plane. */
 static void follow_def(SliceView *view, const ViewDef *def)
 {
     view->balls_def = *def;
@@ -89,14 +89,14 @@ static void *create(const Subject *subject, Error *error)
     return NULL;
 }
 
-/* What the legend leaves of the picture's width, pixels. */
+/* The picture's width without the legend, pixels. */
 static double flat_width(const Frame *frame)
 {
     const double legend = legend_width_pixels(frame->def, frame->world, frame->height);
     return fmax(frame->width - legend, frame->width / 2.0);
 }
 
-/* Samples that are pixels. */
+/* A raster with a sample per pixel. */
 static void flat_samples(const Plane *plane, const Frame *frame, int samples[2])
 {
     const double scale = fmin(flat_width(frame) / plane->size[0], frame->height / plane->size[1]);
@@ -111,7 +111,7 @@ static void plane_samples(const Plane *plane, int most, int samples[2])
         samples[k] = (int)fmax(ceil(plane->size[k] * scale - 1e-6), 1);
 }
 
-/* Particles smaller than a sample would fall between samples: the kernel reaches one at least. */
+/* Particles smaller than a sample could be missed: the kernel always reaches at least one sample. */
 static double support_of(const PlaneJob *job, const ParticleBuffers *particles)
 {
     const double across = hypot(job->plane.size[0] / job->samples[0], job->plane.size[1] / job->samples[1]);
@@ -140,7 +140,7 @@ static void set_filter(unsigned texture, GLint filter)
     glTextureParameteri(texture, GL_TEXTURE_MAG_FILTER, filter);
 }
 
-/* A flat slice has nothing behind it. */
+/* A flat slice has an empty background. */
 static void clear_flat(const Frame *frame)
 {
     const double *back = frame->def->background;
@@ -150,7 +150,7 @@ static void clear_flat(const Frame *frame)
     glClearNamedFramebufferfv(frame->target->framebuffer, GL_DEPTH, 0, (float[1]){0});
 }
 
-/* Where a flat slice is in the picture: x, y from below, width, height. */
+/* Rectangle of a flat slice in the picture: x, y from below, width, height. */
 static void flat_part(const PlaneJob *job, const Frame *frame, int part[4])
 {
     part[0] = ((int)flat_width(frame) - job->samples[0]) / 2;
@@ -159,7 +159,7 @@ static void flat_part(const PlaneJob *job, const Frame *frame, int part[4])
     part[3] = job->samples[1];
 }
 
-/* Its samples are pixels. */
+/* Draws with a sample per pixel. */
 static void begin_flat(const SliceView *view, const PlaneJob *job, const Frame *frame)
 {
     int part[4];
@@ -178,7 +178,7 @@ static void begin_in_space(const SliceView *view, const Frame *frame)
     set_filter(view->sum.sums, GL_LINEAR);
 }
 
-/* The plane covers what is beyond it, and nothing is drawn twice. */
+/* The plane hides objects behind, and no pixel is drawn twice. */
 static void begin_blending(void)
 {
     glEnable(GL_BLEND);
@@ -186,7 +186,7 @@ static void begin_blending(void)
     glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-/* Where colours are those of fluids, or the scalar is not there, it shows how much fluid there is. */
+/* If colours are the fluids', or the particles lack the scalar, the slice shows the amount of fluid. */
 static unsigned what_is_shown(const SliceView *view, const Frame *frame)
 {
     if (!view->has_scalar)
@@ -194,7 +194,7 @@ static unsigned what_is_shown(const SliceView *view, const Frame *frame)
     return slice_def(frame->def)->raw ? SLICE_RAW : SLICE_MEAN;
 }
 
-/* Opacity by a scalar: the sums of it; NULL: particles lack it, and the plane is as opaque as without. */
+/* Sums for opacity by a scalar; NULL: particles lack the scalar, and the opacity is constant. */
 static PlaneSum *sum_veil(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles,
                           const Frame *frame)
 {
@@ -217,7 +217,7 @@ static void set_veil(const SliceView *view, const PlaneSum *veils, const Frame *
         set_filter(veils->sums, slice_def(frame->def)->show == SLICE_FLAT ? GL_NEAREST : GL_LINEAR);
 }
 
-/* `veils`: as of sum_veil. */
+/* `veils`: result of sum_veil. */
 static void show_sums(SliceView *view, const PlaneJob *job, const PlaneSum *veils, const Frame *frame)
 {
     const bool veiled = frame->def->opacity.by != 0;
@@ -252,7 +252,7 @@ static bool shows_balls(const SliceView *view, const Frame *frame)
     return view->balls && slice_def(frame->def)->show == SLICE_PLANE && !(frame->slab > 0);
 }
 
-/* Balls behind touch the plane at most. */
+/* Balls behind the plane only touch the plane. */
 static void find_shown(SliceView *view, const ParticleBuffers *particles, const Frame *frame)
 {
     const SliceDef *def = slice_def(frame->def);
@@ -261,13 +261,13 @@ static void find_shown(SliceView *view, const ParticleBuffers *particles, const 
     view->shown = *particles;
     if (def->particles != SLICE_BEHIND)
         return;
-    slice_plane(def, particles, &plane); /* its place is there in any case */
+    slice_plane(def, particles, &plane); /* position and axes are valid in any case */
     for (int k = 0; k < 3; k++)
         most += plane.corner[k] * plane.normal[k];
     particle_half_run(&view->half, particles, plane.normal, most, &view->shown);
 }
 
-/* The frame that the other view sees. */
+/* The frame for the view that draws the balls. */
 static Frame frame_of_balls(SliceView *view, const Frame *frame)
 {
     Frame own = *frame;
@@ -316,7 +316,7 @@ static bool same_plane(const Plane *a, const Plane *b)
            a->size[0] == b->size[0] && a->size[1] == b->size[1];
 }
 
-/* A picture that is drawn again, while nothing moves, has the same sums. */
+/* True if the sums are unchanged: a picture drawn again while nothing moves. */
 static bool same_sums(const SliceProbe *probe, const PlaneJob *job, const PlaneFrom *from)
 {
     const PlaneJob *was = &probe->job;
@@ -327,7 +327,7 @@ static bool same_sums(const SliceProbe *probe, const PlaneJob *job, const PlaneF
            probe->from.position.offset == from->position.offset;
 }
 
-/* What probes of the picture need to know. */
+/* Stores the inputs of later probes. */
 static void remember(SliceView *view, const PlaneJob *job, const ParticleBuffers *particles,
                      const Frame *frame)
 {
@@ -391,12 +391,12 @@ static void draw(void *state, const ParticleBuffers *particles, const Frame *fra
     {
         if (slice_def(frame->def)->show == SLICE_FLAT)
             clear_flat(frame);
-        if (made) /* else the plane misses the box, or memory that was there is not there now */
+        if (made) /* false: the plane misses the box, or memory that was there may be gone */
             show_sums(view, &job, veils, frame);
     }
 }
 
-/* The field is 1 in a fluid at rest, more where it is compressed. */
+/* The field is 1 in a fluid at rest, more in compressed fluid. */
 static void show(const ViewDef *def, Frame *frame)
 {
     const SliceDef *own = slice_def(def);

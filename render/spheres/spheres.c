@@ -1,5 +1,5 @@
-/* Hidden spheres are drawn too. Leaving them out gained nothing on the software driver: exact occluders cost
-   1.2 ms and hide nothing, since through the gaps of touching spheres one sees several layers deep. */
+/* Hidden spheres are drawn too. Culling gained nothing on the software driver: exact occluders cost 1.2 ms
+   and hide nothing, since gaps between touching spheres show several layers. */
 #include "render/spheres/spheres.h"
 
 #include "render/frame/colormap.h"
@@ -21,11 +21,12 @@ typedef struct Spheres {
     GLuint visibility, points, shading; /* programs */
     ParticleCurves curves;
     Casting casting;
-    float point_limit; /* largest point to be drawn, pixels; 0: quads only */
-    bool solids;       /* the target holds more than particles */
+    float point_limit; /* largest point, pixels; 0: quads only */
+    bool solids;       /* the target contains more than particles */
     ColorTable colors;
-    GLuint framebuffer, seen; /* number of the nearest particle where the target's own depth has one, R32UI */
-    unsigned target_number;   /* which the framebuffer was made for */
+    GLuint framebuffer, seen; /* R32UI: number of the nearest particle, valid where the target's depth is a
+                                 particle's */
+    unsigned target_number;   /* number of the target of the framebuffer */
     GLuint screen;            /* vertex array without attributes */
     QuadIndices quads;
 } Spheres;
@@ -122,7 +123,8 @@ static void spheres_cast(void *state, const ParticleBuffers *particles, const Fr
     casting_draw(&spheres->casting, particles);
 }
 
-/* A point whose centre is outside the view is lost, and none is larger than the limit. */
+/* True if GL points are usable: points with a centre outside the view are lost, and no point may be larger
+   than the limit. */
 static bool points_will_do(const Spheres *spheres, const Frame *frame)
 {
     const float *tangent = frame->camera.tangent, r = frame->particle_reach, nearest = frame->nearest + r;
@@ -158,7 +160,7 @@ static void find_visible(Spheres *spheres, const ParticleBuffers *particles, con
     glDrawArrays(GL_POINTS, 0, (GLsizei)particles->count);
 }
 
-/* The triangle at depth 0 passes where something has been drawn; the shader leaves out solids. */
+/* The triangle at depth 0 passes the test where something has been drawn; the shader skips solids. */
 static void shade_visible(Spheres *spheres, const ParticleBuffers *particles, const Frame *frame)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, frame->target->framebuffer);
@@ -186,7 +188,7 @@ static void spheres_draw(void *state, const ParticleBuffers *particles, const Fr
         shade_visible(spheres, particles, frame);
 }
 
-/* A ball's door is not asked: what is not drawn there may be told where balls overlap. */
+/* Opacity is ignored: where balls overlap, the value may be of a ball that is not drawn there. */
 static ViewProbing spheres_probing(const void *state, const ViewDef *def)
 {
     const Spheres *spheres = state;

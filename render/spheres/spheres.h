@@ -1,8 +1,8 @@
 /* View `spheres`: every particle as a sphere, exact in each pixel.
 
-   Two passes. Visibility finds the nearest particle and its depth in each pixel, so that what is overdrawn
-   costs a few operations; shading then colours each pixel once. Reads positions, and the scalar or the fluid;
-   writes the target's colour and depth; owns the map of ids. */
+   Two passes. Visibility finds the nearest particle and the depth in each pixel, so that hidden fragments
+   cost only a few operations; shading then colours each pixel once. Reads positions, and the scalar or the
+   fluid; writes the target's colour and depth; owns the map of ids. */
 #ifndef SLOSH_SPHERES_H
 #define SLOSH_SPHERES_H
 

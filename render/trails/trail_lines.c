@@ -180,8 +180,8 @@ static TrailPieces pieces_of(const TrailStore *store, const uint64_t numbers[3],
     return pieces;
 }
 
-/* The end column of the pieces that start at `from`: a multiple of the step, so that pieces stay the same
-   from state to state, or the last fixed column; after that the present column. */
+/* The end column of the pieces that start at `from`: a multiple of the step, so that old pieces stay the
+   same, or the last fixed column; after that the present column. */
 static uint64_t next_column(const TrailLines *lines, const TrailRing *ring, uint64_t from)
 {
     const uint64_t next = (from / lines->step + 1) * lines->step;

@@ -1,11 +1,10 @@
-// The bridge to Dear ImGui: the one C++ file. First what is drawn over pictures (text.h), then widgets
-// (ui.h).
+// The bridge to Dear ImGui, the only C++ file. First drawing over pictures (text.h), then widgets (ui.h).
 #include "render/frame/text.h"
 #include "render/ui/ui.h"
 
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_internal.h> // windows' places, and sliders of our own
+#include <imgui_internal.h> // window positions, and our own sliders
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +16,7 @@
 
 namespace
 {
-// One of several ImGui contexts is the current one while this lives; then the one before is again.
+// Makes an ImGui context current for the object's lifetime, then restores the previous context.
 class Current
 {
   public:
@@ -37,7 +36,7 @@ class Current
 };
 } // namespace
 
-// Leaves no files behind.
+// Creates a context without ini and log files.
 static ImGuiContext *create_context()
 {
     ImGuiContext *before = ImGui::GetCurrentContext(), *context = ImGui::CreateContext();
@@ -58,11 +57,11 @@ static void destroy_context(ImGuiContext *context)
     ImGui::DestroyContext(context);
 }
 
-// Latin-1; superscripts; dashes and the ellipsis; arrows; the triangles of play and back.
+// Latin-1; superscripts; dashes and ellipsis; arrows; triangles for play and back.
 static const ImWchar glyphs[] = {0x20,   0xFF,   0x2010, 0x2026, 0x2070, 0x207F, 0x2190,
                                  0x2193, 0x25B6, 0x25B6, 0x25C0, 0x25C0, 0};
 
-// `config`: how the letters are made.
+// `config`: rasterisation of the letters.
 static ImFont *add_font(const char *file, float pixels, const ImFontConfig *config, Error *error)
 {
     static const char *const folders[] = {"/usr/share/fonts/truetype/dejavu", "/usr/share/fonts/TTF",
@@ -95,9 +94,9 @@ static ImU32 imgui_color(uint32_t rgba)
 struct Text {
     ImGuiContext *context;
     ImFont *font;
-    float pixels;     // high; the font itself knows it no sooner than at the first words
+    float pixels;     // letter height; the font itself has no height before the first text
     ImDrawList *list; // of the picture in progress
-    ImVec2 origin;    // of the part that it draws
+    ImVec2 origin;    // of the part of the picture
 };
 
 Text *text_create(float pixels, Error *error)
@@ -150,7 +149,7 @@ void text_begin_within(Text *text, int width, int height, const int place[4])
     text->origin = ImVec2((float)place[0], (float)place[1]);
 }
 
-// The backend mixes in sRGB, as its font expects; its state goes back as it was.
+// The backend blends in sRGB, as its font expects; then restores its GL state.
 void text_end(Text *text)
 {
     Current current(text->context);
@@ -207,32 +206,32 @@ struct Place {
     GLint x0, y0, x1, y1; // pixels, y upwards as OpenGL counts
 };
 
-enum { PLACES_MAX = 16, FRAMES_TO_SETTLE = 3 }; // ImGui hides a window for a frame, to learn its size
+enum { PLACES_MAX = 16, FRAMES_TO_SETTLE = 3 }; // ImGui hides a new window for a frame to measure the size
 
-static const double REFRESH_S = 0.2; // how long windows that nobody touches stay as they are
-static const double REST_S = 0.4;    // how long the mouse rests on a widget before its help appears
+static const double REFRESH_S = 0.2; // how long windows without input keep their picture
+static const double REST_S = 0.4;    // how long the mouse must rest on a widget before help appears
 
 struct Ui {
     ImGuiContext *context;
     ImFont *font, *bold;
     float pixels;
-    GLuint texture, framebuffer; // what the windows were drawn into
+    GLuint texture, framebuffer; // the picture of the windows
     int width, height;
     int windows; // begun in this frame
     int places;  // of windows
     Place place[PLACES_MAX];
     UiInput input; // of the last ui_begin
-    bool building; // the frame in progress is not a repetition
-    int settle;    // frames until all has its size
-    double age;    // s since the last frame that was no repetition
-    double rest;   // s since the mouse was last moved
+    bool building; // the present frame is built again, not repeated
+    int settle;    // frames until all windows have their sizes
+    double age;    // s since windows were last built
+    double rest;   // s since the last mouse motion
     float label_share;
-    float line_right; // where the last button of a line ends; 0: the line is new
-    ImGuiID typing;   // the field that is being typed into
+    float line_right; // right end of the line's last button; 0: new line
+    ImGuiID typing;   // the field with text input
     double typed;
-    UiScale held;  // of the slider in hand: it stays while the value moves, whatever it is made from
-    ImGuiID curve; // in hand
-    int point;     // of it, or -1
+    UiScale held;  // scale of the held slider: constant while the value changes
+    ImGuiID curve; // held curve
+    int point;     // held point of the curve, or -1
     ControlPoints curve_points;
     UiWatcher *watcher;
     void *watcher_user;
@@ -259,13 +258,13 @@ static void set_colors(ImGuiStyle *style)
         style->Colors[color.index] = ImGui::ColorConvertU32ToFloat4(imgui_color(color.rgba));
 }
 
-// No rounding: few triangles, and windows that can be copied as rectangles.
+// No rounded corners: few triangles, and windows can be copied as rectangles.
 static void set_style(float pixels)
 {
     ImGuiStyle style;
     ImGui::StyleColorsDark(&style);
     set_colors(&style);
-    style.AntiAliasedLinesUseTex = false; // the letters' texture is read without smoothing
+    style.AntiAliasedLinesUseTex = false; // the letters' texture has no filtering
     style.WindowPadding = ImVec2(10, 9);
     style.FramePadding = ImVec2(6, 2);
     style.ItemSpacing = ImVec2(6, 4);
@@ -274,13 +273,13 @@ static void set_style(float pixels)
     ImGui::GetStyle() = style;
 }
 
-// The letters of both fonts; on failure those before stay.
+// Loads both fonts; keeps the old fonts on failure.
 static bool set_fonts(Ui *ui, float pixels, Error *error)
 {
     ImGuiIO &io = ImGui::GetIO();
     ImFontAtlas *before = io.Fonts;
     io.Fonts = IM_NEW(ImFontAtlas)();
-    ImFontConfig sharp; // a texel a pixel
+    ImFontConfig sharp; // a texel per pixel
     sharp.OversampleH = sharp.OversampleV = 1;
     sharp.PixelSnapH = true;
     ImFont *font = add_font("DejaVuSans.ttf", pixels, &sharp, error);
@@ -304,12 +303,12 @@ bool ui_set_pixels(Ui *ui, float pixels, Error *error)
         return false;
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     if (ui->pixels == 0)
-        ImGui_ImplOpenGL3_CreateDeviceObjects(); // with the letters
+        ImGui_ImplOpenGL3_CreateDeviceObjects(); // including the letters' texture
     else
         ImGui_ImplOpenGL3_CreateFontsTexture();
     const GLuint letters = (GLuint)(intptr_t)ImGui::GetIO().Fonts->TexID;
     glTextureParameteri(letters, GL_TEXTURE_MIN_FILTER,
-                        GL_NEAREST); // a texel a pixel; half the cost in software
+                        GL_NEAREST); // a texel per pixel; half the cost in software
     glTextureParameteri(letters, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     set_style(pixels);
     ui->pixels = pixels;
@@ -323,11 +322,11 @@ static const ImGuiKey own_keys[] = {
     ImGuiKey_C,          ImGuiKey_V,      ImGuiKey_X}; // in the order of UI_KEY_*
 
 #if IMGUI_VERSION_NUM >=                                                                                     \
-    18900 // Debian 13 has 1.90: keys are events; a modifier that is set otherwise is lost
+    18900 // Debian 13 has 1.90: keys are events; a modifier set in another way has no effect
 
 static void map_keys()
 {
-    ImGui::GetIO().ConfigInputTrickleEventQueue = false; // a frame takes all that happened before it
+    ImGui::GetIO().ConfigInputTrickleEventQueue = false; // a frame takes all earlier events
 }
 
 static void feed_keys(unsigned down)
@@ -339,7 +338,7 @@ static void feed_keys(unsigned down)
     io.AddKeyEvent(ImGuiMod_Shift, down & UI_KEY_SHIFT);
 }
 
-#else // Debian 12 has 1.86: an array, and a map into it
+#else // Debian 12 has 1.86: an array of keys, and a map
 
 static void map_keys()
 {
@@ -413,8 +412,8 @@ bool ui_wants_keys(const Ui *ui)
     return ui->places > 0 && ui->context->IO.WantTextInput;
 }
 
-// Whether the windows may look different for what the user does. A press elsewhere counts too: ImGui must
-// know where a drag began.
+// True if input may change the look of the windows. Includes presses outside the windows: ImGui must know
+// where a drag starts.
 static bool concerns(const Ui *ui, const UiInput *now, bool moved)
 {
     const UiInput *last = &ui->input;
@@ -497,7 +496,7 @@ static void find_places(Ui *ui)
             add_place(ui, window->Rect());
 }
 
-// The background of the lowest window: a clear is cheaper than a rectangle of blended texels.
+// Fills the lowest window's background: clearing is cheaper than a rectangle of blended texels.
 static void clear(const Ui *ui)
 {
     const ImVec4 &color = ImGui::GetStyle().Colors[ImGuiCol_WindowBg];
@@ -564,7 +563,7 @@ static float widest_word(const char *text)
     return widest;
 }
 
-// The help of the last widget, once the mouse rests on it.
+// Shows the help of the last widget, after the mouse has rested there.
 static void tip(const Ui *ui, const char *help)
 {
     if (!help || ui->rest < REST_S || !ImGui::IsItemHovered() || ImGui::IsMouseDown(0))
@@ -602,8 +601,8 @@ void ui_window_end(Ui *ui)
     ImGui::End();
 }
 
-// The end of the first line that is `width` wide, and where the next one begins. ImGui would also break a
-// number at its point.
+// The end of the first line of at most `width`, and the start of the next line. ImGui would also break a
+// number at the decimal point.
 static const char *line_end(const char *text, float width, const char **next)
 {
     const char *end = text + strlen(text);
@@ -640,7 +639,7 @@ static void wrapped(Ui *ui, const char *text, const ImVec4 &color)
     watch(ui, text, ImRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax()), widest_word(text));
 }
 
-// The whole line is the switch.
+// A click anywhere in the line switches.
 bool ui_title(Ui *ui, const char *text)
 {
     Current current(ui->context);
@@ -725,9 +724,9 @@ bool ui_section(Ui *ui, const char *name, bool open_at_start)
     return open;
 }
 
-// Where the second column begins and how wide it is.
+// Start and width of the second column.
 struct Columns {
-    float left, middle, right; // in the window
+    float left, middle, right; // positions in the window
 };
 
 static Columns columns(const Ui *ui)
@@ -771,7 +770,7 @@ bool ui_button(Ui *ui, const UiField *field, bool lit)
     return pressed;
 }
 
-// The words beside a card's picture.
+// Draws the text beside a card's picture.
 static void card_words(Ui *ui, const UiCard *card, const ImRect &box)
 {
     ImDrawList *list = ImGui::GetWindowDrawList();
@@ -817,8 +816,8 @@ bool ui_card(Ui *ui, const UiCard *card, bool lit)
     return pressed;
 }
 
-// The label; the width that is left for the widget, which needs so much. Where one of them has no room in its
-// column the label has a line of its own, and the widget the next one.
+// Draws the label and returns the width left for the widget, which needs `needed`. If label or widget do not
+// fit their columns, the label gets a line of its own, and the widget the next line.
 static float begin_field(Ui *ui, const UiField *field, float needed)
 {
     const Columns place = columns(ui);
@@ -913,7 +912,7 @@ static void draw_slider(const ImRect &box, const UiScale *scale, double value, b
                   text);
 }
 
-// Ends the typing; whether that changes the value.
+// Ends typing; returns true if the value changes.
 static bool take_typed(Ui *ui, const UiScale *scale, double *value)
 {
     const double typed = ui_scale_typed(scale, ui->typed);
@@ -924,8 +923,7 @@ static bool take_typed(Ui *ui, const UiScale *scale, double *value)
     return changed;
 }
 
-// What is typed counts when it is whole: by Enter, or when the field is left; Escape brings the old value
-// back.
+// A typed value counts when complete: after Enter, or when the field is left. Escape restores the old value.
 static bool type_value(Ui *ui, const ImRect &box, const char *name, const UiScale *scale, double *value)
 {
     const ImGuiID id = ImGui::GetCurrentWindow()->GetID(name);
@@ -963,7 +961,7 @@ static bool slider(Ui *ui, const ImRect &box, const char *name, const UiScale *s
     return changed;
 }
 
-// The slider of a value, `width` wide, at the cursor.
+// A slider at the cursor, `width` wide.
 static bool place_slider(Ui *ui, const char *name, float width, const UiScale *scale, double *value)
 {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
@@ -980,10 +978,10 @@ static float slider_needs(const UiScale *scale, double value)
     return ImGui::CalcTextSize(text).x + 2 * ImGui::GetStyle().FramePadding.x;
 }
 
-// Room for what they may show; not for what they show now: one that is held must not change its place.
+// Width for all possible values, not for the present values: a held slider must not move.
 static float sliders_want(const Ui *ui, const UiScale *scale, int count)
 {
-    static const float SEVERAL_EM = 3.3F; // "-9.81", and what stands about it
+    static const float SEVERAL_EM = 3.3F; // "-9.81" with padding
     return count == 1 ? std::max(slider_needs(scale, scale->low), slider_needs(scale, scale->high))
                       : SEVERAL_EM * ui->pixels * (float)count;
 }
@@ -1009,10 +1007,10 @@ bool ui_sliders(Ui *ui, const UiField *field, double *values, int count, const U
     return changed;
 }
 
-static const float CURVE_LETTERS = 6;    // how high a curve is
-static const float POINT_LETTERS = 0.6F; // how near to a point a press takes it
+static const float CURVE_LETTERS = 6;    // height of a curve
+static const float POINT_LETTERS = 0.6F; // capture distance of a point
 
-// Where curves of 0 to `most` stand in a box: with room for the points at its ends.
+// The area of curves from 0 to `most` in a box, with room for points at the ends.
 struct CurvePlace {
     ImRect inner;
     double most;
@@ -1031,7 +1029,7 @@ static void curve_value(const CurvePlace &place, double *x, double *y)
     *y = std::clamp((place.inner.Max.y - mouse.y) / (double)place.inner.GetHeight(), 0.0, 1.0) * place.most;
 }
 
-// The point nearest to the mouse, where one is within reach; else -1.
+// The point nearest to the mouse, if within reach; else -1.
 static int point_near(const Ui *ui, const CurvePlace &place, const ControlPoints *points)
 {
     const ImVec2 mouse = ImGui::GetMousePos();
@@ -1077,7 +1075,7 @@ static void draw_curve(const Ui *ui, const ImRect &box, const CurvePlace &place,
     list->AddText(ImVec2(left ? box.Min.x + edge : box.Max.x - edge - width, box.Min.y), end, text);
 }
 
-// A press takes the point there; a second one soon after makes one where there is none.
+// A press takes the point under the mouse; a double click without a point adds a point.
 static void press_curve(Ui *ui, ImGuiID id, const CurvePlace &place, ControlPoints *points, int near)
 {
     double x, y;
@@ -1089,7 +1087,7 @@ static void press_curve(Ui *ui, ImGuiID id, const CurvePlace &place, ControlPoin
     ui->curve_points = *points;
 }
 
-// What is in hand stays as it is in hand, whenever the caller's own follows.
+// The held curve keeps the user's state, even if the caller's copy lags behind.
 static bool edit_curve(Ui *ui, const ImRect &box, ImGuiID id, const CurvePlace &place, ControlPoints *points,
                        int *lit)
 {

@@ -19,9 +19,8 @@ static double three_digits(double value)
     return strtod(text, NULL);
 }
 
-/* A power of ten that divides the scale into a hundred to a thousand parts; by way of text, since 0.1 * 3 is
- * not 0.3.
- */
+/* Rounds to a power of ten that divides the scale into a hundred to a thousand parts; goes through text,
+   since 0.1 * 3 is not 0.3. */
 static double round_to_scale(const UiScale *scale, double value)
 {
     char text[64];
