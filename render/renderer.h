@@ -100,7 +100,7 @@ void renderer_set_plain(Renderer *renderer, bool plain);
    spread work on data that stays over several pictures. False: each picture is complete. */
 void renderer_set_more(Renderer *renderer, bool more);
 
-/* True if the last picture had no perspective: Frame.flat. */
+/* True if the last picture was no view into space: Frame.flat. */
 bool renderer_is_flat(const Renderer *renderer);
 
 /* True if a further picture of the same state would be better than the last. */

@@ -76,7 +76,7 @@ typedef struct Frame {
     FramePart parts[FRAME_PARTS_MAX];
     const char *note; /* a line below the legend, static; NULL: none */
     bool by_fluid;    /* particles have the fluids' own colours */
-    bool flat;        /* the picture has no perspective: no edges of the box */
+    bool flat;        /* the picture is no view into space (a flat slice): no edges of the box */
     bool more;        /* further pictures follow at once: views and overlays may spread work over several */
     bool *behind;     /* set to true if an overlay shows a number of the previous picture; NULL: wait for
                          the GPU instead */

@@ -25,7 +25,7 @@ typedef struct Average {
     unsigned add, mean, screen, block; /* GL names */
     /* sums in front of overlays and edges, and behind; nearest depth of the front sum */
     unsigned framebuffer[2], sum[2], nearest;
-    unsigned sets;    /* buffer: per set, the depths of all pixels of the part, then the words */
+    unsigned sets;    /* buffer: per set, the depths of all pixels of the band, then the words */
     uint32_t *mapped; /* the mapped buffer if the CPU projects; else NULL */
     bool by_cpu;
     size_t bytes;
