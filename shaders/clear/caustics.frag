@@ -1,5 +1,5 @@
-// A point's light over the texels around it by a cubic B-spline: their shares add up to 1 wherever the point is, so that no light is
-// lost or won, and points a texel apart make an even light.
+// Spreads a point's light over nearby texels by a cubic B-spline: the shares add up to 1 for any position of the point, so the
+// total light is kept, and points a texel apart give even light.
 layout(location = 0) flat in vec2 centre;
 layout(location = 0) out float light;
 

@@ -1,5 +1,5 @@
-// The light on the floor: what shadows leave of it, times what the fluid's surface gathers there. Points beyond the map's sides are
-// missing in two rows of texels, where no fluid is.
+// The light on the floor: light after shadows, times the light focused by the fluid's surface. Near the map's sides points from
+// outside are missing: two rows of texels, without fluid, keep 1.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
 layout(binding = FLOOR_LIGHT_UNIT) uniform sampler2D shadow_left;

@@ -1,12 +1,12 @@
-// One of two passes that smooth the height over a few spacings, which hides that it is made of balls. What is much higher or lower is
-// another surface. The weights (1 - q^2)^3 end at 0 so gently that nothing of the balls' lattice is left: a hundredth of a millimetre
-// of it would show.
+// One of two passes that smooth the height over a few spacings, to hide the particles' balls. Much higher or lower texels are
+// another surface. The weights (1 - q^2)^3 end at 0 so smoothly that the balls' lattice vanishes: a hundredth of a millimetre
+// would be visible.
 #include "common/frame.glsl"
 #include "shaders/shared/shadow_maps.h"
 layout(binding = CAUSTIC_UNIT) uniform sampler2D height_map;
 layout(location = CAUSTIC_STEP_AT) uniform ivec2 along;  // a texel in x or y
 layout(location = CAUSTIC_WIDTH_AT) uniform float reach; // of the weights, texels
-layout(location = 0) out vec3 height;                    // m; what share of all around is fluid; the mean square off it, m^2
+layout(location = 0) out vec3 height;                    // m; fraction of fluid around; mean square deviation, m^2
 
 const float apart = 3.0; // spacings
 const int taps = 20;

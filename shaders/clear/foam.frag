@@ -1,8 +1,9 @@
-// A bubble of foam, or the patch under its like. It is seen on the fluid's surface and, fainter the deeper it is, a little below it.
+// A bubble of foam, or the soft patch under a particle's bubbles. Visible on the fluid's surface and, fainter with depth, a
+// little below.
 #include "common/frame.glsl"
 #include "clear/foam.glsl"
 
-layout(binding = FOAM_SURFACE_UNIT) uniform sampler2D surface_depth; // reversed, as those of the target
+layout(binding = FOAM_SURFACE_UNIT) uniform sampler2D surface_depth; // reversed, like the target's depth
 #ifdef SOLIDS
 layout(binding = FOAM_SOLID_UNIT) uniform sampler2D solid_depth;
 #endif
@@ -10,7 +11,7 @@ layout(location = 0) flat in vec4 light;
 layout(location = 1) flat in vec3 bubble;
 layout(location = 0) out vec4 color;
 
-const float below = 0.8; // spacings that leave a fifth of it
+const float below = 0.8; // depth, in spacings, where a fifth of the cover is left
 
 void main()
 {

@@ -1,3 +1,3 @@
-// What the shaders of foam share.
+// Shared by the shaders of foam.
 #include "common/nan.glsl"
 #include "shaders/clear/foam_bindings.h"

@@ -1,5 +1,5 @@
-// Bubbles of the particles that foam, as points: so many each, around the particle at places that its id keeps. The first is a soft
-// patch as wide as the particle, which joins them.
+// Bubbles of the foaming particles, as points: a fixed number per particle, at offsets fixed by the particle's id. The first
+// point is a soft patch as wide as the particle, which joins the bubbles.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/particles.glsl"
@@ -11,11 +11,11 @@
 
 layout(std430, binding = FOAM_LIST_STORAGE) readonly buffer List { uvec2 listed[]; };
 layout(std430, binding = FOAM_COMMAND_STORAGE) readonly buffer Commands { uint command[5]; };
-layout(binding = FOAM_SURFACE_UNIT) uniform sampler2D surface_depth; // reversed, as those of the target
-layout(location = 0) flat out vec4 light;  // of the bubble, and how much it hides
+layout(binding = FOAM_SURFACE_UNIT) uniform sampler2D surface_depth; // reversed, like the target's depth
+layout(location = 0) flat out vec4 light;  // colour; opacity
 layout(location = 1) flat out vec3 bubble; // depth below the eye and radius, m; 1: the patch
 
-// A ball's even numbers by the golden ratio in three dimensions, begun at another place by each particle.
+// Even points in a ball by the golden ratio in three dimensions, with a start per particle.
 vec3 in_ball(uint number, float begin)
 {
     vec3 even = fract(begin * vec3(1.0, 7.31, 3.77) + float(number) * vec3(0.8191725, 0.6710436, 0.5497005));
@@ -23,7 +23,7 @@ vec3 in_ball(uint number, float begin)
     return pow(even.z, 1.0 / 3.0) * vec3(sqrt(max(1.0 - z * z, 0.0)) * vec2(cos(turn), sin(turn)), z);
 }
 
-// Whether a place is so deep below the surface that foam.frag would show nothing: most are.
+// True if a position is so deep below the surface that foam.frag would draw nothing, as for most bubbles.
 bool is_deep(vec3 at)
 {
     vec2 on = clamp(0.5 + 0.5 * ndc_of_eye(vec3(at.xy, min(at.z, -near_plane))), 0.0, 1.0) * (picture_size - 1.0);
@@ -37,7 +37,7 @@ void main()
     uvec2 entry = listed[uint(gl_VertexID) / each_has];
     float foam = uintBitsToFloat(entry.y), own = id_share(entry.x), size = fract(own * 31.7 + float(number) * 0.6180340);
     bool patch_one = number == 0u;
-    // Bubbles come one by one, each from nothing.
+    // Bubbles appear one by one and grow from size 0.
     float there = clamp(foam * float(each_has) - float(number) + 1.0, 0.0, 1.0);
     vec3 offset = patch_one ? vec3(0.0) : 0.8 * particle_spacing * in_ball(number, own);
     float radius = particle_spacing * (patch_one ? 0.9 : there * (0.06 + 0.12 * size * size) * sqrt(float(FOAM_BUBBLES) / float(each_has)));

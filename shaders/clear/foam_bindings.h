@@ -1,16 +1,15 @@
-/* The numbers by which C hands to the shaders of foam what only they read; those of shaders/shared/bindings.h
-   besides. */
+/* Binding numbers used only by the shaders of foam; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_FOAM_BINDINGS_H
 #define SLOSH_FOAM_BINDINGS_H
 
-#define FOAM_BUBBLES 16u  /* of a particle, where all are drawn */
-#define FOAM_LEAST   0.02 /* share of foam that is none yet */
-#define FOAM_DEEP    2.5  /* spacings below the surface: a bubble hides less than a hundredth there */
+#define FOAM_BUBBLES 16u  /* most bubbles of a particle */
+#define FOAM_LEAST   0.02 /* foam below this fraction counts as none */
+#define FOAM_DEEP    2.5  /* spacings below the surface where a bubble hides less than a hundredth */
 
 /* Storage buffers */
 #define FOAM_VELOCITIES_STORAGE 3
 #define FOAM_LIST_STORAGE       5
-#define FOAM_COMMAND_STORAGE    6 /* of points, and how many a particle has */
+#define FOAM_COMMAND_STORAGE    6 /* drawing command for points, and bubbles per particle */
 
 /* Texture units */
 #define FOAM_SURFACE_UNIT 6

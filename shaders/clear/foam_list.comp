@@ -1,5 +1,5 @@
-// Lists the particles that foam, in their order, how strongly each does, and what draws their bubbles: for render/clear/foam.c. One
-// workgroup does it all.
+// Lists the foaming particles in order, with their strength, and writes the drawing command of the bubbles: for
+// render/clear/foam.c. One workgroup does all the work.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
@@ -7,15 +7,15 @@
 
 layout(local_size_x = 256) in;
 layout(location = FOAM_COUNT_AT) uniform uint count;
-layout(location = FOAM_SPEEDS_AT) uniform vec4 speeds; // trapped air and speed, m/s: where foam begins, and where there is no more of it
+layout(location = FOAM_SPEEDS_AT) uniform vec4 speeds; // trapped air and speed, m/s: foam starts and is complete
 layout(location = FOAM_VELOCITY_STRIDE_AT) uniform uint velocity_stride;
-layout(location = FOAM_MOST_AT) uniform uint most; // bubbles, where each particle may have one
+layout(location = FOAM_MOST_AT) uniform uint most; // limit of bubbles, but at least one per particle
 layout(std430, binding = FOAM_VELOCITIES_STORAGE) readonly buffer Velocities { float velocity_words[]; };
 layout(std430, binding = FOAM_LIST_STORAGE) writeonly buffer List { uvec2 listed[]; };
 layout(std430, binding = FOAM_COMMAND_STORAGE) writeonly buffer Commands { uint command[5]; };
 shared uint part[256];
 
-// What is no number does not foam.
+// 0 for NaN.
 float foam_of(uint i)
 {
     uint at = i * velocity_stride;

@@ -1,12 +1,12 @@
-// The ball that stands for a particle: of the view's radius, with DROPS of its own one, with ELLIPSOID that of an ellipsoid's volume,
-// or of BALL_RADIUS where that is defined. Wants common/frame.glsl and common/particles.glsl.
+// The ball of a particle: with the view's radius; with DROPS, a radius per particle; with ELLIPSOID, the ball with the
+// ellipsoid's volume; or with BALL_RADIUS, if defined. Needs common/frame.glsl and common/particles.glsl.
 #include "shaders/shared/bindings.h"
 #ifndef BALL_RADIUS
 #define BALL_RADIUS particle_radius // m
 #endif
 #if defined ELLIPSOID || defined APART
-// Of each: centre, radius of the ball of its volume, m; the symmetric matrix A that takes it to that ball, of determinant 1: xx yy
-// zz, least axis in radii at most; xy xz yz, how crowded it is around the particle, 0 .. 1.
+// Per particle: centre and radius (m) of the ball of equal volume; then the symmetric matrix A, of determinant 1, that maps the
+// ellipsoid to this ball: xx yy zz, upper bound of the least axis in radii; xy xz yz, crowding around the particle, 0 .. 1.
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { vec4 shape[]; };
 #elif defined DROPS
 layout(std430, binding = SHAPES_STORAGE) readonly buffer Shapes { float shape_radius[]; };

@@ -1,12 +1,12 @@
-// Refraction, reflection and absorption at the surface of a clear fluid, for the shadings water and jelly. Wants
+// Refraction, reflection and absorption at the surface of a clear fluid, for the shadings water and jelly. Needs
 // common/behind.glsl and common/surface.glsl.
 #include "shaders/shared/bindings.h"
 #include "common/fresnel.glsl"
 layout(location = REFRACTION_INDEX_AT) uniform float refraction_index;
-layout(location = ATTENUATION_AT) uniform float attenuation; // distance through which white light gets the fluid's colour, m
+layout(location = ATTENUATION_AT) uniform float attenuation; // distance at which white light takes the fluid's colour, m
 
-// What comes through the fluid: bent by Snell's law where the ray enters it, seen where it leaves after as much fluid as on the
-// straight ray, and weakened by Beer and Lambert's law; van der Laan et al., Screen space fluid rendering with curvature flow, 2009.
+// Light through the fluid: refracted by Snell's law at entry; leaves after the same length of fluid as the straight ray; absorbed
+// by Beer and Lambert's law. After van der Laan et al., Screen space fluid rendering with curvature flow, 2009.
 vec3 transmitted(Surface s)
 {
     vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
@@ -14,7 +14,7 @@ vec3 transmitted(Surface s)
     return seen * pow(max(s.albedo, 1e-4), vec3(s.thickness / attenuation));
 }
 
-// What floats in it scatters a little light back, the more the thicker it is: without that, deep water would be black.
+// Suspended matter scatters a little light back, more in thicker fluid: without scattering, deep water would be black.
 vec3 scattered(Surface s)
 {
     float share = 0.4 - 0.4 * exp2(-0.7 * s.thickness / attenuation), up = max(dot(s.normal, light_in_eye), 0.0);
@@ -28,24 +28,24 @@ vec3 reflected(Surface s, vec3 mirror)
     return environment(s.place, mirror) + 20.0 * s.key * glint * light_color;
 }
 
-// The sides of a tank in air mirror rays that come to them from within at a slant: what one sees in a side through the top or through
-// the next side is the tank's floor, and water is as deep at its edges as elsewhere. The floor, on which the tank stands, mirrors
-// nothing. Up to which cosine to the wall's normal they do: that of an index half as far again above 1 as the fluid's. Water's own lets
-// rays out that came in through a flat top within some 30 degrees of it, and they would end in a fog.
+// The cosine to a wall's normal below which the sides of a tank in air reflect rays from inside. Through the top or the next
+// side, a side thus shows the tank's floor, and water looks as deep at its edges as elsewhere. The tank's floor on the ground
+// reflects nothing. The index used is half as far again above 1 as the fluid's: with the index of water, rays that entered
+// through a flat top within some 30 degrees of the wall would leave and end in a fog.
 float mirrored_cosine()
 {
     float index = 1.0 + 1.54 * max(refraction_index - 1.0, 0.0);
     return sqrt(1.0 - 1.0 / (index * index));
 }
 
-// Adds to `inside`, what the surface lets out, what it mirrors.
+// Adds the reflected light to `inside`, the light leaving the surface.
 vec3 with_surface(Surface s, vec3 inside)
 {
     float share = fresnel(max(-dot(s.view, s.normal), 0.0), refraction_index);
     return mix(inside, reflected(s, reflect(s.view, s.normal)), share);
 }
 
-// A normal of a mixture may look away from the eye at the rim: bent until it does not.
+// A blended normal may face away from the eye at the rim: bends such normals toward the eye.
 vec3 facing(vec3 normal, vec3 view)
 {
     return normalize(normal - (max(dot(normal, view), -0.01) + 0.01) * view);

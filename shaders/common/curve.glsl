@@ -1,8 +1,8 @@
-// A curve of control points over a scalar's range: straight lines, constant beyond the ends (lines_at in sim/base/lines.c). What
-// particle_curve_set of render/particles/particle_curves.h says.
+// A curve of control points over a scalar's range: straight lines, constant beyond the ends (lines_at in sim/base/lines.c). Set
+// by particle_curve_set of render/particles/particle_curves.h.
 #include "shaders/shared/bindings.h"
-layout(location = CURVE_POINTS_AT) uniform uint points;         // how many; 0: the curve is 1
-layout(location = CURVE_RANGE_AT) uniform vec2 scalar_range;    // its low end, 1 / its width
+layout(location = CURVE_POINTS_AT) uniform uint points;         // number of points; 0: the curve is 1
+layout(location = CURVE_RANGE_AT) uniform vec2 scalar_range;    // low end, 1 / width
 layout(location = CURVE_POINT_AT) uniform vec2 point[CURVE_POINTS_MAX];
 
 float curve_at(float x)

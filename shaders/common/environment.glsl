@@ -1,5 +1,5 @@
-// Sky and lit floor, seen from any place in any direction of the world. With FLOOR_SHADOW less what fluid and solids shade.
-// Wants common/frame.glsl.
+// Sky and lit floor, from any position in any direction of the world; with FLOOR_SHADOW, with shadows of fluid and solids. Needs
+// common/frame.glsl.
 #include "shaders/shared/bindings.h"
 #ifdef FLOOR_SHADOW
 layout(binding = FLOOR_LIGHT_UNIT) uniform sampler2D floor_light;
@@ -11,15 +11,15 @@ float sky_brightness(vec3 ray)
     return 1.04 - 0.42 * rise * rise;
 }
 
-// Tiles, a sixteenth of the floor's radius wide: what one sees through water shows how water bends it. Soft at their sides, so that no
-// derivatives are asked for, which a bent ray has not.
+// Tiles, a sixteenth of the floor's radius wide: through water, tiles show the refraction. The edges are soft without
+// derivatives, which a refracted ray does not have.
 float floor_tiles(vec2 from_center)
 {
     vec2 wave = sin(16.0 * 3.14159265 * from_center);
     return 1.0 - 0.09 * smoothstep(-0.04, 0.04, wave.x * wave.y);
 }
 
-// Brightness and how much of it is left of the fading, at the place where the ray meets the floor.
+// Brightness of the floor where the ray meets the floor, and the rest of the fading there.
 vec2 floor_brightness(vec3 origin, vec3 ray)
 {
     vec2 xz = origin.xz + (floor_height - origin.y) / min(ray.y, -1e-6) * ray.xz;
@@ -32,7 +32,7 @@ vec2 floor_brightness(vec3 origin, vec3 ray)
     return vec2(1.16 * (0.40 + 0.60 * lit) * floor_tiles(away), left * left);
 }
 
-// Linear light. The sky is bluer the higher it is.
+// Linear light. The sky gets bluer with height.
 vec3 environment_light(vec3 origin, vec3 ray)
 {
     vec2 ground = floor_brightness(origin, ray);

@@ -11,7 +11,7 @@ vec3 ray_of_ndc(vec2 ndc)
     return vec3((ndc - view_centre) * view_tangent, -1.0);
 }
 
-// Where a place in the eye's frame is on the screen; the same as a place in clip space.
+// A position in the eye's frame on the screen; and in clip space.
 vec2 ndc_of_eye(vec3 at)
 {
     return at.xy / (-at.z * view_tangent) + view_centre;

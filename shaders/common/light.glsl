@@ -1,18 +1,18 @@
 // Soft daylight: a key light with shadow, sky above, ground below.
 #include "shaders/shared/bindings.h"
-layout(binding = SHADOW_UNIT) uniform sampler2D shadow_map; // reversed: 1 next to the light; 0 where nothing casts
+layout(binding = SHADOW_UNIT) uniform sampler2D shadow_map; // reversed: 1 next to the light; 0 without casters
 
-// The map between its four nearest texels, as a linear filter has it: not all hardware filters depths without comparing them.
+// Interpolates the map's four nearest texels like a linear filter: not all hardware filters depths without comparison.
 float nearest_to_light(vec2 at)
 {
     vec2 size = vec2(textureSize(shadow_map, 0)), texel = at * size - 0.5, corner = floor(texel), part = texel - corner;
-    vec4 around = textureGather(shadow_map, (corner + 1.0) / size); // at a corner of texels: which four is never in doubt
+    vec4 around = textureGather(shadow_map, (corner + 1.0) / size); // gathering at a corner of texels makes the four texels unambiguous
     vec2 sides = mix(around.wx, around.zy, part.x);
     return mix(sides.x, sides.y, part.y);
 }
 
-// How much of the key light reaches a point inside the fluid. Not a yes or no: it fades with the depth below the first
-// lit surface, as in a cloudy liquid, which is soft, needs no bias and costs one texel.
+// The fraction of the key light at a point inside the fluid: fades with the depth below the first lit surface, as in a cloudy
+// liquid. Soft, needs no bias and costs one texel.
 float fluid_light_at(vec3 at)
 {
     float below = (nearest_to_light(at.xy) - at.z) * light_depth;

@@ -1,4 +1,4 @@
-// The particles to be drawn: all, or with LISTED those that a list names, in the same order.
+// The particles to draw: all, or with LISTED the particles of a list, in the same order.
 #include "shaders/shared/bindings.h"
 #ifdef LISTED
 layout(std430, binding = LISTED_STORAGE) readonly buffer Listed { uint listed[]; };

@@ -1,10 +1,10 @@
-// Neighbours of one particle: those in nine rows of three cells each, in a slab in three. Positions are texels, since a software
-// driver fetches these in half the time that it takes for words of a buffer.
+// Neighbours of a particle: in nine rows of three cells each, in a slab in three. Positions are texels: a software driver fetches
+// texels in half the time of words of a buffer.
 #include "common/neighbourhood_grid.glsl"
 layout(binding = SORTED_UNIT) uniform usamplerBuffer sorted_texels; // by cell: bits of x y z, the particle's number
 layout(std430, binding = STARTS_STORAGE) readonly buffer Starts { uint start[]; };
 
-// Where row 0 to 8 begins and ends in `sorted`; row 0 is the particle's own.
+// First and end index in `sorted` of row 0 to 8; row 0 is the particle's own.
 uvec2 row_of(uvec3 at, uint row)
 {
     uvec2 yz = at.yz + uvec2((row + 1u) % 3u, (row / 3u + 1u) % 3u) - 1u; // wraps below 0

@@ -1,4 +1,4 @@
-// The colour of a particle: its fluid's, or its scalar's in the colormap, magenta where that is no number; linear light. Wants
+// The colour of a particle: of its fluid, or of its scalar in the colormap, magenta for NaN; linear light. Needs
 // common/frame.glsl and common/particles.glsl.
 #include "shaders/shared/bindings.h"
 #include "common/nan.glsl"

@@ -1,3 +1,3 @@
-// Of common/particles.glsl: which fluid a particle is of.
+// Addition to common/particles.glsl: the particles' fluids.
 #include "shaders/shared/bindings.h"
 layout(std430, binding = FLUIDS_STORAGE) readonly buffer Fluids { uint fluid_words[]; };

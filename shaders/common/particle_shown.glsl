@@ -1,4 +1,4 @@
-// What particles are coloured by, one block for whichever it is: bits of a scalar, or the number of a fluid. As a number.
+// The quantity that colours the particles, in one block: bits of a scalar, or the number of a fluid. Returned as a number.
 #include "shaders/shared/bindings.h"
 layout(std430, binding = SHOWN_STORAGE) readonly buffer Shown { uint shown_words[]; };
 layout(location = SHOWN_STRIDE_AT) uniform uint shown_stride;

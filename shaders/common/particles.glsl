@@ -1,6 +1,6 @@
-// The particles, as render/particles/particle_bind.c binds them; strides are in words since the owner of the buffers chose them. What else
-// is known of them stands in blocks of their own, so that a shader declares what it reads: common/particle_scalars.glsl,
-// common/particle_fluids.glsl.
+// The particles, as bound by render/particles/particle_bind.c; strides are in words, since the owner of the buffers chooses the
+// strides. Further data is in separate blocks, so that a shader declares only what the shader reads:
+// common/particle_scalars.glsl, common/particle_fluids.glsl.
 #include "shaders/shared/bindings.h"
 layout(std430, binding = POSITIONS_STORAGE) readonly buffer Positions { float position_words[]; };
 layout(location = POSITION_STRIDE_AT) uniform uint position_stride;

@@ -1,7 +1,8 @@
-// Which of `count` an invocation takes, for minima and maxima by atomics: groups of 64 in a row, the groups not in order. In the
-// particles' order each may be nearer than all before, and write; of a random order the n-th is with a chance of 1 / n.
+// The item of an invocation among `count` items, for minima and maxima by atomics: groups of 64 in a row, the groups in scattered
+// order. In the particles' order, each particle may be nearer than all before and write; in random order, the n-th writes with
+// probability 1 / n.
 #include "shaders/shared/bindings.h"
-layout(location = SCATTER_STEP_AT) uniform uint scatter_step; // has no divisor in common with the number of groups
+layout(location = SCATTER_STEP_AT) uniform uint scatter_step; // coprime with the number of groups
 
 uint scattered(uint count)
 {

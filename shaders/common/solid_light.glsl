@@ -1,8 +1,8 @@
-// What of the key light solids let pass: yes or no, with a rim of a texel or two. Wants common/frame.glsl.
+// The fraction of the key light that solids let pass: 0 or 1, with a rim of a texel or two. Needs common/frame.glsl.
 #include "shaders/shared/bindings.h"
-layout(binding = SOLID_SHADOW_UNIT) uniform sampler2DShadow solid_map; // reversed, as shadow_map; holds the sides away from the light
+layout(binding = SOLID_SHADOW_UNIT) uniform sampler2DShadow solid_map; // reversed, like shadow_map; holds the sides away from the light
 
-// In sides of the map.
+// The size of a texel as a fraction of the map.
 float shadow_texel()
 {
     return 1.0 / float(textureSize(solid_map, 0).x);

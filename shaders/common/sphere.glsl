@@ -10,7 +10,7 @@ struct Sphere {
     vec3 centre;
     float radius;
     float scale;   // s
-    float inverse; // 1 / sqrt(q); 0 when the eye is inside, where there is no outside to see, and for NaN
+    float inverse; // 1 / sqrt(q); 0 if the eye is inside, where no outside is visible, and for NaN
 };
 
 Sphere sphere_at(vec3 centre, float radius)
@@ -39,8 +39,8 @@ float sphere_depth(vec3 offset, vec3 constants, out float e)
     return constants.y + constants.z * (offset.z + sqrt(max(e, 0.0)));
 }
 
-// After: Mara and McGuire, 2D polyhedral bounds of a clipped, perspective-projected 3D sphere, 2013. The tangents'
-// slopes in the plane of one axis and the depth w > -radius; open ends where a tangent leaves behind the eye.
+// After: Mara and McGuire, 2D polyhedral bounds of a clipped, perspective-projected 3D sphere, 2013. The tangents' slopes in the
+// plane of one axis and the depth w > -radius; unbounded where a tangent points behind the eye.
 vec2 sphere_slopes(float a, float w, float radius)
 {
     const float open = 1e9;
@@ -53,7 +53,7 @@ vec2 sphere_slopes(float a, float w, float radius)
                 high > 1e-6 * l2 ? (a * t + w * radius) / high : open);
 }
 
-// x0 x1 y0 y1 on the screen, cut at its edges; empty when nothing is to be seen.
+// x0 x1 y0 y1 on the screen, clipped at the screen's edges; empty if the sphere is invisible.
 vec4 sphere_bounds(Sphere s)
 {
     float w = -s.centre.z;

@@ -1,12 +1,12 @@
-// What shadings of a smooth surface know of it in a pixel, and what they have in common. All in the eye's frame.
+// Inputs of shading a smooth surface in a pixel, and shared functions. Everything is in the eye's frame.
 struct Surface {
     vec3 place; // m
-    vec3 view;  // unit vector from the eye to it
+    vec3 view;  // unit vector from the eye to the place
     vec3 normal;
     vec3 albedo;
-    float lit;       // what of the key light arrives through the fluid
-    float key;       // and with solids in its way
-    float thickness; // of the fluid on the ray, m; 0 with phong
+    float lit;       // fraction of the key light after the fluid
+    float key;       // fraction of the key light after fluid and solids
+    float thickness; // length of fluid on the ray, m; 0 with phong
 };
 
 float lobe_32(float cosine) // cosine^32

@@ -1,12 +1,12 @@
-// Where the surface meets glass it climbs a little, and that rim mirrors the horizon, a little brighter than it is.
+// The fluid's rim at glass climbs a little and reflects the horizon, a little brighter than the horizon is.
 
-// `share`: how much of the pixel it covers.
+// `share`: covered fraction of the pixel.
 vec3 with_water_line(vec3 shaded, float share)
 {
     return mix(shaded, 1.3 * background, 0.5 * share);
 }
 
-// Half its width, in pixels.
+// Half the line's width, in pixels.
 float water_line_width()
 {
     return max(1.0, picture_size.y / 720.0);

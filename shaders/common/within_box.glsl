@@ -1,17 +1,17 @@
-// Where a view ray is in the box: between the walls that it enters and leaves by. An axis without walls has no end. Wants
+// The part of a view ray inside the box: between the walls of entry and exit. Unlimited along an axis without walls. Needs
 // common/frame.glsl.
 struct Within {
-    float enter, leave; // m below the eye
-    vec3 normal;        // of the wall that it enters by, towards the eye, in the eye's frame
-    float slope;        // way into the box across that wall for each m below the eye
+    float enter, leave; // m along the eye's axis
+    vec3 normal;        // normal of the wall of entry, towards the eye, in the eye's frame
+    float slope;        // distance into the box across that wall per m along the eye's axis
 };
 
-Within within_box_of(vec3 ray, bvec3 walls) // a ray of depth 1; with those axes' walls
+Within within_box_of(vec3 ray, bvec3 walls) // `ray` has depth 1; `walls`: axes with walls
 {
     vec3 low = vec3(-0.5, 0.0, -0.5) * box_size, high = low + box_size;
     low = mix(vec3(-1e30), low, walls), high = mix(vec3(1e30), high, walls);
     mat3 turn = mat3(box_to_eye);
-    vec3 way = ray * turn, origin = -box_to_eye[3].xyz * turn; // the inverse of a rotation
+    vec3 way = ray * turn, origin = -box_to_eye[3].xyz * turn; // transposed rotations are inverses
     bvec3 rising = greaterThanEqual(way, vec3(0.0));
     vec3 first = (mix(high, low, rising) - origin) / way, last = (mix(low, high, rising) - origin) / way;
     float enter = max(max(first.x, first.y), first.z);
@@ -19,10 +19,10 @@ Within within_box_of(vec3 ray, bvec3 walls) // a ray of depth 1; with those axes
     return Within(enter, min(min(last.x, last.y), last.z), turn * (axis * -sign(way)), dot(axis, abs(way)));
 }
 
-// How far a ray from a place in the box goes there, in its own lengths. Periodic sides end it too.
+// Length of a ray inside the box from a place there, in lengths of `ray`. Periodic sides count as ends.
 float way_in_box(vec3 place, vec3 ray)
 {
-    vec3 origin = (place - box_to_eye[3].xyz) * mat3(box_to_eye), way = ray * mat3(box_to_eye); // the inverse of a rotation
+    vec3 origin = (place - box_to_eye[3].xyz) * mat3(box_to_eye), way = ray * mat3(box_to_eye); // transposed rotations are inverses
     vec3 wall = mix(vec3(-0.5, 0.0, -0.5), vec3(0.5, 1.0, 0.5), greaterThanEqual(way, vec3(0.0))) * box_size;
     vec3 to = (wall - origin) / way;
     return max(min(min(to.x, to.y), to.z), 0.0);

@@ -1,5 +1,5 @@
-// A scalar or a vector of each particle from what its state has: VALUE is the formula, of type VALUE_TYPE;
-// render/derived/derived.c has the list and says what the names in a formula are. With NEAR its neighbours count.
+// A scalar or a vector of each particle from the state: VALUE is the formula, of type VALUE_TYPE. See render/derived/derived.c
+// for the list and the variables. NEAR: with sums over neighbours.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
 #include "derived/derived_read.glsl"
@@ -10,14 +10,13 @@ layout(std430, binding = DERIVED_STORAGE) writeonly buffer Derived { VALUE_TYPE 
 layout(location = KERNEL_REACH_AT) uniform float reach;          // h, m
 layout(location = MOMENT_SCALE_AT) uniform float moment_scale;   // 20 n / h^(d + 2)
 layout(location = TWO_DIMENSIONS_AT) uniform uint two_dimensions;
-layout(location = PERIOD_AT) uniform vec3 period;                // of periodic sides, m; 0: there are walls
-layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // of the box's origin, in the box's axes, m/s
-layout(location = NOW_AT) uniform float now;                      // of the state, s
-layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // of the box, in its axes, rad/s
+layout(location = PERIOD_AT) uniform vec3 period;                // length of periodic sides, m; 0: walls
+layout(location = FRAME_VELOCITY_AT) uniform vec3 frame_velocity; // velocity of the box's origin, in the box's axes, m/s
+layout(location = NOW_AT) uniform float now;                      // time of the state, s
+layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // angular velocity of the box, in its axes, rad/s
 
 #ifdef MEETS
-layout(location = SLOWEST_AT) uniform float slowest; // m/s: nothing is summed up for what is slower
-// Where so much of the kernel is fluid none of what is trapped counts, and where so much all does. Walls of the box, m; far away: none
+layout(location = SLOWEST_AT) uniform float slowest; // m/s: slower particles need no sums
 layout(location = AIR_FROM_AT) uniform float air_from;
 layout(location = AIR_ALL_AT) uniform float air_all;
 layout(location = WALLED_LOW_AT) uniform vec3 walled_low;
@@ -35,18 +34,18 @@ bool asked_for(uint i)
 #ifdef NEAR
 layout(binding = OTHERS_UNIT) uniform samplerBuffer other_texels; // derived_pack.comp
 
-// Over neighbours at d, of what they have more of than the particle itself.
+// Sums over neighbours at d; differences are neighbour minus particle.
 struct Sums {
     float count;
     mat3 moment;   // sum w d d
-    mat3 velocity; // sum w (v_j - v) d: a column an axis of d
+    mat3 velocity; // sum w (v_j - v) d: a column per axis of d
     vec3 carried;  // sum w (s_j - s) d
-    float filled;  // sum V_j (1 - r / h), with the images behind walls
-    vec3 walls;    // twice the way to the nearest wall along each axis
+    float filled;  // sum V_j (1 - r / h), including images behind walls
+    vec3 walls;    // twice the distance to the nearest wall along each axis
     float trapped; // sum V_j (1 - r / h) (|v_ij| - v_ij . d_ij), d_ij the unit vector from j to i
 };
 
-// What a neighbour's images behind the nearest walls weigh.
+// The weight of a neighbour's images behind the nearest walls.
 float images_of(Sums sums, vec3 d)
 {
     vec3 away = sums.walls - d, square = dot(d, d) - d * d + away * away;
@@ -89,7 +88,7 @@ void add_neighbours(inout Sums sums, uint i, vec4 own, vec3 x, bool image)
     }
 }
 
-// Across periodic sides they are near the particle's images.
+// Neighbours across periodic sides are near the particle's images.
 Sums sums_of(uint i, vec3 x)
 {
     Sums sums = Sums(0.0, mat3(0.0), mat3(0.0), vec3(0.0), 0.0, vec3(1e9), 0.0);
@@ -109,12 +108,12 @@ Sums sums_of(uint i, vec3 x)
     return sums;
 }
 
-// The inverse of the moments, which makes linear fields exact. Where neighbours do not span space (a drop's, a sheet's) the
-// moments are widened: gradients across it go to 0 and do not blow up. `span` is a bound of the least eigenvalue, which is 1 inside a
-// lattice and 0.14 at least at its corners, with support radii of 2 to 4 spacings.
+// The inverse of the moments, which makes linear fields exact. If neighbours do not span space (a drop, a sheet), the moments are
+// regularised: gradients across a sheet go to 0 instead of growing without limit. `span` bounds the least eigenvalue, which is 1
+// inside a lattice and at least 0.14 at its corners, for support radii of 2 to 4 spacings.
 const float spanned = 0.07, widened = 0.1;
 
-mat3 adjugate(mat3 m) // of a symmetric one
+mat3 adjugate(mat3 m) // for symmetric matrices
 {
     return mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
 }
@@ -137,7 +136,7 @@ vec3 curl(mat3 gradient) // gradient[b][a] = d v_a / d x_b
 }
 #endif
 
-// None is negative: between two states one may be shown that the later of them sent out. What is not known stays so.
+// Never negative: between two states, a particle of the later state may be shown. NaN stays NaN.
 float age_since(float born)
 {
     float age = now - born;

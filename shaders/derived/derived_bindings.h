@@ -1,15 +1,15 @@
-/* The numbers by which C hands to the shaders of derived scalars and vectors what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of derived scalars and vectors; more in
+   shaders/shared/bindings.h. */
 #ifndef SLOSH_DERIVED_BINDINGS_H
 #define SLOSH_DERIVED_BINDINGS_H
 
 /* Storage buffers */
 #define VELOCITIES_STORAGE 3
 #define DERIVED_STORAGE    9
-#define THREES_STORAGE     4 /* and the two behind it: of passes that need no neighbours */
-#define IDS_STORAGE        4 /* of the pass that needs births */
+#define THREES_STORAGE     4 /* three buffers; for passes without neighbours */
+#define IDS_STORAGE        4 /* for the pass with births */
 #define BIRTHS_STORAGE     5
-/* of ranges */
+/* for ranges */
 #define RANKS_FOUND_STORAGE 4
 #define RANK_BINS_STORAGE   5
 

@@ -1,5 +1,5 @@
-// What a sum over neighbours reads of each, in the order of their cells, as a texel: its velocity or the scalar, and its volume.
-// One that is no number, or not finite, weighs nothing.
+// Packs the neighbour data of sums into texels, in the order of cells: velocity or scalar, and volume. Particles with values that
+// are not finite get weight 0.
 #include "common/particles.glsl"
 #include "common/neighbourhood.glsl"
 #include "derived/derived_read.glsl"

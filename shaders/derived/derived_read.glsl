@@ -1,4 +1,4 @@
-// What a formula reads of a particle; what it does not read has no block, and is 0. Wants common/particles.glsl.
+// The particle data of a formula; unused data has no block, and is 0. Needs common/particles.glsl.
 #include "shaders/derived/derived_bindings.h"
 #ifdef VELOCITIES
 layout(std430, binding = VELOCITIES_STORAGE) readonly buffer Velocities { float velocity_words[]; };
@@ -30,7 +30,7 @@ float carried_of(uint i) { return 0.0; }
 
 #ifdef BIRTHS // the births of sim/base/births.h, found by the id
 layout(std430, binding = IDS_STORAGE) readonly buffer Ids { uint id_words[]; };
-layout(std430, binding = BIRTHS_STORAGE) readonly buffer Births { uvec4 births[]; }; // first id, its upper half, time
+layout(std430, binding = BIRTHS_STORAGE) readonly buffer Births { uvec4 births[]; }; // first id, upper half of the id, time
 layout(location = BIRTHS_COUNT_AT) uniform uint births_count;
 float born_of(uint i)
 {

@@ -1,10 +1,10 @@
-// One invocation a particle. What is no number, or not finite, does not count.
+// One invocation per particle. Values that are not finite are left out.
 #include "common/particle_scalars.glsl"
 #include "common/neighbourhood_grid.glsl"
 #include "derived/ranks.glsl"
 layout(location = SCALAR_STRIDE_AT) uniform uint scalar_stride; // words
 
-// Bits whose order is that of the numbers.
+// Bits that are ordered like the numbers.
 uint in_order(float value)
 {
     uint bits = floatBitsToUint(value);

@@ -1,16 +1,16 @@
-// One workgroup: the digit of each rank, and the bins empty again.
+// One workgroup: finds the digit of each rank, and clears the bins.
 #include "derived/ranks.glsl"
 layout(local_size_x = 64) in;
 const uint lane_bins = digit_bins / 64u;
-shared uint part[4][64]; // of a lane's bins, for each rank
+shared uint part[4][64]; // sums of a lane's bins, per rank
 
 uint rank_of(uint r, uint count)
 {
-    uint open = (count - 1u) / 100u; // beyond a percentile
+    uint open = (count - 1u) / 100u; // values beyond a percentile
     return r == 0u ? 0u : r == 1u ? open : r == 2u ? count - 1u - open : count - 1u;
 }
 
-// Which bin of `own` holds the place; the place becomes that within the bin.
+// The bin of `own` that contains the rank `place`; `place` becomes the rank within the bin.
 uint bin_of(uint own, inout uint place)
 {
     uint lane = 0u;

@@ -1,4 +1,4 @@
-// A shaft and a cone, where the pixel's ray first meets one of them: exact in each pixel, as the quadrics of paper 004.
+// A shaft and a cone, at the first hit of the pixel's ray: exact in each pixel, like the quadrics of paper 004.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
 #include "shaders/glyphs/glyphs_bindings.h"
@@ -19,7 +19,7 @@ struct Hit {
     vec3 normal;
 };
 
-// The nearest of a surface whose radius is `wide` - slope s at s along the axis, between low and high: a cylinder or a cone.
+// The nearest hit of a cylinder or cone, with radius `wide` - slope s at s along the axis, between low and high.
 Hit meet(Hit best, vec3 ray, vec3 from, float low, float high, float wide, float slope)
 {
     float rs = dot(ray, axis.xyz), fs = dot(from, axis.xyz), bound = wide - slope * fs;
@@ -35,7 +35,7 @@ Hit meet(Hit best, vec3 ray, vec3 from, float low, float high, float wide, float
     return best;
 }
 
-// The disc that closes it at its foot.
+// The disc that closes the cylinder or cone at its foot.
 Hit meet_disc(Hit best, vec3 ray, vec3 from, float at, float radius)
 {
     float t = (at - dot(from, axis.xyz)) / dot(ray, axis.xyz);

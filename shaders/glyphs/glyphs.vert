@@ -1,4 +1,4 @@
-// Four vertices an arrow: the rectangle on the screen around it.
+// Four vertices per arrow: the bounding rectangle on the screen.
 #include "common/frame.glsl"
 #include "shaders/glyphs/glyphs_bindings.h"
 
@@ -6,12 +6,12 @@ struct Arrow {
     vec4 foot, vector;
 };
 layout(std430, binding = GLYPH_ARROWS_STORAGE) readonly buffer Arrows { Arrow arrows[]; };
-layout(location = GLYPH_SCALE_AT) uniform float scale; // m in a unit of the vector
-layout(location = GLYPH_SIZE_AT) uniform vec3 size;    // of the tip: length and radius; radius of the shaft, m
+layout(location = GLYPH_SCALE_AT) uniform float scale; // m per unit of the vector
+layout(location = GLYPH_SIZE_AT) uniform vec3 size;    // length and radius of the tip; radius of the shaft, m
 layout(location = GLYPH_LIFT_AT) uniform float lift;   // towards z, m
 layout(location = 0) flat out vec3 foot; // in the eye's frame
 layout(location = 1) flat out vec4 axis; // unit vector, length
-layout(location = 2) flat out vec3 own;  // size of this one: short arrows are slender in proportion
+layout(location = 2) flat out vec3 own;  // size of this arrow: short arrows are thinner in proportion
 layout(location = 3) flat out float value;
 
 void main()
@@ -23,7 +23,7 @@ void main()
     axis = vec4(way / max(long_is, 1e-30), long_is);
     own = size * min(long_is / (1.5 * size.x), 1.0);
     float pixel = -foot.z * view_tangent.y * 2.0 * pixel_size.y; // m
-    own.yz = max(own.yz, min(vec2(1.6, 0.6) * pixel, vec2(0.4, 0.15) * long_is)); // thinner would fall between pixels
+    own.yz = max(own.yz, min(vec2(1.6, 0.6) * pixel, vec2(0.4, 0.15) * long_is)); // thinner arrows would fall between pixels
     value = arrow.foot.w;
     vec3 tip = foot + way;
     float nearest = min(-foot.z, -tip.z) - own.y;
@@ -33,7 +33,7 @@ void main()
     vec2 half_size = 0.5 * picture_size, from = ndc_of_eye(foot) * half_size;
     vec2 to = ndc_of_eye(tip) * half_size, dir = to - from;
     dir = length(dir) > 1e-3 ? normalize(dir) : vec2(1.0, 0.0);
-    // balls at both ends: off the axis of the view they are longer by its slant
+    // balls at both ends; longer away from the view's axis, by the slant
     float slant = 1.0 + max(dot(foot.xy, foot.xy) / (foot.z * foot.z), dot(tip.xy, tip.xy) / (tip.z * tip.z));
     float reach = own.y / nearest / view_tangent.y * half_size.y * slant + 1.0;
     vec2 end = (gl_VertexID & 1) == 0 ? from - reach * dir : to + reach * dir;

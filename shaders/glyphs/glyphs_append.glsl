@@ -1,17 +1,17 @@
-// The arrows that are drawn, in any order: they are opaque. Wants common/nan.glsl.
+// The arrows to draw, in any order: arrows are opaque. Needs common/nan.glsl.
 #include "shaders/glyphs/glyphs_bindings.h"
 
 struct Arrow {
     vec4 foot;   // x y z in the box's frame, m; scalar
-    vec4 vector; // x y z in its unit; 0
+    vec4 vector; // x y z in the vector's unit; 0
 };
 
-// The first five words are those of glDrawElementsIndirect, six indices an arrow; then magnitudes in bins, and how many arrows
-// are left out because they are no numbers.
+// The first five words are the glDrawElementsIndirect command, six indices per arrow; then a histogram of magnitudes, and the
+// number of NaN arrows left out.
 layout(std430, binding = GLYPH_COMMAND_STORAGE) buffer Command { uint command[5 + GLYPH_BINS + 1]; };
 layout(std430, binding = GLYPH_ARROWS_STORAGE) writeonly buffer Arrows { Arrow arrows[]; };
 
-// What is no number has no arrow, nor has what stands still.
+// Appends an arrow, unless the vector is 0 or any value is NaN.
 void append(vec3 at, vec3 vector, float value)
 {
     float square = dot(vector, vector);

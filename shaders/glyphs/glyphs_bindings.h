@@ -1,9 +1,8 @@
-/* The numbers by which C hands to the shaders of glyphs what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of glyphs; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_GLYPHS_BINDINGS_H
 #define SLOSH_GLYPHS_BINDINGS_H
 
-/* Storage buffers, besides those of particles and of a neighbourhood */
+/* Storage buffers, in addition to those of particles and neighbourhood */
 #define GLYPH_VECTORS_STORAGE 3
 #define GLYPH_COMMAND_STORAGE 4
 #define GLYPH_ARROWS_STORAGE  5
@@ -27,7 +26,7 @@
 #define GLYPH_LIFT_AT          34
 #define GLYPH_COLOR_AT         35
 
-/* Magnitudes are counted in bins, so many to an octave, the middle one at 1. */
+/* Histogram of magnitudes: bins per octave, the middle bin at 1. */
 #define GLYPH_BINS        512
 #define GLYPH_OCTAVE_BINS 8
 

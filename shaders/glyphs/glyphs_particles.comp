@@ -1,4 +1,4 @@
-// An arrow for every so many particles, by their ids: the same particles at each step.
+// An arrow for one particle per stride of ids: the same particles at each step.
 #include "common/particles.glsl"
 #include "common/particle_shown.glsl"
 #include "common/nan.glsl"

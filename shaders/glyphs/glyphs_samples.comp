@@ -1,5 +1,5 @@
-// An arrow for each sample of a grid or a plane: the mean of what is near, sum V W v over sum V W (Shepard 1968), with Wendland's
-// C2 kernel of the solver's support radius. Where sum V W is less than a quarter there is no fluid.
+// An arrow for each sample of a grid or a plane: the mean, sum V W v over sum V W (Shepard 1968), with Wendland's C2 kernel of
+// the solver's support radius. No fluid where sum V W is below a quarter.
 #include "common/particles.glsl"
 #include "common/particle_shown.glsl"
 #include "common/neighbourhood.glsl"
@@ -11,15 +11,15 @@ layout(location = GLYPH_VECTOR_STRIDE_AT) uniform uint vector_stride;
 layout(location = GLYPH_SUPPORT_AT) uniform float support; // m
 layout(location = GLYPH_PEAK_AT) uniform float peak;       // of the kernel, 1/m3 or 1/m2
 layout(location = GLYPH_FIRST_AT) uniform vec3 first;      // sample, m
-layout(location = GLYPH_ALONG_AT) uniform vec3 along;      // to the next one
+layout(location = GLYPH_ALONG_AT) uniform vec3 along;      // to the next sample
 layout(location = GLYPH_UP_AT) uniform vec3 up;
 layout(location = GLYPH_DEEP_AT) uniform vec3 deep;
-layout(location = GLYPH_SAMPLES_AT) uniform uvec2 samples; // in a row, rows in a layer
+layout(location = GLYPH_SAMPLES_AT) uniform uvec2 samples; // samples per row, rows per layer
 
 struct Mean {
     float weight, scalar_weight, scalar, best;
     vec3 vector;
-    float fluid; // of the particle that counts most
+    float fluid; // fluid of the particle with the largest weight
 };
 
 void add(inout Mean mean, uint number, float weight)

@@ -1,5 +1,5 @@
-// Step 3 of Tanaka et al. 2012: the sum of the sets' pictures, lit; alpha counts the sets that have a point there. What is behind
-// the solids in the target's depth does not count: of a set's points in a pixel the nearest is before them, or none.
+// Step 3 of Tanaka et al. 2012: the lit sum of the sets' pictures; alpha counts the sets with a point in the pixel. Points behind
+// solids in the target's depth are left out: a pixel keeps only a set's nearest point.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/surface.glsl"
@@ -14,7 +14,7 @@ layout(binding = SETS_OVER_UNIT) uniform sampler2D over_depth;
 layout(location = SETS_COUNT_AT) uniform uint set_count;
 layout(location = SETS_SIDE_AT) uniform uint side;
 layout(location = 0) out vec4 sum;
-layout(location = 1) out float nearest; // of the sets' depths, where those before overlays are summed
+layout(location = 1) out float nearest; // nearest of the sets' depths, in the front sum
 
 vec3 normal_of(uint word, uint layer)
 {
@@ -30,7 +30,7 @@ vec3 value_color(uint code, bool numbers)
     if (code == 255u)
         return vec3(1.0, 0.0, 0.6);
     float share = float(code) / 254.0;
-    if (numbers) { // numbers of fluids: neighbours in the list mix
+    if (numbers) { // fluid numbers: neighbours in the list mix
         float number = share / value_scale + value_low, first = clamp(floor(number), 0.0, 6.0);
         return mix(fluid_color[int(first)].rgb, fluid_color[int(first) + 1].rgb, clamp(number - first, 0.0, 1.0));
     }
@@ -55,7 +55,7 @@ void main()
     uint pixel = uint(corner.y) * uint(sets_part.z) + uint(corner.x);
     float behind = texelFetch(target_depth, at, 0).x, over = max(texelFetch(over_depth, at, 0).x, behind);
     float low = side == SETS_FRONT ? over : behind, high = side == SETS_FRONT ? 1.0 : over;
-    uint count = low < high ? set_count : 0u; // where that is 0 the software driver ends the loop, where one discards it does not
+    uint count = low < high ? set_count : 0u; // a count of 0 ends the loop on a software driver; discard would not
     vec3 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy));
     sum = vec4(0.0);
     nearest = 0.0;

@@ -1,5 +1,5 @@
-// The mean of all sets over what is behind: alpha is the part of the sets that have a point here. In two turns: what lies behind
-// overlays and edges, as those sets show it that have nothing before them; then what lies before, with the nearest depth.
+// The mean of all sets over the background: alpha is the fraction of sets with a point in the pixel. Two passes: first the part
+// behind overlays and edges, from the sets without a point in front; then the part in front, with the nearest depth.
 #include "shaders/pbsr/pbsr_bindings.h"
 layout(binding = SETS_SUM_UNIT) uniform sampler2D front_map;
 layout(binding = SETS_OVER_UNIT) uniform sampler2D back_map;

@@ -1,12 +1,11 @@
-/* The numbers by which C hands to the shaders of the view pbsr what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of the view pbsr; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_PBSR_BINDINGS_H
 #define SLOSH_PBSR_BINDINGS_H
 
 /* Uniform block */
 #define PBSR_BLOCK 2
 
-/* Storage buffers; those of the pieces of a layer are bound in this order by one call */
+/* Storage buffers; the buffers of a layer's pieces are bound in this order by one call */
 #define SETS_STORAGE          4
 #define PIECE_POINTS_STORAGE  5
 #define PIECE_CORNERS_STORAGE 6
@@ -35,14 +34,14 @@
 #define PIECE_EYE_AT   35
 #define PIECE_TURN_AT  32
 
-/* On which side of overlays and edges points are */
+/* The side of points relative to overlays and edges */
 #define SETS_FRONT 0u
 #define SETS_BACK  1u
 
-/* So many points of a piece and set are an invocation's; more are dealt to several */
+/* Largest number of points of a piece and set per invocation; more points are split between several */
 #define PIECE_POINTS_MOST 65536.0
 
-/* What a piece is */
+/* Kinds of pieces */
 #define PIECE_TRIANGLES 0u
 #define PIECE_CELLS     1u
 #define PIECE_STILL     2u

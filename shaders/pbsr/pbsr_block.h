@@ -1,4 +1,4 @@
-/* How points come into a picture, and the colours of their layers; render/pbsr/average.c fills it. */
+/* Projection of points into a picture, and colours of the layers; filled by render/pbsr/average.c. */
 #ifndef SLOSH_PBSR_BLOCK_H
 #define SLOSH_PBSR_BLOCK_H
 
@@ -9,14 +9,14 @@
 
 UNIFORM_BLOCK(PbsrBlock, PBSR_BLOCK)
 {
-    ivec4 sets_part;                       /* the band, of the picture: left, below, width, height; pixels */
-    vec4 layer_color[PBSR_NUMBERS_MAX];    /* linear; alpha 0: by the value */
-    vec4 layer_light[PBSR_NUMBERS_MAX];    /* red: 1 lit, 0 plain; green: 1 values go by the colormap */
+    ivec4 sets_part;                       /* the band in the picture: left, below, width, height; pixels */
+    vec4 layer_color[PBSR_NUMBERS_MAX];    /* linear; alpha 0: colour by value */
+    vec4 layer_light[PBSR_NUMBERS_MAX];    /* red: 1 lit, 0 plain; green: 1: values go by the colormap */
     vec4 layer_turn[3 * PBSR_NUMBERS_MAX]; /* columns: a layer's normals to the eye's frame */
-    float value_low;                       /* of the range that colours are from */
-    float value_scale;                     /* 1 / its width */
+    float value_low;                       /* low end of the colours' range */
+    float value_scale;                     /* 1 / width of the range */
     float sets_near;                       /* near plane, m */
-    int sets_first;                        /* the band's first row, of those that sight counts */
+    int sets_first;                        /* first row of the band, in rows of the sight */
 }
 BLOCK_END(PbsrBlock);
 

@@ -1,26 +1,28 @@
-// Steps 1 and 2 of Tanaka et al. 2012: points on the pieces of a layer, an invocation a piece and set, projected with occlusion. First
-// the nearest depth of each pixel, then the greatest word of the points that have it: exact, and the order is of no account. One
-// program for both, so that both have the same points to the bit. As render/pbsr/layer.c, with other random numbers.
+// Steps 1 and 2 of Tanaka et al. 2012: random points on the pieces of a layer, an invocation per piece and set, projected with
+// occlusion. First finds the nearest depth of each pixel, then the largest word of the points at that depth: exact and
+// independent of the order. One program for both passes, so that both have the same points to the bit. As render/pbsr/layer.c,
+// with other random numbers.
 #include "pbsr/sets.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = SETS_STORAGE) buffer Sets { uint sets[]; };
-layout(std430, binding = PIECE_POINTS_STORAGE) readonly buffer Points { float points[]; };    // 8 each, LayerPoint; 6, SurfacePoint
-layout(std430, binding = PIECE_CORNERS_STORAGE) readonly buffer Corners { uint corners[]; }; // 3 a triangle
+layout(std430, binding = PIECE_POINTS_STORAGE) readonly buffer Points { float points[]; };    // LayerPoint: 8 floats; SurfacePoint: 6
+layout(std430, binding = PIECE_CORNERS_STORAGE) readonly buffer Corners { uint corners[]; }; // 3 per triangle
 layout(std430, binding = PIECE_SHARES_STORAGE) readonly buffer Shares { vec2 shares[]; };    // LayerShare
 layout(location = PIECE_COUNT_AT) uniform uint count;
 layout(location = PIECE_KIND_AT) uniform uint kind;
 layout(location = PIECE_LAYER_AT) uniform uint layer;
 layout(location = PIECE_SEED_AT) uniform uint seed;
-layout(location = PIECE_SET_AT) uniform uvec3 set_range; // the first set; of points that stay, how many are wanted, and how many there are
-layout(location = PIECE_CELL_AT) uniform vec4 cell;      // sides, m, and 1: a slab along z; of points that stay: wanted and had on as much as a pixel shows at 1 m
+layout(location = PIECE_SET_AT) uniform uvec3 set_range; // the first set; for kept points also the number of sets wanted and of sets present
+layout(location = PIECE_CELL_AT) uniform vec4 cell;      // sides, m, and 1: a slab along z; for kept points: points wanted and present per area that
+                                                         // a pixel shows at 1 m
 layout(location = PIECE_WORDS_AT) uniform uint words;    // 0: depths
-layout(location = PIECE_FIRST_AT) uniform uint first;    // number of the first cell, or point that stays, that is bound
-layout(location = PIECE_PARTS_AT) uniform uint parts;    // invocations of a piece and set
-layout(location = PIECE_SIGHT_AT) uniform vec4 sight[3]; // rows of SetSight: of the layer's frame
-layout(location = PIECE_RANGE_AT) uniform vec2 range;    // of the layer's values: the least, 1 / width
-layout(location = PIECE_TURN_AT) uniform mat3 turn;      // of the normals of points that stay
+layout(location = PIECE_FIRST_AT) uniform uint first;    // index of the first bound cell or kept point
+layout(location = PIECE_PARTS_AT) uniform uint parts;    // invocations per piece and set
+layout(location = PIECE_SIGHT_AT) uniform vec4 sight[3]; // rows of SetSight, from the layer's frame
+layout(location = PIECE_RANGE_AT) uniform vec2 range;    // range of the layer's values: least, 1 / width
+layout(location = PIECE_TURN_AT) uniform mat3 turn;      // turns the normals of kept points
 
-layout(location = PIECE_EYE_AT) uniform vec4 eye;        // of the layer's frame, and SetSight.edges
+layout(location = PIECE_EYE_AT) uniform vec4 eye;        // eye in the layer's frame, and SetSight.edges
 
 // After: M. O'Neill, "PCG: a family of simple fast space-efficient statistically good algorithms for random number generation", 2014.
 uint random_state;
@@ -96,7 +98,7 @@ void add(Point p, uint slot)
         atomicMax(sets[set_word_at(slot, pixel)], word_of(p));
 }
 
-// set_sight_boost
+// as set_sight_boost
 float boost(vec3 at, vec3 normal)
 {
     vec3 to = eye.xyz - at;
@@ -128,7 +130,7 @@ Point in_cell(uint piece)
     return p;
 }
 
-// Poisson processes that lie on each other are one: each part has its own.
+// Independent Poisson processes add up to a Poisson process: each part of a piece has its own.
 void strew(uint piece, uint slot, uint part)
 {
     vec2 share = shares[piece]; // expected, nearest
@@ -144,7 +146,7 @@ void strew(uint piece, uint slot, uint part)
     }
 }
 
-// A point that stays is in one set, and is thinned out by its own number.
+// A kept point belongs to one set, and is thinned out by a fixed number.
 void show_still(uint at_buffer)
 {
     uint i = first + at_buffer, slot = (i % set_range.z + set_range.z - set_range.x % set_range.z) % set_range.z, normal = floatBitsToUint(points[6u * at_buffer + 3u]);

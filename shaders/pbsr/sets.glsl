@@ -1,4 +1,5 @@
-// What sets of points left in a part of the picture: of each set depths, then words, of each pixel. Depth 0: nothing; else near / w.
+// The projected sets in a part of the picture: per set the depths of all pixels, then the words. Depth 0: no point; else near /
+// w.
 #include "shaders/pbsr/pbsr_block.h"
 
 uint set_pixels()

@@ -1,4 +1,4 @@
-// The sky as a gradient, and the floor that fades into it; with FLOOR_SHADOW less what the fluid shades.
+// The sky as a gradient, and the floor fading into the sky; with FLOOR_SHADOW, with the fluid's shadow.
 #include "common/frame.glsl"
 #include "common/environment.glsl"
 
@@ -7,7 +7,7 @@ layout(location = 1) flat in vec3 ray_x;
 layout(location = 2) flat in vec3 ray_y;
 layout(location = 0) out vec4 color;
 
-// Breaks the bands that 8 bits would show; after Jimenez, Next generation post processing in Call of Duty, 2014.
+// Hides the bands of 8-bit colours; after Jimenez, Next generation post processing in Call of Duty, 2014.
 float grain()
 {
     return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;

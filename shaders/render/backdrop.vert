@@ -1,8 +1,8 @@
-// Sky and floor: one triangle over the whole screen or, with FLOOR_SHADOW, the part of the floor that the fluid may shade.
+// Sky and floor: a full-screen triangle or, with FLOOR_SHADOW, the part of the floor that the fluid may shade.
 #include "common/frame.glsl"
 
-// The view ray in the world: at the screen's corner, and a pixel's step in x and y. Not interpolated, so that both
-// triangles get the same colours, to the bit.
+// The view ray in the world: at the screen's corner, and a pixel's step in x and y. Not interpolated, so that both variants give
+// the same colours to the bit.
 layout(location = 0) flat out vec3 ray_corner;
 layout(location = 1) flat out vec3 ray_x;
 layout(location = 2) flat out vec3 ray_y;

@@ -1,5 +1,5 @@
-// Particles as the light sees them: squares of the disc's area at the depth of the centre, which the blur and the bilinear texel round
-// off. So small they are cheaper written by hand than set up by a rasteriser (Schütz, Kerbl, Wimmer: Rendering point clouds with
+// Particles seen from the light: squares with the disc's area at the depth of the centre, rounded by blur and bilinear filter.
+// For such small squares a compute shader is cheaper than a rasteriser (Schütz, Kerbl, Wimmer: Rendering point clouds with
 // compute shaders, 2021): on a software driver a fifth of the time.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
@@ -12,12 +12,12 @@
 #endif
 
 layout(local_size_x = 64) in;
-// The same as `lit`, four in a row at once. What is read late is only too far, and costs an atomic that changes nothing.
+// `lit`, four texels per fetch. Stale values are only too far, and cost an atomic without effect.
 layout(binding = CAST_UNIT) uniform usamplerBuffer lit_rows;
-layout(location = CASTERS_AT) uniform uint casters;                  // how many
-layout(std430, binding = CAST_STORAGE) buffer Lit { uint lit[]; }; // bits of a depth, which are ordered as it is
+layout(location = CASTERS_AT) uniform uint casters;                  // number of particles
+layout(std430, binding = CAST_STORAGE) buffer Lit { uint lit[]; }; // bits of depths, ordered like the depths
 
-// Which of 8 x 4 texels from `corner` on are within `low` to `end` and behind: a bit each.
+// A bit for each of 8 x 4 texels from `corner` on: set if within `low` to `end` and farther than `depth`.
 uint behind_in(uvec2 corner, uvec2 low, uvec2 end, uint depth)
 {
     uint bits = 0u, within = 255u << (max(low.x, corner.x) - corner.x) & 255u >> (8u - min(end.x - corner.x, 8u));
@@ -30,14 +30,14 @@ uint behind_in(uvec2 corner, uvec2 low, uvec2 end, uint depth)
     return bits;
 }
 
-// A software driver skips loops only, not what an `if` leaves out: hence bits, and atomics in a loop over these.
+// A software driver skips loops, but not code in an `if`: hence bits, and atomics in a loop over the bits.
 void main()
 {
     uint index = scattered(casters);
     if (index >= casters)
         return;
 #ifdef VEILED
-    if (veil[index].y >= veil[index].x) // of many as large a share casts a shadow as each is opaque
+    if (veil[index].y >= veil[index].x) // particles cast shadows with a probability of their opacity
         return;
 #endif
     Ball ball = ball_of(index);
@@ -46,7 +46,7 @@ void main()
         return;
     const float side = float(SHADOW_MAP_TEXELS); // the map is light_depth wide
     float reach = 0.5 * max(1.77245 * shadow_radius * (ball.radius / particle_radius) / light_depth * side, 1.0);
-    uvec2 low = uvec2(max(ceil(at.xy * side - reach - 0.5), 0.0)); // texels whose centres are within
+    uvec2 low = uvec2(max(ceil(at.xy * side - reach - 0.5), 0.0)); // texels with centres inside
     uvec2 end = uvec2(min(ceil(at.xy * side + reach - 0.5), side));
     uint depth = floatBitsToUint(at.z) & 0x7fffffffu; // no -0
     for (uint y = low.y; y < end.y; y += 4u)

@@ -1,4 +1,4 @@
-// The shadow map from what ball_shadow.comp wrote.
+// The shadow map from the output of ball_shadow.comp.
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
 layout(std430, binding = CAST_STORAGE) readonly buffer Lit { uint lit[]; };

@@ -1,13 +1,12 @@
-// Plain lines, or the edges of panes of glass: ground to a bevel that mirrors the sky on the side of the light, and through which one
-// looks along the glass, green by its iron, on the other. COARSE: over a picture of fewer pixels that
-// has been enlarged, behind its depth.
+// Plain lines, or the edges of glass panes: a ground bevel that reflects the sky on the side of the light; on the other side the
+// view goes along the glass, green from iron. COARSE: drawn over an enlarged coarse picture, tested against the coarse depth.
 #include "common/frame.glsl"
 #include "common/environment.glsl"
 #include "common/encoded.glsl"
 
 layout(location = 0) noperspective in float across;
 layout(location = 1) in vec3 place;       // in the eye's frame
-layout(location = 2) flat in vec3 normal; // of the bevel, towards the eye
+layout(location = 2) flat in vec3 normal; // normal of the bevel, towards the eye
 layout(location = HALF_WIDTH_AT) uniform float half_width;
 layout(location = 0) out vec4 color;
 
@@ -17,7 +16,7 @@ vec4 glass_edge(float cover)
 {
     vec3 view = normalize(place), mirror = reflect(view, normal);
     float glint = max(dot(mirror, light_in_eye), 0.0), side = clamp(0.5 + 0.5 * across, 0.0, 1.0);
-    glint *= glint, glint *= glint, glint *= glint; // a ground edge is not quite smooth
+    glint *= glint, glint *= glint, glint *= glint; // a ground edge is not perfectly smooth
     vec3 sky = environment_light((eye_to_world * vec4(place, 1.0)).xyz, mat3(eye_to_world) * mirror);
     vec3 bright = sky * 1.1 + 2.5 * glint * light_color;
     return vec4(mix(along_glass * (0.5 + 0.5 * background), bright, side), cover * mix(0.62, 0.8, side));
@@ -26,7 +25,7 @@ vec4 glass_edge(float cover)
 #ifdef COARSE
 layout(binding = COARSE_DEPTH_UNIT) uniform sampler2D coarse_depth;
 
-// How much of the four texels about the pixel is not nearer, by their weights.
+// The weighted fraction of the four texels around the pixel that are not nearer.
 float before()
 {
     vec2 at = gl_FragCoord.xy * pixel_size, weight = fract(at * vec2(textureSize(coarse_depth, 0)) - 0.5);

@@ -1,9 +1,9 @@
-// The twelve edges of the box as lines of constant width on the screen: four vertices an edge.
+// The twelve edges of the box as lines of constant width on the screen: four vertices per edge.
 #include "common/frame.glsl"
 
 layout(location = 0) noperspective out float across;       // pixels from the line's middle
 layout(location = 1) out vec3 place;                       // in the eye's frame
-layout(location = 2) flat out vec3 normal;                 // of the bevel between the two sides that meet, towards the eye
+layout(location = 2) flat out vec3 normal;                 // normal of the bevel between the edge's two sides, towards the eye
 layout(location = HALF_WIDTH_AT) uniform float half_width; // pixels
 
 layout(location = EDGES_BEHIND_AT) uniform uint behind; // 1: only edges between sides that both face away from the eye
@@ -19,16 +19,17 @@ vec3 corner_of_edge(int edge, int end)
     return (vec3(bits) - vec3(0.5, 0.0, 0.5)) * box_size;
 }
 
-// Whether one of the two sides that meet in the edge faces the eye.
+// True if one of the edge's two sides faces the eye.
 bool faces_eye(int edge)
 {
-    vec3 eye = -box_to_eye[3].xyz * mat3(box_to_eye), corner = corner_of_edge(edge, 0); // the inverse of a rotation
+    vec3 eye = -box_to_eye[3].xyz * mat3(box_to_eye), corner = corner_of_edge(edge, 0); // transposed rotations are inverses
     vec3 out_of = sign(corner - vec3(0.0, 0.5, 0.0) * box_size) * (eye - corner);
     int axis = edge >> 2;
     return out_of[(axis + 1) % 3] > 0.0 || out_of[(axis + 2) % 3] > 0.0;
 }
 
-// Of the bevel, in the eye's frame: between the normals of the two sides. Seen from within through the glass its other face shows.
+// The bevel's normal in the eye's frame: between the normals of the two sides. From inside, through the glass, the other face is
+// visible.
 vec3 bevel(int edge, vec3 at)
 {
     vec3 outward = sign(corner_of_edge(edge, 0) - vec3(0.0, 0.5, 0.0) * box_size);
@@ -37,7 +38,7 @@ vec3 bevel(int edge, vec3 at)
     return dot(turned, at) > 0.0 ? -turned : turned;
 }
 
-// The end of the edge, pulled along it to before the eye.
+// The end of the edge, moved along the edge to in front of the eye.
 vec3 in_front(vec3 a, vec3 b)
 {
     float clear = -2.0 * near_plane;
@@ -63,6 +64,6 @@ void main()
     vec2 normal = vec2(-along.y, along.x) / max(length(along), 1e-6) * (end == 0 ? 1.0 : -1.0);
     across = ((gl_VertexID & 2) == 0 ? -1.0 : 1.0) * (half_width + 1.0);
     vec2 shift = normal * across * 2.0 * pixel_size;
-    // A little nearer than they are: fluid at a wall is as near as the wall's edges, and is drawn first.
+    // A little nearer than the true depth: fluid at a wall is as near as the wall's edges, and is drawn first.
     gl_Position = vec4((here + shift) * -from.z, 1.003 * near_plane, -from.z);
 }

@@ -1,4 +1,4 @@
-// A picture of fewer pixels made as large as the screen: encoded colours, read and written as they are.
+// Enlarges a coarse picture to the screen: encoded colours, read and written unchanged.
 #include "shaders/shared/bindings.h"
 
 layout(binding = ENLARGED_UNIT) uniform sampler2D picture;

@@ -1,4 +1,4 @@
-// One triangle over the whole screen, and where in a picture that covers it.
+// A full-screen triangle, with positions in the picture.
 layout(location = 0) out vec2 at;
 
 void main()

@@ -1,5 +1,5 @@
-// A thin pane of glass: what its outer side mirrors of sky and floor. The inner one mirrors next to nothing where water touches it, and
-// is left out.
+// A thin glass pane: the outer side's reflection of sky and floor. The inner side reflects almost nothing at water, and is left
+// out.
 #include "common/frame.glsl"
 #include "common/environment.glsl"
 #include "common/fresnel.glsl"
@@ -8,7 +8,7 @@ layout(location = 0) in vec3 place;
 layout(location = 1) flat in vec3 normal;
 layout(location = 0) out vec4 color;
 
-const float ior = 1.5; // of window glass
+const float ior = 1.5; // window glass
 
 void main()
 {

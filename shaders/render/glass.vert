@@ -1,4 +1,4 @@
-// The six sides of the box as panes: those that face the eye, or with `behind` the others.
+// The six sides of the box as panes: the sides that face the eye, or with `behind` the sides that face away.
 #include "common/frame.glsl"
 
 layout(location = 0) out vec3 place;       // in the eye's frame
@@ -17,7 +17,7 @@ void main()
     place = (box_to_eye * vec4((at + vec3(0.0, 0.5, 0.0)) * box_size, 1.0)).xyz;
     normal = mat3(box_to_eye) * outward;
     vec3 middle = (box_to_eye * vec4((0.5 * outward + vec3(0.0, 0.5, 0.0)) * box_size, 1.0)).xyz;
-    bool away = dot(normal, middle) > 0.0; // of all corners alike, also where the eye is in the pane's plane
+    bool away = dot(normal, middle) > 0.0; // equal for all corners, even if the eye is in the pane's plane
     normal = away ? -normal : normal;
     gl_Position = away == (behind != 0u) ? vec4(clip_of_eye(place).xy, 1.002 * near_plane, -place.z) : vec4(2.0, 2.0, 0.0, 1.0);
 }

@@ -1,8 +1,8 @@
-// Particles beyond a plane get a place that is none: render/particles/half.h.
+// Sets the positions of particles beyond a plane to NaN: render/particles/half.h.
 #include "common/particles.glsl"
 
 layout(local_size_x = 64) in;
-layout(location = HALF_PLANE_AT) uniform vec4 half_plane; // x y z the normal; w the most along it that stays, m
+layout(location = HALF_PLANE_AT) uniform vec4 half_plane; // x y z: normal; w: largest distance along the normal that is kept, m
 layout(location = HALF_COUNT_AT) uniform uint half_count;
 layout(std430, binding = HALF_STORAGE) writeonly buffer Half { vec4 half_positions[]; };
 

@@ -1,4 +1,4 @@
-// The cell of each particle, and its place there, in any order.
+// The cell of each particle, and a rank in the cell, in any order.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
 layout(std430, binding = CELLS_STORAGE) writeonly buffer Cells { uint cell[]; };

@@ -1,10 +1,10 @@
-// Positions by cell, within a cell by number, so that sums have one order whatever the atomic counters did. Each counts its place
-// for itself, as in sim/compute/sort.comp; what is nowhere, or in too large a crowd, has any.
+// Sorts positions by cell, and within a cell by number, so that sums have a fixed order whatever the order of the atomics. Each
+// particle counts its rank itself, as in sim/compute/sort.comp; particles without a cell, or in an overfull cell, keep any rank.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"
 layout(std430, binding = CELLS_STORAGE) readonly buffer Cells { uint cell[]; };
 layout(std430, binding = ORDER_STORAGE) readonly buffer Orders { uint order[]; };
-layout(binding = ORDER_UNIT) uniform usamplerBuffer order_texels; // the same, four at once: software drivers read that as fast as a word
+layout(binding = ORDER_UNIT) uniform usamplerBuffer order_texels; // `order`, four per fetch: as fast as one word on software drivers
 layout(std430, binding = STARTS_STORAGE) readonly buffer Starts { uint start[]; };
 layout(std430, binding = SORTED_STORAGE) writeonly buffer Sorted { uvec4 sorted[]; };
 

@@ -1,6 +1,5 @@
-// What of each particle goes with a scalar, by a curve of control points (render/particles/particle_curves.h): its radius or, VEILED,
-// how opaque it is. SCALED: what of a particle is there already (common/ball.glsl) gets smaller by that.
-// LEAST: nothing is less, where spheres of no size cannot be.
+// A property of each particle by a curve of a scalar (render/particles/particle_curves.h): the radius, or with VEILED the
+// opacity. SCALED: multiplies present sizes (common/ball.glsl). LEAST: lower bound, where spheres must not have size 0.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
@@ -11,7 +10,7 @@
 #define LEAST 0.0
 #endif
 layout(local_size_x = 64) in;
-layout(location = CURVE_PARTICLES_AT) uniform uint particles;   // how many
+layout(location = CURVE_PARTICLES_AT) uniform uint particles;   // number of particles
 #ifdef VEILED
 #include "common/particle_ids.glsl"
 layout(std430, binding = VEILS_STORAGE) writeonly buffer Veils { vec2 veil[]; };

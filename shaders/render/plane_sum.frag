@@ -1,4 +1,4 @@
-// What one particle adds to one sample, by the true distance in space.
+// A particle's contribution to a sample, by the true distance in space.
 #include "shaders/shared/plane_block.h"
 #include "common/plane_kernel.glsl"
 

@@ -1,12 +1,12 @@
-// Four vertices a particle: the square on the plane around what its ball cuts out of it; none where it cuts nothing.
+// Four vertices per particle: the square around the ball's section with the plane; none without a section.
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
 #include "common/nan.glsl"
 #include "shaders/shared/plane_block.h"
 
-layout(location = 0) flat out ivec2 cell;  // the sample that the centre is in
-layout(location = 1) flat out vec4 disc;   // where in it, 0 .. 1; (distance / h)^2; V times the kernel's peak
-layout(location = 2) flat out vec2 scalar; // and 1 where that is no number
+layout(location = 0) flat out ivec2 cell;  // the sample of the centre
+layout(location = 1) flat out vec4 disc;   // position in the sample, 0 .. 1; (distance / h)^2; V times the kernel's peak
+layout(location = 2) flat out vec2 scalar; // value; 1 if NaN
 
 void main()
 {
@@ -27,7 +27,7 @@ void main()
     cell = ivec2(floor(centre));
     disc = vec4(centre - dvec2(cell), away * away, volume * plane_peak);
     scalar = known ? vec2(value, 0.0) : vec2(0.0, 1.0);
-    // a margin, since rasterisers round places to 1/256 of a sample
+    // a margin, since rasterisers round positions to 1/256 of a sample
     vec2 half_side = sqrt(left) * plane_support / plane_side + 1.0 / 64.0;
     vec2 corner = vec2(centre) + half_side * (vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1) * 2.0 - 1.0);
     gl_Position = vec4(corner / plane_samples * 2.0 - 1.0, 0.0, 1.0);

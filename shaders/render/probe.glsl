@@ -1,18 +1,18 @@
-// What is found of particles at places of a picture: render/probe/particle_probe.h.
+// Particle data at positions in a picture: render/probe/particle_probe.h.
 #include "shaders/shared/probe_bindings.h"
 
-// Of some particles at one place.
+// Result of some particles at one position.
 struct Part {
-    float ratio;   // least distance from a ball's centre in radii of that ball
-    uint who;      // the number of that ball's particle
+    float ratio;   // least distance from a ball's centre, in radii of the ball
+    uint who;      // index of the particle of this ball
     float carried; // sum of V W s
     float field;   // sum of V W
-    float lost;    // sum of V W where s is no number, which the other two leave out
+    float lost;    // sum of V W for NaN s, excluded from `carried` and `field`
 };
-layout(std430, binding = PROBE_PARTS_STORAGE) buffer Parts { Part parts[]; }; // those of a place lie side by side
+layout(std430, binding = PROBE_PARTS_STORAGE) buffer Parts { Part parts[]; }; // the parts of a position are contiguous
 
 struct Answer {
-    vec4 place; // x y z in the box's frame, m; w 0: there is none
+    vec4 place; // x y z in the box's frame, m; w 0: no position
     vec4 own;   // x y z of the particle `who`; its scalar
     float ratio;
     uint who;
@@ -25,7 +25,7 @@ layout(std430, binding = PROBE_ANSWERS_STORAGE) buffer Answers { Answer answers[
 const uint probe_nobody = 0xffffffffu;
 const Part probe_nothing = Part(1e30, probe_nobody, 0.0, 0.0, 0.0);
 
-// Of equals the first one counts.
+// Of equal ratios, the lower index wins.
 Part together(Part a, Part b)
 {
     bool nearer = b.ratio < a.ratio || (b.ratio == a.ratio && b.who < a.who);

@@ -1,10 +1,10 @@
-// A workgroup for each place: all parts together, and what its nearest particle has.
+// A workgroup per position: combines all parts, and reads the data of the nearest particle.
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
 #include "common/particle_fluids.glsl"
 #include "render/probe_fold.glsl"
 layout(location = PROBE_GROUPS_AT) uniform uint probe_groups;
-layout(location = PROBE_ID_STRIDE_AT) uniform uint probe_id_stride; // 0: there are no ids
+layout(location = PROBE_ID_STRIDE_AT) uniform uint probe_id_stride; // 0: no ids
 layout(std430, binding = PROBE_IDS_STORAGE) readonly buffer ProbeIds { uint probe_ids[]; };
 
 void main()

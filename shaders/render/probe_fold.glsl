@@ -1,9 +1,9 @@
-// The parts of 64 lanes become one, in the same order each time.
+// Combines the parts of 64 lanes into one, always in the same order.
 #include "render/probe.glsl"
 layout(local_size_x = 64) in;
 shared Part lanes[64];
 
-// For lane 0.
+// The result is for lane 0.
 Part folded(Part own)
 {
     uint lane = gl_LocalInvocationID.x;

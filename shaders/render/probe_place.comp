@@ -1,9 +1,9 @@
-// Where the places are that are asked for: said, or what the picture shows in a pixel.
+// The positions asked for: given, or found from the picture's depth at a pixel.
 #include "common/frame.glsl"
 #include "render/probe.glsl"
 layout(local_size_x = PROBES_MAX) in;
 layout(location = PROBE_COUNT_AT) uniform uint probe_count;
-layout(location = PROBE_ASKED_AT) uniform vec4 asked[PROBES_MAX]; // x y z in the box's frame, 0; column, row from below, -, 1
+layout(location = PROBE_ASKED_AT) uniform vec4 asked[PROBES_MAX]; // x y z in the box's frame, 0; or column, row from below, -, 1
 layout(binding = PROBE_DEPTH_UNIT) uniform sampler2D depth_map;
 
 vec4 seen_at(ivec2 pixel)

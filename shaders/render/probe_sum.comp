@@ -1,4 +1,4 @@
-// A row of workgroups for each place. DROPS: balls have radii of their own.
+// A row of workgroups per position. DROPS: a radius per ball.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/particle_scalars.glsl"
@@ -7,7 +7,7 @@
 #include "common/plane_kernel.glsl"
 #include "render/probe_fold.glsl"
 layout(location = PROBE_PARTICLES_AT) uniform uint probe_particles;
-layout(location = PROBE_REACH_AT) uniform float probe_reach; // of the kernel, m
+layout(location = PROBE_REACH_AT) uniform float probe_reach; // radius of the kernel, m
 
 Part part_of(uint index, vec3 place)
 {

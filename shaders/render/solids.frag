@@ -1,4 +1,4 @@
-// A matt surface under the light of all else.
+// A matt surface under the shared light.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/solid_light.glsl"

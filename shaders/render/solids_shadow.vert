@@ -1,4 +1,4 @@
-// Solids as the light sees them.
+// Solids seen from the light.
 #include "shaders/shared/solid_block.h"
 
 layout(location = 0) in vec3 position; // in the solid's own frame, m

@@ -1,47 +1,47 @@
-/* The numbers by which C hands to the shaders of pictures what more than one of them reads. Those of a view
-   stand in its own folder, as shaders/volume/volume_bindings.h; a name has one number in all shaders. */
+/* Binding numbers used by more than one shader of pictures. Numbers of a single view are in the view's
+   folder, as shaders/volume/volume_bindings.h; a name has one number in all shaders. */
 #ifndef SLOSH_BINDINGS_H
 #define SLOSH_BINDINGS_H
 
-/* Uniform blocks; views have 2 and up */
+/* Uniform blocks; views use 2 and up */
 #define FRAME_BLOCK 0
 #define SOLID_BLOCK 1
 #define PLANE_BLOCK 12
 
-/* Storage buffers: the particles that are drawn */
+/* Storage buffers: the particles drawn */
 #define POSITIONS_STORAGE 0
 #define SCALARS_STORAGE   1
 #define FLUIDS_STORAGE    2
 #define LISTED_STORAGE    3
-#define HALF_STORAGE      3 /* of a pass without a list */
-#define VEILS_STORAGE     3 /* of views that list none */
+#define HALF_STORAGE      3 /* in passes without a list */
+#define VEILS_STORAGE     3 /* in views without a list */
 #define SHOWN_STORAGE     1
-/* those of a neighbourhood, bound in this order by one call */
+/* buffers of a neighbourhood, bound in this order by one call */
 #define CELLS_STORAGE  4
-#define IDS_STORAGE    4 /* of passes over all particles */
+#define IDS_STORAGE    4 /* in passes over all particles */
 #define RANKS_STORAGE  5
 #define STARTS_STORAGE 6
 #define ORDER_STORAGE  7
 #define SORTED_STORAGE 8
-/* and what is made of neighbours */
+/* results of sums over neighbours */
 #define SHAPES_STORAGE 9
 #define CAST_STORAGE   10
 
-/* Texture units; views use those between for themselves */
+/* Texture units; views use the units between */
 #define SHADOW_UNIT       0
-#define SORTED_UNIT       1 /* of a neighbourhood; before it is sorted: */
+#define SORTED_UNIT       1 /* sorted neighbourhood; before sorting: ORDER_UNIT */
 #define ORDER_UNIT        1
 #define COLORMAP_UNIT     2
 #define FLOOR_LIGHT_UNIT  3
 #define SOLID_SHADOW_UNIT 4
 #define CAST_UNIT         5
 #define CAUSTIC_UNIT      6 /* before a view draws */
-#define ENLARGED_UNIT     6 /* behind it */
+#define ENLARGED_UNIT     6 /* after a view has drawn */
 #define COARSE_DEPTH_UNIT 7
 #define BEHIND_COLOR_UNIT 14
 #define BEHIND_DEPTH_UNIT 15
 
-/* Locations of uniforms; views have 16 to 63 */
+/* Locations of uniforms; views use 16 to 63 */
 #define POSITION_STRIDE_AT  0
 #define SCALAR_STRIDE_AT    1
 #define FLUID_STRIDE_AT     2
@@ -58,7 +58,7 @@
 #define HALF_COUNT_AT       13
 #define SHOWN_STRIDE_AT     14
 #define SHOWN_IS_FLUID_AT   15
-#define CURVE_POINT_AT      64 /* so many places: */
+#define CURVE_POINT_AT      64 /* CURVE_POINTS_MAX locations */
 #define CURVE_POINTS_MAX    8
 #define CURVE_PARTICLES_AT  72
 #define CURVE_POINTS_AT     73

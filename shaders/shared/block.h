@@ -1,9 +1,9 @@
-/* The words for a block that C and GLSL share. A file NAME_block.h below shaders/ is included by the C file
-   that fills the block and by the shaders that read it, both as "shaders/shared/NAME_block.h".
+/* Macros for blocks that C and GLSL share. A file NAME_block.h in shaders/ is included by the C file that
+   fills the block and by the shaders that read the block, both as "shaders/shared/NAME_block.h".
 
-   In C a block is a struct of its name whose members have the offsets of std140. What C cannot say is left
-   out: the elements of an array are vec4, mat4 or structs of 16 bytes; there is no mat3 and no bool.
-   tests/gl/test_blocks.c holds each member against what the driver says. */
+   In C, a block is a struct with the block's name, whose members have std140 offsets. Types that C cannot
+   express are excluded: array elements are vec4, mat4 or structs of 16 bytes; no mat3, no bool.
+   tests/gl/test_blocks.c compares each member with the driver's offset. */
 #ifndef SLOSH_BLOCK_H
 #define SLOSH_BLOCK_H
 
@@ -15,7 +15,7 @@ typedef float vec2[2] BLOCK_ALIGNED(8), vec3[3] BLOCK_ALIGNED(16), vec4[4] BLOCK
 typedef int ivec2[2] BLOCK_ALIGNED(8), ivec3[3] BLOCK_ALIGNED(16), ivec4[4] BLOCK_ALIGNED(16);
 typedef uint uvec2[2] BLOCK_ALIGNED(8), uvec3[3] BLOCK_ALIGNED(16), uvec4[4] BLOCK_ALIGNED(16);
 typedef double dvec3[3] BLOCK_ALIGNED(32);
-typedef float mat4[16] BLOCK_ALIGNED(16); /* column by column */
+typedef float mat4[16] BLOCK_ALIGNED(16); /* column-major */
 
 #define BLOCK_STRUCT(name)          typedef struct BLOCK_ALIGNED(16) name
 #define UNIFORM_BLOCK(name, number) BLOCK_STRUCT(name)

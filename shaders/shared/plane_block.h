@@ -1,5 +1,5 @@
-/* A plane's rectangle, and how far its particles reach; render/plane/plane_sum.c fills it. Doubles, since a
-   particle may be smaller than a sample of a thousand, and is to be right to 1e-4 there. */
+/* A plane's rectangle and the particles' support; filled by render/plane/plane_sum.c. Doubles, since a
+   particle may be smaller than a sample of a thousand, with errors of 1e-4 at most. */
 #ifndef SLOSH_PLANE_BLOCK_H
 #define SLOSH_PLANE_BLOCK_H
 
@@ -9,13 +9,13 @@
 UNIFORM_BLOCK(PlaneBlock, PLANE_BLOCK)
 {
     dvec3 plane_corner; /* m, box's frame */
-    dvec3 plane_along;  /* samples a m */
+    dvec3 plane_along;  /* samples per m */
     dvec3 plane_up;
-    dvec3 plane_normal;  /* support radii a m */
-    vec2 plane_side;     /* of a sample, m */
-    vec2 plane_samples;  /* of the rectangle */
+    dvec3 plane_normal;  /* support radii per m */
+    vec2 plane_side;     /* size of a sample, m */
+    vec2 plane_samples;  /* samples of the rectangle */
     float plane_support; /* radius, m */
-    float plane_peak;    /* of the kernel: W = peak * shape(r / h), 1/m3 */
+    float plane_peak;    /* peak of the kernel: W = peak * shape(r / h), 1/m3 */
 }
 BLOCK_END(PlaneBlock);
 

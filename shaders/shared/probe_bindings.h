@@ -1,5 +1,4 @@
-/* The numbers by which C hands to the shaders of render/probe what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of render/probe; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_PROBE_BINDINGS_H
 #define SLOSH_PROBE_BINDINGS_H
 
@@ -17,10 +16,10 @@
 #define PROBE_REACH_AT     18
 #define PROBE_GROUPS_AT    19
 #define PROBE_ID_STRIDE_AT 20
-#define PROBE_ASKED_AT     24 /* so many places: */
+#define PROBE_ASKED_AT     24 /* PROBES_MAX locations */
 #define PROBES_MAX         16
 
-/* Particles that one lane of probe_sum.comp looks at, 64 lanes in a group. */
+/* Particles per lane of probe_sum.comp; a group has 64 lanes. */
 #define PROBE_LANE 32
 
 #endif

@@ -1,4 +1,4 @@
-/* The numbers of sim/compute/scan.comp and scan_add.comp, which solvers and pictures both run. */
+/* Binding numbers of sim/compute/scan.comp and scan_add.comp, used by solvers and pictures. */
 #ifndef SLOSH_SCAN_H
 #define SLOSH_SCAN_H
 

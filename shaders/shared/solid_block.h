@@ -1,4 +1,4 @@
-/* Poses and colours of the solids; render/frame/solids.c fills it. */
+/* Poses and colours of the solids; filled by render/frame/solids.c. */
 #ifndef SLOSH_SOLID_BLOCK_H
 #define SLOSH_SOLID_BLOCK_H
 

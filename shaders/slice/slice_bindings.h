@@ -1,11 +1,10 @@
-/* The numbers by which C hands to the shaders of slices what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of slices; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_SLICE_BINDINGS_H
 #define SLOSH_SLICE_BINDINGS_H
 
 /* Texture units */
 #define SUMS_UNIT 1
-#define VEIL_UNIT 6 /* the sums of the scalar by which opacity goes */
+#define VEIL_UNIT 6 /* sums of the opacity's scalar */
 
 /* Locations of uniforms */
 #define SHOWN_AT    16

@@ -1,4 +1,4 @@
-// Colours of the sums: the colormap's, magenta where most is no number, nothing where there is no fluid.
+// Colours of the sums: by the colormap, magenta where most of the fluid is NaN, nothing without fluid.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
 #include "shaders/slice/slice_bindings.h"
@@ -16,7 +16,7 @@ layout(location = OPACITY_AT) uniform float opacity;
 layout(location = 0) in vec2 share;
 layout(location = 0) out vec4 color;
 
-// How opaque the plane is there, by a scalar; what is no number is to be seen.
+// The plane's opacity by a scalar; NaN is opaque.
 float veil()
 {
 #ifdef VEILED

@@ -1,4 +1,4 @@
-// Which particle is seen in each pixel, and its exact depth; shading comes once a pixel, afterwards.
+// Finds the visible particle in each pixel, and its exact depth; shading follows, once per pixel.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"
 

@@ -1,4 +1,4 @@
-// Four vertices a particle: the corners of its bound on the screen.
+// Four vertices per particle: the corners of its bound on the screen.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/sphere.glsl"

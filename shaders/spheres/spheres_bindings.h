@@ -1,7 +1,7 @@
-/* The numbers by which C hands to the shaders of spheres what only they read. */
+/* Binding numbers used only by the shaders of spheres. */
 #ifndef SLOSH_SPHERES_BINDINGS_H
 #define SLOSH_SPHERES_BINDINGS_H
 
-#define SEEN_UNIT 1 /* texture: which particle is seen in each pixel */
+#define SEEN_UNIT 1 /* texture: the visible particle in each pixel */
 
 #endif

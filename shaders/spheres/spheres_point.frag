@@ -1,5 +1,5 @@
-// As spheres.frag. What is beside the sphere gets the depth of nothing and fails the test of depth: cheaper than discard,
-// as gl_PointCoord is than gl_FragCoord.
+// As spheres.frag. Pixels outside the sphere get depth 0 and fail the depth test: cheaper than discard; likewise gl_PointCoord is
+// cheaper than gl_FragCoord.
 layout(location = 0) flat in vec4 axes;
 layout(location = 1) flat in uvec4 rest;
 #ifdef VEILED

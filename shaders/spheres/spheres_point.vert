@@ -11,8 +11,9 @@
 layout(location = 2) flat out vec2 door;
 #endif
 
-layout(location = 0) flat out vec4 axes; // x of a place in the point by its two coordinates from the middle; the same of y
-layout(location = 1) flat out uvec4 rest; // depth: bits of its constant, of x, of the root; the particle's number: each vector costs
+layout(location = 0) flat out vec4 axes; // x in the ellipse from the two point coordinates relative to the middle; the same for y
+layout(location = 1) flat out uvec4 rest; // depth: bits of the constant and of the factors of x and of the root; particle's index. Packed, since each
+                                          // output vector costs
 
 void main()
 {

@@ -1,5 +1,5 @@
-// Colours the particle that spheres.frag found in this pixel. Where it found none the map holds anything: the test of depth
-// leaves these out. With SOLIDS depth may be that of a solid: there the map holds the number of no particle.
+// Colours the particle that spheres.frag found in the pixel. Where no particle was found, the map is undefined: the depth test
+// skips such pixels. With SOLIDS, the depth may be of a solid: there the map holds an invalid index.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/particles.glsl"
@@ -14,19 +14,19 @@ layout(early_fragment_tests) in;
 layout(binding = SEEN_UNIT) uniform usampler2D seen_map;
 layout(location = 0) out vec4 color;
 
-// `key`: what of the key light arrives; `lit`: the same with no solid in its way.
+// `key`: fraction of the key light that arrives; `lit`: the same without solids.
 vec3 shade(vec3 albedo, vec3 normal, vec3 to_eye, float lit, float key)
 {
     float to_light = dot(normal, light_in_eye);
-    float crevice = 0.45 + 0.55 * max(dot(normal, to_eye), 0.0); // what neighbours take of the sky near the rim
+    float crevice = 0.45 + 0.55 * max(dot(normal, to_eye), 0.0); // neighbours hide part of the sky near the rim
     float glint = max(dot(2.0 * to_light * normal - light_in_eye, to_eye), 0.0);
     glint *= glint, glint *= glint, glint *= glint, glint *= glint;
     vec3 sky = ambient_light(normal) * (crevice * (0.35 + 0.65 * lit));
     return albedo * sky + light_color * (key * (albedo * max(to_light, 0.0) + 0.10 * glint));
 }
 
-// Where the ray meets the sphere, as its normal there: that is u + k ray with u = (w ray - c) / r, w = -c.z and |normal| = 1,
-// of which no term cancels when the sphere is small and far.
+// The sphere's normal where the ray hits: u + k ray with u = (w ray - c) / r, w = -c.z and |normal| = 1. No term cancels for
+// small and far spheres.
 vec3 normal_at(vec3 centre, float radius, vec3 ray, float per_ray2)
 {
     vec2 u = (-centre.z * ray.xy - centre.xy) / radius;

@@ -1,12 +1,12 @@
-// Culling of hidden particles on a coarse map, for render/splat/cull.c. A cell holds a depth behind which nothing can be seen in it: that
-// of the nearest sprite that covers all of its pixels' centres. A particle whose sprite lies behind all cells that it
-// touches is hidden.
+// Culling of hidden particles by a coarse map, for render/splat/cull.c. A cell holds a depth behind which nothing in the cell is
+// visible: the depth of the nearest sprite that covers all pixel centres of the cell. A particle is hidden if its sprite is
+// behind all cells that the sprite touches.
 #include "shaders/splat/splat_bindings.h"
 layout(location = CELLS_AT) uniform uvec2 cell_count; // columns, rows
 layout(location = CELL_SIDE_AT) uniform uint cell_side; // pixels
-layout(location = CULL_PIXELS_AT) uniform vec2 cull_pixels; // of the picture, wide and high
-layout(std430, binding = CULL_MAP_STORAGE) buffer Nearest { uint nearest[]; }; // bits of a depth that is not negative: ordered as it is
-layout(binding = CULL_ROWS_UNIT) uniform usamplerBuffer nearest_rows; // the same, four in a row at once: software drivers read that as fast as a word
+layout(location = CULL_PIXELS_AT) uniform vec2 cull_pixels; // width and height of the picture
+layout(std430, binding = CULL_MAP_STORAGE) buffer Nearest { uint nearest[]; }; // bits of nonnegative depths, ordered like the depths
+layout(binding = CULL_ROWS_UNIT) uniform usamplerBuffer nearest_rows; // `nearest`, four per fetch: as fast as one word on software drivers
 
 const uint nothing = 0x7f800000u; // infinity
 
@@ -20,7 +20,7 @@ uint cell_at(uint x, uint y)
     return 4u * y * texels_a_row() + x;
 }
 
-// The greatest of what the cells x0 .. x1, y0 .. y1 hold, or something above `enough`.
+// The largest depth of the cells x0 .. x1, y0 .. y1, or any value above `enough`.
 uint greatest_in(uvec4 cells, uint enough)
 {
     uint greatest = 0u, row = cells.z * texels_a_row();

@@ -1,4 +1,4 @@
-// The coarse map from a depth map behind which nothing is wanted: the farthest of each cell's pixels.
+// The coarse map from a depth map behind which nothing is needed: the farthest pixel of each cell.
 #include "common/frame.glsl"
 #include "splat/cull.glsl"
 #include "shaders/splat/splat_bindings.h"

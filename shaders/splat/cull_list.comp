@@ -1,8 +1,8 @@
-// Writes the numbers of the particles that are kept, in their order: what is drawn blends as it would without culling, to the bit.
+// Writes the indices of the kept particles, in order: blending gives the same bits as without culling.
 #include "shaders/splat/splat_bindings.h"
 layout(local_size_x = 64) in;
 layout(location = CHUNKS_AT) uniform uint chunks;
-layout(std430, binding = CULL_KEPT_STORAGE) readonly buffer Kept { uvec4 kept[]; }; // bits of two lists, numbers before
+layout(std430, binding = CULL_KEPT_STORAGE) readonly buffer Kept { uvec4 kept[]; }; // bits of two lists; numbers before
 layout(std430, binding = NEAREST_LIST_STORAGE) writeonly buffer Nearest { uint nearest_list[]; };
 layout(std430, binding = BLEND_LIST_STORAGE) writeonly buffer Blended { uint blend_list[]; };
 

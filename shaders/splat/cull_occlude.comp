@@ -1,4 +1,4 @@
-// Writes each particle into the cells of the coarse map that it covers.
+// Writes each particle into the cells of the coarse map that the particle covers.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/ball.glsl"
@@ -19,8 +19,8 @@ struct Disc {
     float radius;       // m
 };
 
-// The disc through the centre across the eye's axis, which is in the sphere or in the ball within an ellipsoid; nothing where
-// that reaches the near plane.
+// The disc through the centre, perpendicular to the eye's axis: inside the sphere, or inside the ball within an ellipsoid. Empty
+// if the particle reaches the near plane.
 Disc disc_of(uint index)
 {
     Body body = body_of(index);
@@ -29,15 +29,15 @@ Disc disc_of(uint index)
     vec2 scale = 0.5 * cull_pixels / (w * view_tangent);
     bool whole = body_nearest(body) > near_plane;
 #ifdef PAPER
-    float slant = 0.0; // the paper's rays go along the axis
+    float slant = 0.0; // the paper's rays are parallel to the axis
 #else
     float slant = (length(centre.xy) + radius) / w;
 #endif
     return Disc(centre.xy * scale + 0.5 * cull_pixels * (1.0 + view_centre), whole ? radius * scale - pixel_margin : vec2(0.0), w, slant, radius);
 }
 
-// A ray that is r away from the centre in the disc's plane meets the sphere the latest when it leans outwards: as
-// splat_hit with u.d = -r slant.
+// A ray at distance r from the centre in the disc's plane meets the sphere latest when leaning outwards: as splat_hit with u.d =
+// -r slant.
 float depth_within(Disc disc, vec2 away)
 {
     float r2 = dot(away, away), length2 = 1.0 + disc.slant * disc.slant;
@@ -55,10 +55,10 @@ void main()
     vec2 reach = disc.radii - margin, per_radius = 1.0 / disc.radii;
     if (is_nan(vec4(disc.middle, disc.radii)) || min(reach.x, reach.y) <= 0.0)
         return;
-    vec2 own = floor(disc.middle / side), most = clamp(floor(0.5 * disc.radii / side + 0.5), 1.0, 2.0); // half way to a neighbour will do
+    vec2 own = floor(disc.middle / side), most = clamp(floor(0.5 * disc.radii / side + 0.5), 1.0, 2.0); // half way to a neighbour is enough
     vec2 low = max(ceil((disc.middle - reach) / side - 0.5), max(own - most, 0.0));
     vec2 high = min(floor((disc.middle + reach) / side - 0.5), min(own + most, vec2(cell_count) - 1.0));
-    uint best = floatBitsToUint(max(disc.w - disc.radius, 0.0)); // most are behind what others have written
+    uint best = floatBitsToUint(max(disc.w - disc.radius, 0.0)); // most particles are behind values already written
     if (any(greaterThan(low, high)) || greatest_in(uvec4(low, high).xzyw, best) <= best)
         return;
     for (float y = low.y; y <= high.y; y++)

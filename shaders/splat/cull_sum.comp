@@ -1,10 +1,10 @@
-// Turns the numbers of kept particles into those before, and writes how much is to be drawn. One workgroup does it all.
+// Turns the numbers of kept particles into prefix sums, and writes the drawing commands. One workgroup does all the work.
 #include "shaders/splat/splat_bindings.h"
 layout(local_size_x = 256) in;
 layout(location = CHUNKS_AT) uniform uint chunks;
-layout(location = VERTICES_AT) uniform uint vertices; // of a particle
+layout(location = VERTICES_AT) uniform uint vertices; // vertices per particle
 layout(std430, binding = CULL_KEPT_STORAGE) buffer Kept { uvec4 kept[]; }; // as in cull_test.comp
-layout(std430, binding = CULL_COMMANDS_STORAGE) writeonly buffer Commands { uint command[]; }; // 8 words for each of the two lists
+layout(std430, binding = CULL_COMMANDS_STORAGE) writeonly buffer Commands { uint command[]; }; // 8 words per list
 shared uvec2 part[256];
 
 void main()
@@ -28,7 +28,7 @@ void main()
         kept[i].zw = running;
         running += own;
     }
-    if (lane < 2u) { // count, instances, first, base vertex, base instance: what both kinds of indirect drawing read
+    if (lane < 2u) { // count, instances, first, base vertex, base instance: fits both kinds of indirect drawing
         for (uint word = 0u; word < 8u; word++)
             command[lane * 8u + word] = word == 1u ? 1u : 0u;
         command[lane * 8u] = vertices * part[255][lane];

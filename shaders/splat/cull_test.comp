@@ -1,5 +1,5 @@
-// Which particles may be seen, and which tiles of the picture they touch: a word of 32 bits for as many particles in a row, another for those that may blend, and how many
-// these are.
+// Finds the particles that may be visible, and the picture's tiles that their sprites touch. Per 32 particles: a word of bits for
+// the visible list, a word for the blend list, and the numbers of both.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/ball.glsl"
@@ -11,11 +11,11 @@
 layout(local_size_x = 64) in;
 layout(location = CULL_COUNT_AT) uniform uint count;
 layout(location = EPS_AT) uniform float eps; // m
-layout(location = INVERT_AT) uniform uint invert; // 1: the hidden ones instead
-layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]; }; // bits to be seen, to blend; numbers of both
+layout(location = INVERT_AT) uniform uint invert; // 1: list the hidden particles instead
+layout(std430, binding = CULL_KEPT_STORAGE) writeonly buffer Kept { uvec4 kept[]; }; // bits of visible, of blended particles; numbers of both
 layout(std430, binding = TILE_MARKS_STORAGE) writeonly buffer Marks { uint tile_mark[]; }; // splat/tiles_list.comp
 
-// x0 x1 y0 y1 of the sprite, pixels; its nearest depth.
+// x0 x1 y0 y1 of the sprite, pixels; `depth`: nearest depth.
 vec4 sprite_of(uint index, out float depth)
 {
     Body body = body_of(index);
@@ -33,9 +33,9 @@ void mark_tiles(vec4 sprite)
             tile_mark[y * tiles.x + x] = 1u;
 }
 
-const uint HIDDEN = 4u, MOST_CELLS = 12u; // that a sprite touches in a row
+const uint HIDDEN = 4u, MOST_CELLS = 12u; // largest number of cells along a side of a sprite that are tested
 
-// Bit 0: may be nearest somewhere; bit 1: may blend; or HIDDEN. 0 for what is not in the picture, and for NaN.
+// Bit 0: may be the nearest somewhere; bit 1: may blend; or HIDDEN. 0 for particles outside the picture, and for NaN.
 uint seen(vec4 sprite, float depth)
 {
     if (is_nan(sprite) || sprite.x >= sprite.y || sprite.z >= sprite.w)

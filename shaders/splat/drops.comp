@@ -1,5 +1,5 @@
-// The radius of each particle: the view's in the fluid, less where neighbours are few. A sum that is large enough is not
-// summed to its end, which is within the particle's own cell for most: hence that one first.
+// The radius of each particle: the view's radius in the fluid, smaller with few neighbours. Summing stops once the sum is large
+// enough, for most particles within the own cell: hence the own cell comes first.
 #include "common/neighbourhood.glsl"
 #include "splat/crowd.glsl"
 layout(std430, binding = SHAPES_STORAGE) writeonly buffer Radii { float radius[]; };
@@ -7,7 +7,7 @@ layout(std430, binding = SHAPES_STORAGE) writeonly buffer Radii { float radius[]
 float crowd_at(vec3 x)
 {
     uvec3 at = cell_at(x);
-    float sum = -1.0, per_h2 = 1.0 / (support_radius * support_radius); // less itself
+    float sum = -1.0, per_h2 = 1.0 / (support_radius * support_radius); // excludes the particle itself
     for (uint row = 0u; row < 9u && sum < full_sum; row++) {
         uvec2 range = row_of(at, row);
         uint j = row == 0u ? min(start[cell_number(at)], max(range.y, 1u) - 1u) : range.x;

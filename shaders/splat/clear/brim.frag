@@ -1,11 +1,11 @@
-// The brim between a pane of the box and the fluid's top made smooth, for render/splat/panes.h: a pixel is of the pane where most of
-// those around it are, so that neither single spheres that end short of the wall nor ones that reach it leave dots.
+// Smooths the rim between a pane of the box and the fluid's top, for render/splat/panes.h: a pixel belongs to the pane if most
+// pixels around do. Thus single spheres that end before the wall, or reach the wall, leave no dots.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 #include "common/within_box.glsl"
 
-layout(binding = NEAREST_UNIT) uniform sampler2D cut_map;     // as panes.frag leaves it
-layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D own_map; // before
+layout(binding = NEAREST_UNIT) uniform sampler2D cut_map;     // output of panes.frag
+layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D own_map; // before cutting
 layout(location = 0) out float cut;
 
 const int TAPS = 12;
@@ -21,7 +21,7 @@ bool is_pane(ivec2 pixel)
     return texelFetch(cut_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x < 0.0;
 }
 
-// Software drivers branch by loops alone: what is rare is in one that mostly has no round.
+// Software drivers only skip loops: rare work is in loops with mostly zero rounds.
 void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -31,7 +31,7 @@ void main()
     bool doubtful = is_pane(pixel + ivec2(away, 0)) != own || is_pane(pixel - ivec2(away, 0)) != own ||
                     is_pane(pixel + ivec2(0, away)) != own || is_pane(pixel - ivec2(0, away)) != own;
     int panes = int(own), rounds = doubtful && z < 1e29 ? TAPS : 0;
-    for (int i = 0; i < rounds; i++) { // a sunflower's seeds: even over the disc
+    for (int i = 0; i < rounds; i++) { // sunflower pattern: even over the disc
         float angle = 2.39996 * float(i), far = sqrt((float(i) + 1.0) / float(TAPS)) * float(away);
         panes += int(is_pane(pixel + ivec2(round(far * vec2(cos(angle), sin(angle))))));
     }
@@ -42,7 +42,7 @@ void main()
         float enter = within_box(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy))).enter;
         cut = !pane ? max(texelFetch(own_map, pixel, 0).x, enter) : enter > near_plane ? -enter : z;
     }
-    // The far end of the top, at the wall behind: its bumps are cut down nearly to the line between them.
+    // The far end of the top, at the wall behind: bumps are cut almost down to the line between.
     bool end = !own && z < 1e29 && (is_none(pixel + ivec2(0, away)) || is_none(pixel + ivec2(away, 0)) || is_none(pixel - ivec2(away, 0)));
     rounds = end ? 2 * TAPS : 0;
     int fluid = 1;

@@ -1,5 +1,5 @@
-// What the thickness of render/splat/thickness.h would be if fluid filled the box up to the first solid: the field of such a
-// fluid along the ray. Beside a wall it is less than 1, beside an edge less still, as that of the particles is.
+// The thickness of render/splat/thickness.h if fluid filled the box up to the first solid: the field of such a fluid along the
+// ray. Beside a wall the field is below 1, beside an edge even lower, like the particles' field.
 #include "common/frame.glsl"
 #include "common/within_box.glsl"
 #include "shaders/splat/splat_bindings.h"
@@ -8,15 +8,15 @@
 layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D solid_depth; // the target's, reversed
 #endif
 layout(location = MAP_SIZE_AT) uniform vec2 texels;
-layout(location = SPLAT_RADIUS_AT) uniform float support; // of the kernel, m
+layout(location = SPLAT_RADIUS_AT) uniform float support; // radius of the kernel, m
 layout(location = 0) out float filled;
 
-// Gauss and Legendre's: places in -1 .. 1, weights.
+// Gauss-Legendre: nodes in -1 .. 1, weights.
 const vec2 five[5] = vec2[](vec2(-0.90617985, 0.23692689), vec2(-0.53846931, 0.47862867), vec2(0.0, 0.56888889), vec2(0.53846931, 0.47862867),
                             vec2(0.90617985, 0.23692689));
 const vec2 three[3] = vec2[](vec2(-0.77459667, 0.55555556), vec2(0.0, 0.88888889), vec2(0.77459667, 0.55555556));
 
-// The field at a distance within a flat wall, in supports: poly6 integrated over the planes of its ball.
+// The field at a distance inside a flat wall, in supports: poly6 integrated over the planes of the kernel's ball.
 vec3 beside_wall(vec3 within)
 {
     vec3 q = clamp(within, -1.0, 1.0), q2 = q * q;
@@ -30,7 +30,7 @@ float field_at(vec3 place) // in the box's frame
     return axes.x * axes.y * axes.z;
 }
 
-// How far a ray goes before it meets a solid, in its own length.
+// Distance along a ray to the first solid, in lengths of the ray.
 float solid_at(vec2 at)
 {
 #ifdef SOLIDS
@@ -41,7 +41,7 @@ float solid_at(vec2 at)
 #endif
 }
 
-// The field falls off next to the walls: both ends of the ray have samples of their own, from before them on.
+// The field falls off near the walls: both ends of the ray have separate samples, starting outside.
 void main()
 {
     vec2 at = gl_FragCoord.xy / texels;

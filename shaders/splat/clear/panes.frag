@@ -1,4 +1,4 @@
-// The surface cut to the box, for render/splat/panes.h: fluid that a ray enters by a wall is seen from that wall on.
+// The surface cut at the box, for render/splat/panes.h: where a ray enters fluid through a wall, the surface is the wall.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 #include "common/within_box.glsl"
@@ -6,7 +6,7 @@
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(location = 0) out float cut;
 
-// Particles stand half a spacing from a wall, and what is drawn of them ends a little before it or behind it.
+// Particles are half a spacing from a wall, and their drawn surface ends a little before or behind the wall.
 const float slack = 0.35; // spacings
 
 void main()

@@ -1,5 +1,5 @@
-// A drop on its own, for render/splat/spray.h: a lens of the fluid. What is seen through it is a copy of the picture up to now, at the
-// place where the ray that leaves the drop leaves the box.
+// An isolated drop, for render/splat/spray.h: a lens of fluid. The background is a copy of the picture so far, at the point where
+// the ray from the drop leaves the box.
 #define FLOOR_SHADOW 1
 #include "common/frame.glsl"
 #include "common/light.glsl"
@@ -21,8 +21,8 @@ layout(location = SPRAY_BEHIND_AT) uniform uint behind_surface; // 1: only drops
 layout(location = 2) flat in vec3 color;
 layout(location = 0) out vec4 shown;
 
-// Through a ball of that radius. The chord is as far from the centre at both ends, and so the ray leaves it under the angle by which it
-// came: light is never caught in a ball.
+// Light through a ball of `radius`. The chord meets the surface at equal angles at both ends, so the ray leaves at the angle of
+// entry: light is never trapped in a ball.
 vec3 through_ball(Surface s, float radius)
 {
     vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
@@ -34,8 +34,8 @@ vec3 through_ball(Surface s, float radius)
     return seen * pow(max(s.albedo, 1e-4), vec3(chord / attenuation));
 }
 
-// The rim mirrors where the ray leaves as where it enters. And a drop gathers the key light on the side away from it, which leaves the rim
-// darker, most towards the light: against an even background that is what one sees of a drop.
+// The rim reflects at exit as at entry. A drop also focuses the key light on the side away from the light, which darkens the rim,
+// most towards the light: against an even background, this is what makes a drop visible.
 vec3 shaded(Surface s, float radius)
 {
     vec3 inside = through_ball(s, radius);
@@ -59,7 +59,7 @@ Surface surface_at(Splat hit)
     return s;
 }
 
-// What of the pixel the drop covers: a ramp of a pixel at its rim, so that its disc has its area however small it is.
+// The covered fraction of the pixel: a ramp of one pixel at the rim, so that the disc has the right area even if tiny.
 float cover_of(Splat hit)
 {
     float own = radius * 0.5 * picture_size.y / (view_tangent.y * hit.depth), drawn = own + 0.5;
@@ -70,7 +70,7 @@ float cover_of(Splat hit)
 void main()
 {
     Splat hit = splat_here();
-    float surface = abs(texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x); // below 0 at a wall
+    float surface = abs(texelFetch(nearest_map, ivec2(gl_FragCoord.xy), 0).x); // negative at a wall
     if (!splat_seen(hit) || (behind_surface != 0u && (hit.depth < surface || surface >= 1e29)))
         discard;
     gl_FragDepth = near_plane / hit.depth;

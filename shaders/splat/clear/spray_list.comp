@@ -1,5 +1,5 @@
-// Lists the drops on their own, in the particles' order, and writes how many are to be drawn, for render/splat/spray.c. One workgroup does
-// it all.
+// Lists the isolated drops, in the particles' order, and writes the drawing command, for render/splat/spray.c. One workgroup does
+// all the work.
 #define ELLIPSOID 1
 #include "common/frame.glsl"
 #include "common/particles.glsl"
@@ -9,7 +9,7 @@
 
 layout(local_size_x = 256) in;
 layout(location = CULL_COUNT_AT) uniform uint count;
-layout(location = VERTICES_AT) uniform uint vertices; // of a particle
+layout(location = VERTICES_AT) uniform uint vertices; // vertices per particle
 layout(std430, binding = NEAREST_LIST_STORAGE) writeonly buffer List { uint list[]; };
 layout(std430, binding = CULL_COMMANDS_STORAGE) writeonly buffer Commands { uint command[8]; }; // as in splat/cull_sum.comp
 shared uint part[256];

@@ -1,5 +1,5 @@
-// A particle's share of the fluid's thickness, render/splat/thickness.h: its field along the whole ray, where its centre is before the
-// solid.
+// A particle's contribution to the fluid's thickness, render/splat/thickness.h: its field along the whole ray, if the centre is
+// in front of the solid.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat.glsl"
@@ -10,7 +10,7 @@
 layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D solid_depth; // the target's, reversed
 layout(location = MAP_SIZE_AT) uniform vec2 texels;
 #endif
-layout(location = 2) flat in vec2 column; // along the ray through the centre, m; the centre's reversed depth
+layout(location = 2) flat in vec2 column; // integral along the ray through the centre, m; the centre's reversed depth
 layout(location = 0) out float thickness;
 
 void main()
