@@ -29,7 +29,7 @@ void volume_walls_destroy(VolumeWalls *walls)
     *walls = (VolumeWalls){0};
 }
 
-/* Adds the images of cells at the wall to the cells in reach. */
+/* Adds the field behind the wall, mirrored, to the cells in front. */
 static void add_images(const Wall *wall, const Volume *volume)
 {
     const int *size = volume->grid.size, axis = wall->axis;

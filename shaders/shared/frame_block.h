@@ -1,4 +1,4 @@
-/* Inputs of all shaders for one picture; filled by render/frame.c.
+/* Inputs of all shaders for one picture; filled by render/frame/frame.c.
 
    Spaces: box (the particles' own), world, eye (camera at the origin, looking along -z), light (0..1 in
    the shadow map). */

@@ -1,9 +1,9 @@
 // An ellipsoid for each particle from the covariance of its neighbours. After: Yu and Turk, Reconstructing surfaces of
-// particle-based fluids using anisotropic kernels, ACM Trans. Graph. 32, 2013, section 4. Theirs takes the covariance apart and
-// cuts its eigenvalues off at a quarter of the largest; here a share of the trace is added to each, which bounds their
-// ratio as well, has no kink where they cross, and needs no eigenvectors. The axes are in the ratio of what results; their product is
-// that of the sphere's. Walls of the box mirror: neighbours are also their images behind the walls, so that a surface is as flat beside a
-// wall as far from it, and meets it where it is.
+// particle-based fluids using anisotropic kernels, ACM Trans. Graph. 32, 2013, section 4. The paper decomposes the covariance and
+// limits eigenvalues from below to a quarter of the largest. Here a fraction of the trace is added to each eigenvalue: bounds the
+// ratio too, has no kink where eigenvalues cross, and needs no eigenvectors. The axes have the ratio of the result; their product
+// equals the sphere's. Walls of the box mirror: images of neighbours behind the walls count as neighbours, so that a surface is
+// as flat beside a wall as elsewhere, and meets the wall at the right place.
 #include "common/frame.glsl"
 #include "common/neighbourhood.glsl"
 #include "splat/crowd.glsl"
@@ -11,14 +11,14 @@
 layout(std430, binding = SHAPES_STORAGE) writeonly buffer Shapes { vec4 shape[]; }; // as in common/ball.glsl
 layout(location = SLAB_AT) uniform uint slab; // 1: two dimensions
 
-const float lambda = 0.5; // how far centres go towards the mean of their neighbours, eq. 6: so far that a flat surface is where the fluid's is
-const float round_share = 0.25; // of the trace: a sheet's axes are 3 : 3 : 1, a line's at most 5 : 1 : 1
-const float round_few = 0.1; // h^2: a ball where neighbours are few, in place of k_n I
-const float round_least = 1e-3; // h^2: where all are in one place
-const float touching = 0.7, apart = 1.1; // spacings from a wall; particles stand half a one before it
+const float lambda = 0.5; // how far centres move towards the mean of their neighbours, eq. 6: puts a flat surface at the fluid's true surface
+const float round_share = 0.25; // fraction of the trace: a sheet's axes are 3 : 3 : 1, a line's at most 5 : 1 : 1
+const float round_few = 0.1; // h^2: gives a ball with few neighbours, instead of k_n I
+const float round_least = 1e-3; // h^2: for neighbours all at one position
+const float touching = 0.7, apart = 1.1; // spacings from a wall; particles are half a spacing from a wall
 
 struct Sums {
-    float crowd;  // without images: a drop at a wall is one
+    float crowd;  // without images: a drop at a wall is still a drop
     float weight;
     vec3 first, squares, products; // x y z; xx yy zz; xy xz yz; in h
 };
@@ -33,11 +33,11 @@ void add_neighbour(inout Sums sums, vec3 d, float share)
     sums.products += wd.xxy * d.yzz;
 }
 
-// The nearer wall across each axis.
+// The nearer wall along each axis.
 struct Mirrors {
-    vec3 way;   // twice that to it, in h
-    vec3 touch; // 1 where the particle stands at it, 0 where it is so far away that it mirrors nothing
-    uint walls; // those that mirror: 1, 2, 4
+    vec3 way;   // twice the vector to the wall, in h
+    vec3 touch; // 1 if the particle is at the wall, 0 if too far away for images
+    uint walls; // walls with images: bits 1, 2, 4
 };
 
 Mirrors mirrors_at(vec3 x)
@@ -48,7 +48,7 @@ Mirrors mirrors_at(vec3 x)
     return Mirrors(2.0 / support_radius * way, touch, (walls.x + walls.y + walls.z) & walled);
 }
 
-// By a wall, an edge or a corner, whose axes have their bits in `image`.
+// Adds an image at a wall, an edge or a corner; `image`: bits of the mirrored axes.
 void add_image(inout Sums sums, vec3 d, Mirrors mirrors, uint image)
 {
     bvec3 across = notEqual(uvec3(image) & uvec3(1u, 2u, 4u), uvec3(0u));
@@ -75,7 +75,7 @@ Sums sums_at(vec3 x)
     return sums;
 }
 
-// Eq. 9 with the sums about the particle itself, and rounded.
+// Eq. 9 with the sums about the particle itself, and rounded by the trace.
 mat3 rounded(Sums sums, vec3 mean, float share)
 {
     vec3 own = sums.squares / sums.weight - mean * mean, mixed = sums.products / sums.weight - mean.xxy * mean.yzz;
@@ -85,12 +85,12 @@ mat3 rounded(Sums sums, vec3 mean, float share)
     return mat3(own.x, mixed.xy, mixed.x, own.y, mixed.z, mixed.yz, own.z);
 }
 
-mat3 adjugate(mat3 m) // of a symmetric one
+mat3 adjugate(mat3 m) // for symmetric matrices
 {
     return mat3(cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1]));
 }
 
-// At most the least axis, by the norm of the fourth power: 1/lambda_max <= |M^4|^(1/4), within 15 %.
+// A lower bound of the least axis, by the norm of the fourth power: 1/lambda_max <= |M^4|^(1/4), within 15 %.
 float least_axis(mat3 inverse)
 {
     mat3 square = inverse * inverse, fourth = square * square;

@@ -1,5 +1,5 @@
 // One pass of the filter of render/splat/narrow_range.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
-// neighbours go from the middle outwards; a pair of which one is out of the picture is left out.
+// samples are taken from the middle outwards; a pair partly outside the picture is left out.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 
@@ -9,16 +9,16 @@ layout(location = FILTER_RANGE_AT) uniform float filter_range;   // m
 layout(location = FILTER_AXIS_AT) uniform ivec2 along;           // the axis
 layout(location = 0) out float filtered;
 
-// Of a neighbour t = middle / z - 1, by how much it is nearer: linear on the screen where the surface is a plane. A pane of the box
-// (z below 0) is another surface before this one.
+// t = middle / z - 1 of a sample: positive if nearer; linear on the screen for a plane. A pane of the box (z below 0) is another
+// surface in front.
 float nearness(float middle, ivec2 pixel)
 {
     float z = texelFetch(depth_map, pixel, 0).x;
     return z < 0.0 ? 1e9 : z < 1e29 ? (middle - z) / z : -1e9;
 }
 
-// Whether t counts: what lies between `limits` does, and widens them; the rest is another surface. Of a pair of which one does not the other
-// counts for nothing, or it would pull a surface that is seen at a slant towards the side where there is more of it.
+// True if t is between `limits`, which then widen; other samples are of another surface. A pair with only one valid sample is
+// left out entirely: a single sample would pull an inclined surface towards the side with more samples.
 bool admit(float t, inout vec2 limits, float range)
 {
     if (t < limits.x || t > limits.y)
@@ -27,7 +27,7 @@ bool admit(float t, inout vec2 limits, float range)
     return true;
 }
 
-// Sums of weight t and of weight; of a constant depth the first is exactly 0.
+// Sums of weight t and of weight; for a constant depth the first sum is exactly 0.
 #ifdef CLEAN
 const ivec2 steps[12] = ivec2[](ivec2(1, 0), ivec2(0, 1), ivec2(1, 1), ivec2(1, -1), ivec2(2, 0), ivec2(0, 2), ivec2(2, 1),
                                 ivec2(2, -1), ivec2(1, 2), ivec2(-1, 2), ivec2(2, 2), ivec2(2, -2));

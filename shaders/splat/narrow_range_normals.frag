@@ -1,14 +1,15 @@
-// Normals of a map of depths, for render/splat/narrow_range.c. Of the plane n.P = d the points are P = z (x, y, -1), so
-// 1 / z = (n.x x + n.y y - n.z) / d is linear on the screen, and its slopes there give n.
+// Normals of a depth map, for render/splat/narrow_range.c. Points of the plane n.P = d are P = z (x, y, -1), so 1 / z = (n.x x +
+// n.y y - n.z) / d is linear on the screen, and the slopes of 1 / z give n.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 
 layout(binding = NEAREST_UNIT) uniform sampler2D depth_map;
 layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
-layout(location = EDGE_STEP_AT) uniform float edge; // m: from there on a step that is not the surface's slope
+layout(location = EDGE_STEP_AT) uniform float edge; // m: larger steps are edges, not the surface's slope
 layout(location = 0) out vec4 normal;
 
-// Of 1 / z per pixel along an axis, and the step: next to the picture's border or a pane and beyond it as on the other side.
+// Slopes of 1 / z per pixel on both sides along an axis, and the depth steps. Next to the picture's border or a pane, copies the
+// other side.
 vec4 steps_along(ivec2 pixel, float z, ivec2 along)
 {
     bvec2 inside = bvec2(all(greaterThanEqual(pixel, along)), all(lessThan(pixel + along, ivec2(picture_size))));
@@ -21,15 +22,15 @@ vec4 steps_along(ivec2 pixel, float z, ivec2 along)
 }
 
 #ifdef PANES
-// A neighbour, or one as far on the picture's border.
+// The depth at a pixel, clamped to the picture.
 float depth_at(ivec2 pixel)
 {
     return texelFetch(depth_map, clamp(pixel, ivec2(0), ivec2(picture_size) - 1), 0).x;
 }
 
-// Within a quarter of a spacing of a pane the top of the fluid is rounded as its particles are, and the filter has nothing on the other
-// side to smooth it with: its slope there is that farther away. False where no pane is near, or another surface.
-// Software drivers branch by loops alone: this one mostly has no round.
+// Within a quarter of a spacing of a pane, the fluid's top is rounded like its particles, and the filter lacks samples on the
+// other side: takes the slope from farther away. Returns false if there is no pane nearby, or another surface. Software drivers
+// only skip loops: this loop mostly has no round.
 bool slope_beyond(ivec2 pixel, float z, ivec2 along, out float slope)
 {
     ivec2 stride = along * int(max(0.04 * particle_spacing * picture_size.y / (view_tangent.y * z) + 0.5, 1.0));
@@ -45,7 +46,8 @@ bool slope_beyond(ivec2 pixel, float z, ivec2 along, out float slope)
 }
 #endif
 
-// Both sides' mean, or at an edge, where they differ, that of the smaller step; false where that is one too.
+// The mean slope of both sides; at an edge, where the sides differ, the slope of the smaller step. Returns false if the smaller
+// step is an edge too.
 bool slope_along(ivec2 pixel, float z, ivec2 along, out float slope)
 {
 #ifdef PANES
@@ -65,13 +67,13 @@ void main()
     vec2 slopes;
     if (z >= 1e29) {
         normal = vec4(0.0);
-    } else if (z < 0.0) { // a pane of the box: shading knows it
+    } else if (z < 0.0) { // a pane of the box: shading handles panes
         normal = vec4(0.0, 0.0, 1.0, 0.0);
     } else if (slope_along(pixel, z, ivec2(1, 0), slopes.x) && slope_along(pixel, z, ivec2(0, 1), slopes.y)) {
         slopes *= 0.5 * picture_size / view_tangent;
         vec2 ray = ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)).xy;
         normal = vec4(normalize(vec3(-slopes, 1.0 / z - dot(ray, slopes))), 0.0);
-    } else { // a thread or a drop of one pixel: as blended
+    } else { // a thread or drop of one pixel: uses the blended normal
         vec3 blended = texelFetch(normal_map, pixel, 0).xyz;
         normal = dot(blended, blended) > 0.0 ? vec4(normalize(blended), 0.0) : vec4(0.0);
     }

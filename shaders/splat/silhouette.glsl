@@ -1,20 +1,20 @@
-// What is seen in a finished picture of the view splat, for render/splat/silhouette.c. Wants common/frame.glsl.
+// Visible surfaces in a finished picture of the view splat, for render/splat/silhouette.c. Needs common/frame.glsl.
 #include "shaders/splat/splat_bindings.h"
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D target_depth;
 layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
-layout(location = LEAST_STEP_AT) uniform float least; // m: what is no farther behind belongs to what is before it
+layout(location = LEAST_STEP_AT) uniform float least; // m: smaller depth steps do not separate surfaces
 
 struct Seen {
-    float depth; // m; 1e30 where neither fluid nor solid is
+    float depth; // m; 1e30 without fluid or solid
     bool fluid;
 };
 
-// Beyond the picture's border as next to it.
+// Pixels outside the picture are clamped to the border.
 Seen seen_at(ivec2 pixel)
 {
     pixel = clamp(pixel, ivec2(0), ivec2(picture_size) - 1);
-    float z = abs(texelFetch(nearest_map, pixel, 0).x); // below 0 at a wall
+    float z = abs(texelFetch(nearest_map, pixel, 0).x); // negative at a wall
 #ifdef SOLIDS
     float nearness = texelFetch(target_depth, pixel, 0).x;
     if (nearness > near_plane / z * 1.00001)

@@ -1,4 +1,5 @@
-// Blends each pixel of a finished picture beside an outline with those across it. DISCS and ROWS: see render/splat/silhouette.h.
+// Blends each pixel beside an outline of a finished picture with the pixels across. DISCS and ROWS: see
+// render/splat/silhouette.h.
 #include "common/frame.glsl"
 #include "common/encoded.glsl"
 #include "splat/silhouette.glsl"

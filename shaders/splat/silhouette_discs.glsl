@@ -1,11 +1,11 @@
 // Outlines by the discs of the foremost spheres around a pixel, for shaders/splat/silhouette_blend.frag.
 #include "shaders/splat/splat_bindings.h"
-layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;   // alpha: x of the way from the pixel's ray to its foremost sphere's outline
-layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map; // alpha: y of it; in radii
+layout(binding = COLOR_SUM_UNIT) uniform sampler2D color_map;   // alpha: x of the vector from the pixel's ray to the outline of the foremost sphere
+layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map; // alpha: y of this vector; in radii
 
 const int SAMPLES = 16;
 
-// Centre, from that of the pixel, and radius of its foremost sphere's disc, in pixels.
+// Centre, relative to the pixel's centre, and radius of the foremost sphere's disc, in pixels.
 vec3 disc_of(ivec2 pixel, float depth)
 {
     float radius = 0.5 * picture_size.y / view_tangent.y * particle_radius / depth;
@@ -14,7 +14,7 @@ vec3 disc_of(ivec2 pixel, float depth)
     return length2 > 0.0 ? vec3(rim * (1.0 - radius * inversesqrt(length2)), radius) : vec3(0.0, 0.0, 0.75);
 }
 
-// Bits of those samples of a pixel that are in a disc.
+// Bits of the pixel's samples inside a disc.
 uint samples_in(vec3 disc)
 {
     uint bits = 0u;
@@ -25,7 +25,7 @@ uint samples_in(vec3 disc)
     return bits;
 }
 
-// What the samples of a pixel show: nearer spheres' colours, the pixel's own surface, or what is behind.
+// Contents of a pixel's samples: colours of nearer spheres, the pixel's own surface, or the background.
 struct Shown {
     vec3 nearer; // sum over samples
     uint nearer_bits, own_bits;
@@ -54,7 +54,7 @@ void add_behind(inout vec4 sum, float side, ivec2 pixel, float depth)
         sum += vec4(color_of(pixel), 1.0);
 }
 
-// `sides`: where edges are, on the right, above, on the left, below.
+// `sides`: edges on the right, above, on the left, below.
 vec3 mixed_by_discs(ivec2 pixel, vec3 own, vec4 sides)
 {
     Seen here = seen_at(pixel);

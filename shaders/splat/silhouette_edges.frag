@@ -1,11 +1,11 @@
-// Which neighbours lie across an outline of the fluid: on the right, above, on the left, below. 1 where one of the two is fluid before the
-// other, 0.5 where fluid and a solid meet otherwise.
+// Neighbours across an outline of the fluid: on the right, above, on the left, below. 1 if one of the two pixels is fluid in
+// front of the other, 0.5 if fluid and a solid meet in another way.
 #include "common/frame.glsl"
 #include "splat/silhouette.glsl"
 
 layout(location = 0) out vec4 edges;
 
-// What covers a part of its pixel only is mixed with what is behind already.
+// False for partly covered pixels, which are already blended with the background.
 bool whole(ivec2 pixel)
 {
 #ifdef DISCS
@@ -15,7 +15,7 @@ bool whole(ivec2 pixel)
 #endif
 }
 
-// A surface that goes on has about the slope of the step on one of its sides.
+// True for a continuous surface: the slope on one side is about as steep as the step.
 bool goes_on(ivec2 pixel, ivec2 along, float here, float next)
 {
     float before = abs(here - seen_at(pixel - along).depth), after = abs(seen_at(pixel + 2 * along).depth - next);

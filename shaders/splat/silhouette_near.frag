@@ -1,4 +1,5 @@
-// The depth of a triangle at depth 0 where pixels may be beside an outline, for render/splat/silhouette.c; no edges yet.
+// Marks pixels that may be beside an outline by the depth of a triangle at depth 0, for render/splat/silhouette.c; clears the
+// edges.
 #include "common/frame.glsl"
 #include "splat/silhouette.glsl"
 

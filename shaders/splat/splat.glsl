@@ -1,26 +1,26 @@
-// A particle as a sphere or an ellipsoid of the view splat. After: Adams, Lenaerts, Dutré 2006, section 3.1. With centre c, radius
-// r and view ray d = (x, y, -1): u = (s d - c) / r for a scale s near the centre's depth; the ray meets the sphere at the depth
-// s - k r along the eye's axis, where |u - k d| = 1. Neither cancels when the sphere is small and far. With PAPER the ray goes
-// along the axis instead, from the point of the square through the centre, which is eq. 5. With ELLIPSOID |A (u - k d)| = 1.
+// A particle as a sphere or an ellipsoid of the view splat. After: Adams, Lenaerts, Dutré 2006, section 3.1. With centre c,
+// radius r and view ray d = (x, y, -1): u = (s d - c) / r for a scale s near the centre's depth; the ray meets the sphere at the
+// depth s - k r along the eye's axis, where |u - k d| = 1. Nothing cancels for small and far spheres. With PAPER the ray is
+// parallel to the axis instead, from the point of the square through the centre: eq. 5. With ELLIPSOID |A (u - k d)| = 1.
 #include "shaders/splat/splat_bindings.h"
-#ifdef THICKNESS // of the field, which is one of balls
+#ifdef THICKNESS // for the field, which is of balls
 #undef ELLIPSOID
 #undef DROPS
-layout(location = SPLAT_RADIUS_AT) uniform float splat_radius; // of the kernel, m
+layout(location = SPLAT_RADIUS_AT) uniform float splat_radius; // radius of the kernel, m
 #define BALL_RADIUS splat_radius
 #else
 #define splat_radius particle_radius
 #endif
 
-// Two passes find the same depth: what it is made of is `precise`, and `invariant` where vertices send it.
+// Two passes must find the same depth: the inputs are `precise`, and `invariant` as outputs of vertex shaders.
 struct Splat {
     float depth;   // z_i, m
-    float inside2; // 1 - (distance of the ray from the centre / r)^2: below 0 beside the sphere; of an ellipsoid where A takes it
+    float inside2; // 1 - (distance of the ray from the centre / r)^2: negative outside the sphere; for an ellipsoid, after mapping by A
     vec3 normal;   // in the eye's frame
-    vec2 beside;   // x y of how far the ray goes beside the centre, in radii; of an ellipsoid A times that where A takes it
+    vec2 beside;   // x y of the ray's offset from the centre, in radii; for an ellipsoid A times this offset, after mapping by A
 };
 
-// `at`: u.x u.y and x y of the ray, linear on the screen; `scale`: s and u.z, which is 0 but where the eye is next to it.
+// `at`: u.x u.y and x y of the ray, linear on the screen; `scale`: s and u.z, which is 0 unless the eye is next to the sphere.
 #ifdef ELLIPSOID
 Splat splat_hit(vec4 at, vec2 scale, float radius, mat3 inverse)
 {

@@ -1,5 +1,5 @@
-// Four vertices a particle: the corners of its bound on the screen; with POINT one, around whose bound the driver sets a
-// square. With BLEND its colour goes along.
+// Four vertices per particle: the corners of its bound on the screen; with POINT one vertex, and the driver draws a square around
+// the bound. With BLEND also passes the colour.
 #include "common/frame.glsl"
 #include "common/particles.glsl"
 #include "common/listed.glsl"
@@ -50,7 +50,7 @@ vec4 at_corner(Body body, vec2 corner)
 void place(Body body, vec4 bounds, float depth)
 {
     vec2 extent = (bounds.yw - bounds.xz) * texels / 2.0;
-    float size = max(ceil(8.0 * max(extent.x, extent.y)) / 8.0, 1.0); // hardware rounds to such steps; none is smaller
+    float size = max(ceil(8.0 * max(extent.x, extent.y)) / 8.0, 1.0); // hardware rounds to such steps; the minimum is 1
     vec2 middle = 0.5 * (bounds.xz + bounds.yw), reach = size * vec2(1.0, -1.0) / texels; // gl_PointCoord counts from the top
     from = at_corner(body, middle - reach);
     across = at_corner(body, middle + reach) - from;

@@ -1,4 +1,4 @@
-// Where a fragment of shaders/splat/splat.vert is: what splat_hit wants.
+// Inputs of splat_hit for a fragment of shaders/splat/splat.vert.
 #ifdef POINT
 layout(location = 0) flat in vec4 from;
 layout(location = 3) flat in vec4 across;

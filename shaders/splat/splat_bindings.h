@@ -1,26 +1,25 @@
-/* The numbers by which C hands to the shaders of splats what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of splats; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_SPLAT_BINDINGS_H
 #define SLOSH_SPLAT_BINDINGS_H
 
-/* Storage buffers of culling; the shapes of particles, which it reads, have 9 */
+/* Storage buffers of culling; the shapes of particles have 9 */
 #define CULL_MAP_STORAGE  4
 #define CULL_KEPT_STORAGE 6
-/* the two lists, bound in this order by one call */
+/* both lists, bound in this order by one call */
 #define NEAREST_LIST_STORAGE  7
 #define BLEND_LIST_STORAGE    8
 #define CULL_COMMANDS_STORAGE 10
 
-/* tiles; the marks have a number that culling, which sets them, leaves free */
+/* tiles; culling sets the marks, and leaves their number free */
 #define TILE_RECTS_STORAGE   4
 #define TILE_MARKS_STORAGE   5
 #define TILE_COMMAND_STORAGE 6
 
-/* Tiles: pixels on a side; how far beside its own pixels a pass over all pixels reads */
+/* Tiles: side in pixels; margin in pixels that full-screen passes read around their own pixels */
 #define TILE        16
 #define TILE_MARGIN 2
 
-/* Texture units. The outlines' pass binds 1 to 7 by one call. */
+/* Texture units. The pass of outlines binds 1 to 7 by one call. */
 #define NEAREST_UNIT      1
 #define TARGET_DEPTH_UNIT 2
 #define PICTURE_UNIT      3
@@ -31,11 +30,11 @@
 #define LIMIT_UNIT        8
 #define CULL_ROWS_UNIT    9
 #define THICKNESS_UNIT    10
-/* those of a level above zero; value and slope are bound by one call */
+/* a level above zero; value and slope are bound by one call */
 #define MARCH_UNIT 11
 #define VALUE_UNIT 12
 #define SLOPE_UNIT 13
-/* of clear fluid, which has no level to be looked for any more */
+/* clear fluid: used after the search for the level */
 #define FILLED_UNIT 12
 
 /* Locations of uniforms */
@@ -46,25 +45,25 @@
 #define COVER_STEP_AT     20
 #define NEAREST_DEPTH_AT  21
 #define FARTHEST_DEPTH_AT 22
-/* of the filter */
+/* the filter */
 #define FILTER_REACH_AT 23
 #define FILTER_RANGE_AT 24
 #define FILTER_AXIS_AT  26
 #define EDGE_STEP_AT    27
-/* of particles in a crowd */
+/* particles by crowding */
 #define SUPPORT_RADIUS_AT 28
 #define FULL_SUM_AT       29
 #define CROWD_RADIUS_AT   30
 #define DROP_RADIUS_AT    31
 #define SLAB_AT           32
-/* of a level above zero */
+/* a level above zero */
 #define KERNEL_GAIN_AT  33
 #define SEARCH_RANGE_AT 34
 #define APART_AT        35
 #define APART_NEXT_AT   36
 #define LEVEL_AT        37
 #define SLACK_AT        38
-/* of culling */
+/* culling */
 #define CELLS_AT       39
 #define CELL_SIDE_AT   40
 #define CULL_PIXELS_AT 42
@@ -72,10 +71,10 @@
 #define INVERT_AT      44
 #define CHUNKS_AT      45
 #define VERTICES_AT    46
-/* of tiles */
+/* tiles */
 #define TILES_BOUNDS_AT  49
 #define TILES_PICTURE_AT 50
-/* of drops on their own */
+/* isolated drops */
 #define SPRAY_BEHIND_AT 51
 
 #endif

@@ -15,17 +15,17 @@ layout(location = 0) out vec4 color_sum;
 layout(location = 1) out vec4 normal_sum;
 #ifdef DISCS
 layout(location = 7) flat in float gain;  // see splat/splat_small.glsl
-layout(location = 2) out vec2 weight_sum; // and what is covered of the pixel, in parts of it; above 1e8: all
+layout(location = 2) out vec2 weight_sum; // weight; covered part of the pixel, above 1e8: all of the pixel
 #else
 layout(location = 2) out float weight_sum;
 #endif
 
-// Of half precision, as hardware has the sums, a colour times less has too few bits left to be divided by it again.
+// In half precision, as in the sums of hardware, a colour times a smaller weight has too few bits for dividing by the weight.
 const float least_weight = 1e-4;
 
-// Whether the pass before found this very depth. A driver that rounds otherwise there is off by up to 1e-3 of a radius at the
-// rim, where the root is steep, and a radius is mostly below 1e-2 of the depth: `slack` 1e-5 loses no pixel. Ways
-// to outlines want less, for those of all spheres within it add up.
+// True if the previous pass found exactly this depth. A driver that rounds differently there has errors of up to 1e-3 of a radius
+// at the rim, where the root is steep, and a radius is mostly below 1e-2 of the depth: `slack` 1e-5 loses no pixel. Vectors to
+// outlines need less slack, since the vectors of all spheres in the slack add up.
 bool foremost(Splat hit, float nearest, float slack)
 {
     return hit.depth <= nearest + slack * nearest;
@@ -45,8 +45,8 @@ float weight_of(Splat hit, float nearest)
 #endif
 }
 
-// The way from the ray to the outline on the screen, in the view's radii. On the screen 1 - rho falls by |beside.xy| / rho a
-// radius towards it.
+// The vector from the ray to the outline on the screen, in the view's radii. On the screen 1 - rho falls by |beside.xy| / rho per
+// radius in this direction.
 vec2 rim_of(Splat hit)
 {
     float rho = sqrt(max(1.0 - hit.inside2, 0.0));
@@ -57,8 +57,8 @@ vec2 rim_of(Splat hit)
     return rim;
 }
 
-// Software drivers, which alone draw points, blend each block of a shader that may discard, be it hidden or not: there zeros are
-// added instead.
+// Software drivers alone draw points, and blend each block of a shader with discard even if hidden: there zeros are added
+// instead.
 void main()
 {
     Splat hit = splat_here();

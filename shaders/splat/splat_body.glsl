@@ -1,11 +1,11 @@
-// What stands for a particle in the view splat, in the eye's frame: a ball or with ELLIPSOID an ellipsoid. Wants
-// common/frame.glsl, common/particles.glsl, common/sphere.glsl and common/ball.glsl.
+// The shape of a particle in the view splat, in the eye's frame: a ball, or with ELLIPSOID an ellipsoid. Needs common/frame.glsl,
+// common/particles.glsl, common/sphere.glsl and common/ball.glsl.
 #include "common/nan.glsl"
 #ifdef APART
 #include "splat/clear/alone.glsl"
 #endif
 #ifdef ALONE
-// Half a pixel more, for a soft rim: shaders/splat/clear/spray.frag.
+// Half a pixel larger, for a soft rim: shaders/splat/clear/spray.frag.
 float drawn_radius(float radius, vec3 centre)
 {
     return radius + view_tangent.y * pixel_size.y * -centre.z;
@@ -19,15 +19,15 @@ float drawn_radius(float radius, vec3 centre)
 struct Body {
     vec3 centre;
     float radius;
-    float inner; // radius of a ball around the centre within it
+    float inner; // radius of a ball around the centre inside the ellipsoid
 #ifdef ELLIPSOID
     mat3 inverse; // A
-    mat3 axes;    // its inverse times the radius: takes the unit sphere to the ellipsoid
+    mat3 axes;    // inverse of A times the radius: maps the unit sphere to the ellipsoid
 #endif
 };
 
-// The centre that a particle is drawn at. With APART those on their own are not in the surface: they are so far away that nothing is seen
-// of them.
+// The drawn centre of a particle. With APART, isolated particles are not part of the surface, and are moved too far away to be
+// visible.
 vec3 body_centre(uint index, vec3 centre)
 {
     vec3 in_eye = (box_to_eye * vec4(centre, 1.0)).xyz;
@@ -48,14 +48,14 @@ Body body_of(uint index)
     return Body(body_centre(index, ball.centre), ball.radius, 0.999 * ball.radius * b.w, inverse, axes);
 }
 
-float body_nearest(Body body) // least depth of it
+float body_nearest(Body body) // the body's least depth
 {
     return -body.centre.z - length(body.axes[2]);
 }
 
-// The slopes x / w of the planes through the eye and along y that touch it, from x and w of its centre: with S = axes^2 and the
-// plane's normal (1, 0, m), (c.n)^2 = n S n. In this form nothing cancels when it is small and far. Where it reaches beside
-// the eye, those of a ball around it.
+// The slopes x / w of the tangent planes through the eye and along y, from x and w of the centre: with S = axes^2 and the plane's
+// normal (1, 0, m), (c.n)^2 = n S n. In this form nothing cancels for small and far ellipsoids. If the ellipsoid reaches beside
+// the eye, the slopes of a ball around.
 vec2 ellipsoid_slopes(float a, float w, float saa, float saz, float szz, float around)
 {
     if (w * w <= 1.01 * szz || w < 0.0)
@@ -64,7 +64,7 @@ vec2 ellipsoid_slopes(float a, float w, float saa, float saz, float szz, float a
     return (a * w + saz + vec2(-root, root)) / (w * w - szz);
 }
 
-// x0 x1 y0 y1 on the screen, cut at its edges; empty (x0 = x1) when nothing is to be seen, as from within.
+// x0 x1 y0 y1 on the screen, clipped at the screen's edges; empty (x0 = x1) if invisible, as from inside.
 vec4 body_bounds(Body body)
 {
     vec3 c = body.centre, within = body.inverse * c, x = body.axes[0], y = body.axes[1], z = body.axes[2];

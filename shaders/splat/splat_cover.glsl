@@ -1,15 +1,15 @@
-// What the fluid covers of a pixel where its spheres are smaller, for shading with MIXING.
+// The covered fraction of a pixel with spheres smaller than pixels, for shading with MIXING.
 #include "shaders/splat/splat_bindings.h"
-layout(location = COVER_STEP_AT) uniform float cover_step; // m: fluid that is farther behind is behind the pixel's spheres
+layout(location = COVER_STEP_AT) uniform float cover_step; // m: fluid farther behind is behind the pixel's spheres
 
-// 1 where spheres are larger. What else is in the pixel is fluid farther behind, then it is as it is two pixels beside, or what
-// the target has, but not amid fluid.
+// 1 for larger spheres. The rest of the pixel shows fluid farther behind, taken from two pixels beside; otherwise the target's
+// content, but not amid fluid.
 float cover_at(ivec2 pixel, float depth, inout vec3 albedo, inout vec3 normal)
 {
     float sum = texelFetch(weight_map, pixel, 0).y;
     if (sum >= 1e8)
         return 1.0;
-    float left = max(1.0 - 0.5 * sum, 0.0), cover = 1.0 - left * left; // near 1 - exp(-sum): they overlap
+    float left = max(1.0 - 0.5 * sum, 0.0), cover = 1.0 - left * left; // near 1 - exp(-sum): spheres overlap
     int around = 0;
     for (int i = 0; i < 4; i++) {
         ivec2 offset = i < 2 ? ivec2(4 * i - 2, 0) : ivec2(0, 4 * i - 10);

@@ -1,5 +1,5 @@
-// Pass 1, visibility: the nearest sphere's depth, by blending with the minimum. After: Adams et al. 2006, section 3.1; the
-// shift by eps is added where the map is read.
+// Pass 1, visibility: the nearest sphere's depth, by minimum blending. After: Adams et al. 2006, section 3.1; readers of the map
+// add the shift by eps.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat.glsl"

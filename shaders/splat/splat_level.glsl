@@ -1,11 +1,10 @@
-// A particle's part of the field (eq. 1) on a ray, for shaders/render/splat_level_*. The kernel is poly6 with the sphere's radius
-// r as its support: W = gain a^3, a = 1 - |x - c|^2 / r^2 (Müller 2003, eq. 20); sums are without the gain. On the ray, at
-// the depth z, a = inside2 - length2 ((z - middle) / r)^2. As at the level zero, spheres that begin before the near plane are
-// left out.
+// A particle's part of the field (eq. 1) on a ray, for shaders/splat/splat_level_*. The kernel is poly6 with the sphere's radius
+// r as support: W = gain a^3, a = 1 - |x - c|^2 / r^2 (Müller 2003, eq. 20); sums are without the gain. On the ray, at depth z, a
+// = inside2 - length2 ((z - middle) / r)^2. As at level zero, spheres that start before the near plane are left out.
 struct SplatChord {
     float middle;  // depth next to the centre, m
     float inside2; // as in Splat
-    float length2; // of the ray with depth 1
+    float length2; // squared length of the ray with depth 1
 };
 
 SplatChord splat_chord(vec4 at, vec2 scale)
@@ -20,7 +19,7 @@ SplatChord splat_chord(vec4 at, vec2 scale)
 #endif
 }
 
-// Of the chord's first point.
+// Depth of the chord's first point.
 float splat_entry(SplatChord chord)
 {
     return chord.middle - particle_radius * sqrt(max(chord.inside2, 0.0) / chord.length2);
@@ -31,7 +30,7 @@ bool splat_adds(SplatChord chord)
     return chord.inside2 > 0.0 && splat_entry(chord) >= near_plane;
 }
 
-// (x - c) / r at that depth, in the eye's frame.
+// (x - c) / r at a depth, in the eye's frame.
 vec3 splat_offset(vec4 at, vec2 scale, float depth)
 {
     float k = (scale.x - depth) / particle_radius;

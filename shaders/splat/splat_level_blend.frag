@@ -7,7 +7,7 @@
 #include "shaders/splat/splat_bindings.h"
 
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
-layout(location = KERNEL_GAIN_AT) uniform float gain; // of the kernel times a particle's volume: V W(0)
+layout(location = KERNEL_GAIN_AT) uniform float gain; // kernel times a particle's volume: V W(0)
 layout(location = 2) flat in vec3 color;
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color_sum;

@@ -1,4 +1,4 @@
-// The next sphere that begins behind what has been searched, by blending with the minimum.
+// The next sphere that starts behind the searched range, by minimum blending.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat.glsl"

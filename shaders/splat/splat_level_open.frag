@@ -1,5 +1,5 @@
-// Before a sum: sets it to 0 and lets through the spheres that reach before the end of the range: of pixels that are still
-// searched, or with FOUND of those that have their root.
+// Prepares a sum: clears it and lets through the spheres that start before the end of the range, in pixels still searching, or
+// with FOUND in pixels with a root.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 

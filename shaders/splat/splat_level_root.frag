@@ -1,15 +1,15 @@
-// The root from the field's value and derivatives at a first guess; none where none was found.
+// The root from the field's value and derivatives at a first guess; none if there is no guess.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 
 layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
 layout(binding = MARCH_UNIT) uniform sampler2D march_map;
 layout(binding = VALUE_UNIT) uniform sampler2D value_map; // value and derivatives
-layout(location = SLACK_AT) uniform float slack;          // radii that it may be off
-layout(location = LEVEL_AT) uniform float level;          // over the gain
+layout(location = SLACK_AT) uniform float slack;          // largest error of the guess, radii
+layout(location = LEVEL_AT) uniform float level;          // divided by the gain
 layout(location = 0) out float root;
 
-// Newton's steps on the cubic that has the field's value and derivatives at 0.
+// Newton steps on the cubic with the field's value and derivatives at 0.
 float refined(vec4 c)
 {
     float t = 0.0;

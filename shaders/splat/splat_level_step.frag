@@ -1,20 +1,20 @@
-// Looks for the first place where the field rises to the level, between samples of its value and slope: cubic Hermite
-// pieces. Where it does not, goes on behind: at once while the field is above zero, else from the next sphere.
+// Finds the first position where the field rises to the level, between samples of value and slope: cubic Hermite pieces. Without
+// a root, continues behind: at once if the field is above zero, else from the next sphere.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
 #include "shaders/splat/splat_bindings.h"
 
 layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
-layout(binding = MARCH_UNIT) uniform sampler2D march_map; // end of what has been searched, m; value and slope per radius there; 1: found
+layout(binding = MARCH_UNIT) uniform sampler2D march_map; // end of the searched range, m; value and slope per radius there; 1: found
 layout(binding = VALUE_UNIT) uniform sampler2D value_map;
 layout(binding = SLOPE_UNIT) uniform sampler2D slope_map;
 layout(location = APART_AT) uniform float apart;           // radii between samples
-layout(location = APART_NEXT_AT) uniform float apart_next; // the same in the next round
-layout(location = LEVEL_AT) uniform float level;           // over the gain
+layout(location = APART_NEXT_AT) uniform float apart_next; // in the next round
+layout(location = LEVEL_AT) uniform float level;           // divided by the gain
 layout(location = 0) out vec4 march;
 layout(location = 1) out float start;
 
-// Value less the level: c.x + t (c.y + t (c.z + t c.w)) for t = 0 .. 1.
+// Value minus the level: c.x + t (c.y + t (c.z + t c.w)) for t = 0 .. 1.
 vec4 hermite(vec2 value, vec2 slope)
 {
     float rise = value.y - value.x;
@@ -26,13 +26,13 @@ float at(vec4 c, float t)
     return c.x + t * (c.y + t * (c.z + t * c.w));
 }
 
-// Where it is highest between ends of which it rises from the first and falls to the second.
+// Position of the maximum, for a piece that rises at the first end and falls at the second.
 float top_of(vec4 c)
 {
     return c.y / (sqrt(max(c.z * c.z - 3.0 * c.w * c.y, 0.0)) - c.z);
 }
 
-// The first t at which it rises to 0, or 2.
+// The first t where the piece rises to 0, or 2.
 float crossing(vec4 c, float value, float slope)
 {
     float low = 0.0, high = 1.0;

@@ -1,5 +1,5 @@
-// The field and its slope along the ray, per radius, at four places behind the depth in the map; with SINGLE the field and
-// its first three derivatives at that depth.
+// The field and its slope along the ray, per radius, at four positions behind the depth in the map; with SINGLE the field and its
+// first three derivatives at that depth.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"
 #include "splat/splat.glsl"
@@ -8,7 +8,7 @@
 #include "shaders/splat/splat_bindings.h"
 
 layout(binding = NEAREST_UNIT) uniform sampler2D start_map;
-layout(location = APART_AT) uniform float apart; // radii from one sample to the next
+layout(location = APART_AT) uniform float apart; // radii between samples
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 value_sum;
 #ifndef SINGLE

@@ -1,4 +1,4 @@
-// Between pass 1 and 2: the depth at which blending ends, for an early test of whole sprites; sums begin with nothing.
+// Between passes 1 and 2: writes the depth where blending ends, for an early test of whole sprites, and clears the sums.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 

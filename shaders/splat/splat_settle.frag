@@ -1,4 +1,4 @@
-// The surface's depth alone, where splat_shade.frag will shade it.
+// Writes only the surface's depth, where splat_shade.frag will shade.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
 #include "shaders/splat/splat_bindings.h"
@@ -15,5 +15,5 @@ void main()
     float length2 = dot(normal, normal);
     if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0)
         discard;
-    gl_FragDepth = near_plane / abs(depth); // below 0 at a wall
+    gl_FragDepth = near_plane / abs(depth); // negative at a wall
 }

@@ -1,5 +1,5 @@
-// Pass 3, deferred shading of the blended surface. After: Adams et al. 2006, section 3.3. SHADING 0 phong, 1 water, 2 jelly;
-// SHOW 1 depth, 2 normals, 3 weight, 4 thickness show what came before it instead.
+// Pass 3, deferred shading of the blended surface. After: Adams et al. 2006, section 3.3. SHADING 0 phong, 1 water, 2 jelly; SHOW
+// 1 depth, 2 normals, 3 weight, 4 thickness show earlier stages instead.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "shaders/splat/splat_bindings.h"
@@ -21,11 +21,11 @@ layout(binding = NORMAL_SUM_UNIT) uniform sampler2D normal_map;
 layout(binding = WEIGHT_SUM_UNIT) uniform sampler2D weight_map;
 layout(binding = THICKNESS_UNIT) uniform sampler2D thickness_map;  // m, may be coarser
 #ifdef PANES
-layout(binding = FILLED_UNIT) uniform sampler2D filled_map;        // the same of a full box
+layout(binding = FILLED_UNIT) uniform sampler2D filled_map;        // likewise for a full box
 #endif
 layout(location = NEAREST_DEPTH_AT) uniform float nearest_depth;   // of a particle, m
 layout(location = FARTHEST_DEPTH_AT) uniform float farthest_depth; // m
-#ifdef SETTLED // splat_settle.frag has left out what is none, as below, and the test of depth follows it
+#ifdef SETTLED // splat_settle.frag has skipped pixels without fluid, and the depth test follows
 layout(early_fragment_tests) in;
 #endif
 layout(location = 0) out vec4 color;
@@ -39,27 +39,27 @@ float thickness_here()
 }
 
 #ifdef PANES
-const float longest = 4.0; // times the straight chord: what is left of that at a rim is blurred
+const float longest = 4.0; // times the straight chord: at a rim, the remaining chord is blurred
 
-float round_there = 1.0;   // 0 where the ray enters by a pane, which is flat
+float round_there = 1.0;   // 0 if the ray enters through a pane, which is flat
 
-// How much of the straight ray leaves the fluid into air within the box, and not by a wall.
+// 1 if the straight ray leaves the fluid into air inside the box, 0 if through a wall; smooth between.
 float leaves_inside(vec3 end)
 {
     vec3 at = (end - box_to_eye[3].xyz) * mat3(box_to_eye), far = vec3(0.5, 0.5, 0.5) * box_size - abs(at - vec3(0.0, 0.5 * box_size.y, 0.0));
     float least = min(min(far.x, far.y), far.z);
-#ifdef SOLIDS // what stands in the fluid is seen by one bend
+#ifdef SOLIDS // objects in the fluid are seen through one refraction
     least = min(least, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30) + end.z);
 #endif
     return smoothstep(0.75, 2.5, least / particle_spacing);
 }
 
-float full_share = 0.0; // of the straight ray from the surface to the wall: how much is fluid
+float full_share = 0.0; // fluid fraction of the straight ray from the surface to the wall
 
-// A bent ray through a tank full of fluid, by the sides that mirror it.
+// A refracted ray through a tank full of fluid, reflected by the sides.
 struct Tank {
-    vec3 end, way;     // where it leaves, and its direction there, in the eye's frame
-    float first, size; // m to the first wall, and in all
+    vec3 end, way;     // exit point and direction, in the eye's frame
+    float first, size; // m to the first wall; total length
 };
 
 Tank tank_of(vec3 place, vec3 inner)
@@ -83,9 +83,9 @@ Tank tank_of(vec3 place, vec3 inner)
     return tank;
 }
 
-// There the ray is bent again: as by a ball, which it leaves under the angle by which it came. That makes the rim of a small body: it shows
-// what is beside it, and not what is behind, and the bent ray has a longer way through it than the straight one, whose chord ends there.
-// Software drivers skip loops only.
+// Light through the fluid, refracted again at the exit: as by a ball, which the ray leaves at the angle of entry. This creates
+// the rim of a small body: the rim shows objects beside instead of behind, and the refracted ray is longer than the straight
+// chord, which ends there. Software drivers only skip loops.
 vec3 through(inout Surface s)
 {
     vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
@@ -98,7 +98,7 @@ vec3 through(inout Surface s)
     float solid = met_on(s.place, tank.first * inner);
     tank.size = solid < 1.0 ? solid * tank.first : tank.size;
     tank.end = solid < 1.0 ? s.place + tank.size * inner : tank.end;
-    mirrored = solid < 1.0 ? 0.0 : stands_before(tank.end) ? filled : mirrored; // a solid before it is not there
+    mirrored = solid < 1.0 ? 0.0 : stands_before(tank.end) ? filled : mirrored; // a solid in front hides nothing inside the tank
 #endif
     s.thickness = mix(s.thickness, tank.size, filled);
     end = mix(end, tank.end, filled - mirrored);
@@ -127,7 +127,7 @@ vec3 shaded(Surface s)
     return mix(inside, with_surface(s, inside + scattered(s)), shading);
 }
 #else
-// The paper's "Phong shading together with refraction and reflection": the thicker, the cloudier.
+// The paper's "Phong shading together with refraction and reflection": cloudier with more thickness.
 vec3 shaded(Surface s)
 {
     float clear = 0.8 * exp2(-2.0 * s.thickness / attenuation);
@@ -137,8 +137,8 @@ vec3 shaded(Surface s)
 #endif
 
 #ifdef PANES
-// The field is blurred beyond the walls, and beside them it is less than the fluid. So what counts is its share of that of a full box,
-// which is that of the ray within the walls that is fluid: as sharp as these are.
+// The thickness of the fluid on the straight ray. The field is blurred beyond the walls, and too small beside walls. Hence the
+// field is divided by a full box's field: gives the fluid's fraction of the ray between the walls, as sharp as the walls.
 float thickness_in_box(vec3 ray, float depth)
 {
     float own = thickness_here(), full = textureLod(filled_map, gl_FragCoord.xy * pixel_size, 0.0).x, share = min(own / max(full, 1e-30), 1.0);
@@ -146,7 +146,7 @@ float thickness_in_box(vec3 ray, float depth)
     float end = box.leave, enter = max(box.enter, near_plane);
 #ifdef SOLIDS
     end = min(end, near_plane / max(texelFetch(behind_depth, ivec2(gl_FragCoord.xy), 0).x, 1e-30));
-    // Texels of these coarse maps which a solid hides know nothing of the fluid beside it.
+    // Texels of the coarse maps hidden by a solid lack the fluid beside the solid: takes the largest of four.
     vec4 shares = textureGather(thickness_map, gl_FragCoord.xy * pixel_size) / max(textureGather(filled_map, gl_FragCoord.xy * pixel_size), 1e-30);
     share = min(max(max(shares.x, shares.y), max(shares.z, shares.w)), 1.0);
 #endif
@@ -159,7 +159,7 @@ float thickness_in_box(vec3 ray, float depth)
 #endif
 
 #ifdef PANES
-// Of a pixel of a pane: whether what is above it on the screen is none, and is no speck in it. The fluid's lower ends are at the box's.
+// For a pixel of a pane: nonzero at the pane's upper end on the screen, without specks. The fluid's lower ends are at the box's.
 float line_share(ivec2 pixel)
 {
     ivec2 up = ivec2(0, int(water_line_width() + 0.5)), last = textureSize(nearest_map, 0) - 1;
@@ -193,7 +193,7 @@ void main()
     vec3 normal = texelFetch(normal_map, pixel, 0).xyz;
     float length2 = dot(normal, normal);
 #ifndef SETTLED
-    if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // nothing, or just the rim of a lone sphere
+    if (is_nan(length2) || depth >= 1e29 || weight <= 0.0 || length2 <= 0.0) // no fluid, or only the rim of a lone sphere
         discard;
     gl_FragDepth = near_plane / abs(depth);
 #endif
@@ -221,7 +221,7 @@ void main()
     Surface s = surface_at(ray_of_ndc(ndc_of_pixel(gl_FragCoord.xy)), depth, normal, albedo);
     color = vec4(shaded(s), cover);
 #ifdef PANES
-    int rounds = glass == 2u && pane ? 1 : 0; // software drivers skip loops only
+    int rounds = glass == 2u && pane ? 1 : 0; // software drivers only skip loops
     for (int i = 0; i < rounds; i++)
         color.rgb = with_water_line(color.rgb, line_share(pixel));
 #endif

@@ -1,10 +1,10 @@
-// From marks of tiles to rectangles, one for each run of tiles in a row. One workgroup does it all; the rectangles' order is of no
-// account.
+// Converts marks of tiles to rectangles, one per run of tiles in a row. One workgroup does all the work; the order of the
+// rectangles does not matter.
 #include "shaders/splat/splat_bindings.h"
 layout(local_size_x = 64) in;
-layout(location = TILES_BOUNDS_AT) uniform ivec4 bounds;    // what is marked besides, pixels
+layout(location = TILES_BOUNDS_AT) uniform ivec4 bounds;    // also counts as marked, pixels
 layout(location = TILES_PICTURE_AT) uniform uvec2 picture; // pixels
-layout(std430, binding = TILE_MARKS_STORAGE) buffer Marks { uint tile_mark[]; }; // 0: none
+layout(std430, binding = TILE_MARKS_STORAGE) buffer Marks { uint tile_mark[]; }; // 0: not marked
 layout(std430, binding = TILE_RECTS_STORAGE) writeonly buffer Rects { uvec4 rect[]; };
 layout(std430, binding = TILE_COMMAND_STORAGE) writeonly buffer Command { uint command[]; };
 shared uint rects;
@@ -15,7 +15,7 @@ bool in_bounds(uvec2 tile)
     return all(greaterThan(low + TILE, bounds.xy - TILE_MARGIN)) && all(lessThan(low, bounds.zw + TILE_MARGIN)) && bounds.z > bounds.x;
 }
 
-// Whether the tile is to be drawn. Its mark is of one picture.
+// True if the tile is to be drawn. Clears the mark, which is for one picture.
 bool taken(uvec2 tile, uint columns)
 {
     uint at = tile.y * columns + tile.x;

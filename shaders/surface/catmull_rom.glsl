@@ -1,7 +1,7 @@
 // Splines through the values, as catmull_rom_at of sim/surface/volume_field.c.
 #include "surface/grid.glsl"
 
-// Weights of the four values about a place, of their slope and of the slope's, per cell.
+// Weights of the four values around a position, for value, slope and second derivative, per cell.
 struct Spline {
     vec4 value, slope, bend;
 };
@@ -22,7 +22,7 @@ Sample field_at(vec3 p)
     Spline x = spline(part.x), y = spline(part.y), z = spline(part.z);
     float value = 0.0;
     for (int k = 0; k < 4; k++) {
-        vec3 none = vec3(0.0), once = vec3(0.0); // sums over the slice, by value, slope, bend along x: weighed along y by value, slope
+        vec3 none = vec3(0.0), once = vec3(0.0); // sums over the slice of value, slope, second derivative along x; weighted along y by value, slope
         float twice = 0.0;
         for (int j = 0; j < 4; j++) {
             ivec3 row = first + ivec3(-1, j - 1, k - 1);

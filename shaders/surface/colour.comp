@@ -1,4 +1,4 @@
-// Points take the value that a field has where they are.
+// Sets the value of points to the field's value at their positions.
 #include "surface/field.glsl"
 layout(local_size_x = SURFACE_GROUP) in;
 layout(std430, binding = SURFACE_STORAGE) buffer Points { float points[]; };

@@ -1,14 +1,15 @@
-// Counts the points in each counting sphere (sim/surface/counting.h), a point an invocation.
+// Counts the points in each counting sphere (sim/surface/counting.h), an invocation per point.
 #include "shaders/surface/surface_bindings.h"
 layout(local_size_x = SURFACE_GROUP) in;
 layout(std430, binding = SURFACE_STORAGE) readonly buffer Points { float points[]; };
 layout(std430, binding = SPHERES_STORAGE) readonly buffer Spheres { vec4 spheres[]; };          // centre
-layout(std430, binding = SPHERE_CELLS_STORAGE) readonly buffer Cells { uint sphere_cells[]; }; // for each cell, where its spheres begin; behind that, their numbers
+layout(std430, binding = SPHERE_CELLS_STORAGE) readonly buffer Cells { uint sphere_cells[]; }; // the first entry of each cell; then the numbers of
+                                                                                               // the spheres
 layout(std430, binding = COUNTS_STORAGE) buffer Counts { uint counts[]; };
 layout(location = SURFACE_RANGE_AT) uniform uvec2 range;        // the first word, points
-layout(location = SPHERES_LOW_AT) uniform vec3 spheres_low;     // of the cells
+layout(location = SPHERES_LOW_AT) uniform vec3 spheres_low;     // low corner of the cells
 layout(location = SPHERES_CELL_AT) uniform vec3 spheres_cell;   // 1 / m
-layout(location = SPHERES_RADIUS_AT) uniform vec3 sphere_range; // radius; cells along an axis, in all
+layout(location = SPHERES_RADIUS_AT) uniform vec3 sphere_range; // radius; cells along an axis; number of cells
 
 void main()
 {

@@ -1,5 +1,5 @@
-// What a field of sim/surface is at a place, and what all of them share. A program is of one field: the line #define FIELD names the
-// file with its `Sample field_at(vec3)`, the numbers and the arrays are LevelParts of sim/surface/level_kind.h.
+// The sample of a field of sim/surface at a position, and functions shared by all fields. A program uses one field: the line
+// #define FIELD names the file with `Sample field_at(vec3)`; numbers and arrays are LevelParts of sim/surface/level_kind.h.
 #include "shaders/surface/surface_bindings.h"
 layout(location = FIELD_NUMBERS_AT) uniform vec4 field_numbers[4];
 
@@ -9,14 +9,14 @@ struct Sample {
     float bend; // Tr(H P)
 };
 
-// Of the second derivatives xx, yy, zz and xy, yz, zx: laplacian - n H n.
+// From the second derivatives xx, yy, zz and xy, yz, zx: laplacian - n H n.
 float bend_of(vec3 slope, vec3 straight, vec3 across)
 {
     float along = dot(slope * slope, straight) + 2.0 * dot(slope * slope.yzx, across);
     return straight.x + straight.y + straight.z - along / dot(slope, slope);
 }
 
-// Sine and cosine of so many turns, as lanes_turn of sim/surface/lanes.h; those of drivers may be far less exact.
+// Sine and cosine of `turns` full turns, as lanes_turn of sim/surface/lanes.h; the drivers' functions may be far less exact.
 vec2 turn(float turns)
 {
     float quarters = floor(4.0 * turns + 0.5), x = (turns - 0.25 * quarters) * 6.28318531, square = x * x;

@@ -12,13 +12,13 @@ vec3 field_place(vec3 p)
     return (p - field_numbers[0].xyz) * field_numbers[1].xyz;
 }
 
-// The value before it along each axis.
+// The index of the value before the position, along each axis.
 ivec3 field_before(vec3 at)
 {
     return ivec3(clamp(at, vec3(0.0), vec3(field_size() - 2)));
 }
 
-// The outermost beyond the border.
+// Clamped to the outermost values.
 float field_value(ivec3 i)
 {
     ivec3 size = field_size(), held = clamp(i, ivec3(0), size - 1);

@@ -1,4 +1,4 @@
-// A unit vector as surface_normal_pack of sim/surface/points.h packs it.
+// Packs a unit vector as surface_normal_pack of sim/surface/points.h.
 uint packed_normal(vec3 slope)
 {
     float sum = abs(slope.x) + abs(slope.y) + abs(slope.z);

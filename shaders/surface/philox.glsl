@@ -1,5 +1,5 @@
-// Random numbers that are a function of a counter, the same as those of sim/surface/philox.h. After: J. Salmon, M. Moraes, R. Dror,
-// D. Shaw, "Parallel random numbers: as easy as 1, 2, 3", 2011.
+// Counter-based random numbers, equal to those of sim/surface/philox.h. After: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel
+// random numbers: as easy as 1, 2, 3", 2011.
 uvec4 philox(uvec2 key, uvec4 word)
 {
     for (int round = 0; round < 10; round++) {
@@ -12,7 +12,7 @@ uvec4 philox(uvec2 key, uvec4 word)
     return word;
 }
 
-// In 0 .. 1, neither of them a result.
+// In 0 .. 1, both ends excluded.
 float uniform_part(uint word)
 {
     return (float(word >> 9) + 0.5) / 8388608.0;
@@ -41,7 +41,8 @@ float exact_log(float a)
     return m + (p * m * square - 0.5 * square) + float(exponent) * 0.69314718;
 }
 
-// Normal numbers of mean 0 and variance 1. After: G. Box, M. Muller, "A note on the generation of random normal deviates", 1958.
+// Normally distributed numbers with mean 0 and variance 1. After: G. Box, M. Muller, "A note on the generation of random normal
+// deviates", 1958.
 vec3 philox_normal(uvec4 word)
 {
     float r = sqrt(-2.0 * exact_log(uniform_part(word.x))), other = sqrt(-2.0 * exact_log(uniform_part(word.z)));

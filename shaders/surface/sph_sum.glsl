@@ -1,14 +1,14 @@
-// Sums over the particles about a place (sim/surface/sph_field.c), which stand by cell: low, cell; size, support; the kernel's greatest
-// value, the length of a column.
+// Sums over the particles around a position (sim/surface/sph_field.c); particles are ordered by cell. Numbers: low, cell; size,
+// support; the kernel's peak, the length of a column.
 layout(std430, binding = FIELD_FIRST_STORAGE) readonly buffer FieldColumns { float field_columns[]; }; // x, y, z, V, V s
-layout(std430, binding = FIELD_SECOND_STORAGE) readonly buffer FieldBegin { uint field_begin[]; };     // of each cell, and the end
+layout(std430, binding = FIELD_SECOND_STORAGE) readonly buffer FieldBegin { uint field_begin[]; };     // first particle of each cell, and the end
 
-struct Second { // a value, its slope and its second derivatives
+struct Second { // value, slope and second derivatives
     float value;
     vec3 slope, straight, across;
 };
 
-// Of V W with W = C t^3, t = 1 - r^2 / h^2: grad = -6 C / h^2 t^2 x, H = -6 C / h^2 (t^2 - 4 t x x / h^2).
+// Adds V W with W = C t^3, t = 1 - r^2 / h^2: grad = -6 C / h^2 t^2 x, H = -6 C / h^2 (t^2 - 4 t x x / h^2).
 void add(float weight, vec3 off, float t, inout Second sum, inout float squares)
 {
     float once = weight * t, twice = once * t;
@@ -25,7 +25,7 @@ Second whole(Second sum, float squares)
     return Second(most * sum.value, slope * sum.slope, slope * (squares + bend * sum.straight), slope * bend * sum.across);
 }
 
-// Of the volumes, and of the column `weight` with them.
+// Sums of the volumes, and of the column `weight` with the volumes.
 void sum_about(vec3 p, uint weight, out Second volumes, out Second weighed)
 {
     const vec3 none = vec3(0.0);

@@ -1,13 +1,13 @@
-/* The numbers by which C hands to the shaders that walk on surfaces what they read: sim/gl/surface. */
+/* Binding numbers of the shaders that walk on surfaces: sim/gl/surface. */
 #ifndef SLOSH_SURFACE_BINDINGS_H
 #define SLOSH_SURFACE_BINDINGS_H
 
-/* Storage buffers, behind those of particles; the first two are the field's own arrays */
+/* Storage buffers, after those of particles; the first two are the field's own arrays */
 #define FIELD_FIRST_STORAGE  4
 #define FIELD_SECOND_STORAGE 5
 #define WALKERS_STORAGE      6
 #define SURFACE_STORAGE      7
-/* of the pass that counts */
+/* the counting pass */
 #define SPHERES_STORAGE      4
 #define SPHERE_CELLS_STORAGE 5
 #define COUNTS_STORAGE       6
@@ -27,11 +27,11 @@
 #define SPHERES_CELL_AT   30
 #define SPHERES_RADIUS_AT 31
 
-/* A step's ways back to the surface, as sim/surface/walk.h has them */
+/* Limits of a step's ways back to the surface, as in sim/surface/walk.h */
 #define WALK_NEWTON_STEPS 5
 #define WALK_HALVINGS     16
 
-/* 32-bit words of a SurfacePoint (sim/surface/points.h), work group */
+/* 32-bit words of a SurfacePoint (sim/surface/points.h); work group */
 #define SURFACE_WORDS 6u
 #define SURFACE_GROUP 64
 

@@ -1,24 +1,24 @@
-// Steps of walkers on a level of a field, one an invocation, as sim/surface/walk.h has them: the same random numbers for the same
-// walker and step, whatever the work groups are. After: S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces
+// Steps of walkers on a level of a field, an invocation per walker, as in sim/surface/walk.h: the same random numbers for the
+// same walker and step, for any work groups. After: S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces
 // and its application to fused visualization", 2012, section 4, eq. 3.
 #include "surface/field.glsl"
 #include "common/nan.glsl"
 #include "surface/philox.glsl"
 #include "surface/packed.glsl"
 layout(local_size_x = SURFACE_GROUP) in;
-layout(std430, binding = WALKERS_STORAGE) buffer Walkers { uint walkers[]; };          // x, y, z as columns, and steps that were taken
-layout(std430, binding = SURFACE_STORAGE) writeonly buffer Points { uint points[]; }; // of these walkers
+layout(std430, binding = WALKERS_STORAGE) buffer Walkers { uint walkers[]; };          // columns x, y, z, and number of steps taken
+layout(std430, binding = SURFACE_STORAGE) writeonly buffer Points { uint points[]; }; // points of these walkers
 layout(location = WALK_LEVEL_AT) uniform float level;
-layout(location = WALK_LOW_AT) uniform vec3 low; // no step leaves these
+layout(location = WALK_LOW_AT) uniform vec3 low; // bounds of all steps
 layout(location = WALK_HIGH_AT) uniform vec3 high;
 layout(location = WALK_LENGTHS_AT) uniform vec3 lengths; // step, close, reach
 layout(location = WALK_KEY_AT) uniform uvec2 key;
-layout(location = WALK_STEPS_AT) uniform uvec3 steps;     // the first, how many, whether they leave points
-layout(location = WALK_WALKERS_AT) uniform uvec3 walkers_at; // all, the first and the end of these
+layout(location = WALK_STEPS_AT) uniform uvec3 steps;     // first step, number of steps, 1: leave points
+layout(location = WALK_WALKERS_AT) uniform uvec3 walkers_at; // all walkers; first and end of the walkers here
 layout(location = WALK_SURFACE_AT) uniform uint surface;
-layout(location = SURFACE_RANGE_AT) uniform uint first_word; // of the points that these walkers leave
+layout(location = SURFACE_RANGE_AT) uniform uint first_word; // first word of the walkers' points
 
-// To first order the distance; a zero gradient or what is no number is not.
+// The miss divided by the slope is the distance to first order; false for a zero gradient or NaN.
 bool on_level(Sample s)
 {
     float miss = s.value - level, square = dot(s.slope, s.slope);
@@ -37,7 +37,7 @@ bool newton(inout vec3 place, out Sample s)
     return done;
 }
 
-// The level on the normal `slope` through `place`, between -reach and reach.
+// Finds the level on the normal `slope` through `place`, between -reach and reach.
 bool bisect(vec3 slope, inout vec3 place, out Sample s)
 {
     vec3 from = place;
@@ -74,7 +74,7 @@ vec3 euler(vec3 p, Sample s, vec3 normal)
     return p + by - (dot(by, s.slope) + 0.5 * lengths.x * lengths.x * s.bend) * inverse * s.slope;
 }
 
-// Whether the step was taken; one that finds no way back to the surface, or leaves the bounds, is not.
+// Returns true if the step was taken; a step without a way back to the surface, or out of the bounds, is not.
 bool take_step(vec3 normal, inout vec3 p, inout Sample s)
 {
     vec3 moved = euler(p, s, normal), to = moved;

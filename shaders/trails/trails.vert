@@ -1,20 +1,21 @@
-// A piece of each trail, from the column before to this one: four vertices a trail. A piece begins across the direction in
-// which the trail comes, and ends across its own: pieces share these edges, so that no pixel is covered twice or left out.
+// A piece of each trail, from the previous column to the present: four vertices per trail. A piece starts perpendicular to the
+// trail's incoming direction and ends perpendicular to its own: neighbouring pieces share edges, so no pixel is covered twice or
+// missed.
 #include "common/frame.glsl"
 #include "shaders/trails/trails_bindings.h"
 
 layout(std430, binding = TRAIL_PLACES_STORAGE) readonly buffer Places { vec4 places[]; };
 layout(std430, binding = TRAIL_OWNERS_STORAGE) readonly buffer Owners { uint owners[]; };
-layout(location = TRAIL_COLUMN_AT) uniform uint column; // where it begins
+layout(location = TRAIL_COLUMN_AT) uniform uint column; // first element of the column
 layout(location = TRAIL_BEFORE_AT) uniform uint before;
 layout(location = TRAIL_EARLIER_AT) uniform uint earlier; // or TRAIL_NO_COLUMN
-layout(location = TRAIL_WRAP_AT) uniform vec3 wrap;       // a longer way leads through a periodic side, m
-layout(location = TRAIL_TIMES_AT) uniform vec2 times;     // of the column before and of this one
+layout(location = TRAIL_WRAP_AT) uniform vec3 wrap;       // longer distances cross a periodic side, m
+layout(location = TRAIL_TIMES_AT) uniform vec2 times;     // times of the previous and the present column
 layout(location = HALF_WIDTH_AT) uniform float half_width;
 layout(location = 0) noperspective out float across; // pixels from the line's middle
 layout(location = 1) noperspective out vec2 stamp;   // time and scalar
 
-// Whether a line leads from one to the other.
+// True if a line leads from `from` to `to`.
 bool joined(uint from, uint to)
 {
     bool one = owners[from] != 0u && owners[from] >> 1u == owners[to] >> 1u && (owners[to] & 1u) != 0u;
@@ -26,7 +27,7 @@ vec3 eye_of(uint at)
     return (box_to_eye * vec4(places[at].xyz, 1.0)).xyz;
 }
 
-// The share of the way to the other end at which this end is before the eye.
+// The fraction of the way to the other end where this end is in front of the eye.
 float cut(float own, float other)
 {
     float clear = -2.0 * near_plane;

@@ -1,4 +1,5 @@
-// Where ids go on for ever two particles may want one trail: the older one, whose id is less, has it.
+// Resolves conflicts if ids grow without limit and two particles want the same trail: the older particle, with the smaller id,
+// wins.
 #include "shaders/trails/trails_slot.glsl"
 layout(local_size_x = 64) in;
 

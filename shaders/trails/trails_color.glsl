@@ -1,14 +1,14 @@
-// The colour of a trail: that of its scalar at the time, magenta where that is no number, the fainter the longer ago.
+// The colour of a trail: by the scalar at that time, magenta for NaN, fading with age.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
 #include "shaders/trails/trails_bindings.h"
 
 layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
 layout(location = TRAIL_TIME_AT) uniform float now;
-layout(location = TRAIL_FADE_AT) uniform vec2 fade; // of a second; of what is drawn now
+layout(location = TRAIL_FADE_AT) uniform vec2 fade; // fading per second; strength in this pass
 layout(location = TRAIL_IS_FLUID_AT) uniform uint is_fluid;
 
-// `covered` is below 0 where the scalar of that time is not the one that is shown.
+// Negative `covered`: the recorded scalar is not the scalar shown.
 vec4 trail_color(float time, float value, float covered)
 {
     float left = clamp(1.0 - (now - time) * fade.x, 0.0, 1.0), level = (value - range_low) * range_scale;

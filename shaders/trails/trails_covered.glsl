@@ -1,4 +1,4 @@
-// How much of a pixel a line covers; below 0 where the scalars of its ends are not those that are shown.
+// The fraction of a pixel that a line covers; negative if the scalars of the ends are not the scalar shown.
 #include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
 

@@ -1,4 +1,4 @@
-// The newest piece of a trail, which the next state replaces.
+// The newest piece of a trail, until the next state replaces the piece.
 #include "shaders/trails/trails_color.glsl"
 #include "shaders/trails/trails_covered.glsl"
 

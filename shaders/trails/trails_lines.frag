@@ -1,4 +1,4 @@
-// What a piece of a trail leaves in the picture of all trails: time, scalar, depth and how much of the pixel it covers.
+// A piece's output in the picture of all trails: time, scalar, depth and covered fraction.
 #include "shaders/trails/trails_covered.glsl"
 
 layout(location = 0) noperspective in float across;

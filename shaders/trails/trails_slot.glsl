@@ -1,9 +1,9 @@
-// Which trail a particle has, if any. The same at each step: by its id alone.
+// The trail of a particle, if any: fixed by the id alone, the same at each step.
 #include "shaders/trails/trails_bindings.h"
 
 layout(location = TRAIL_EVERY_AT) uniform uint every;
 layout(location = TRAIL_SLOTS_AT) uniform uint slots;
-layout(location = TRAIL_LISTED_AT) uniform uint listed; // 0: by every
+layout(location = TRAIL_LISTED_AT) uniform uint listed; // 0: by stride
 layout(location = TRAIL_LIST_AT) uniform uint list[TRAIL_LISTED_IDS];
 
 int slot_of(uint id)

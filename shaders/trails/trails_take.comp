@@ -1,4 +1,4 @@
-// The present state's column: each chosen particle's place and scalar, and whose they are.
+// Fills the present state's column: position, scalar and owner of each chosen particle.
 #include "common/particles.glsl"
 #include "common/particle_shown.glsl"
 #include "common/nan.glsl"
@@ -12,14 +12,14 @@ layout(std430, binding = TRAIL_SEEN_STORAGE) buffer Seen { uint seen[]; };
 layout(std430, binding = TRAIL_CLAIMS_STORAGE) readonly buffer Claims { uint claims[]; };
 layout(location = TRAIL_COUNT_AT) uniform uint count;
 layout(location = TRAIL_ID_STRIDE_AT) uniform uint id_stride;
-layout(location = TRAIL_COLUMN_AT) uniform uint column;  // where it begins
-layout(location = TRAIL_BEFORE_AT) uniform uint before;  // the one before, or TRAIL_NO_COLUMN
-layout(location = TRAIL_CLAIMS_AT) uniform uint claimed; // 0: no two particles want one trail
+layout(location = TRAIL_COLUMN_AT) uniform uint column;  // first element of the column
+layout(location = TRAIL_BEFORE_AT) uniform uint before;  // previous column, or TRAIL_NO_COLUMN
+layout(location = TRAIL_CLAIMS_AT) uniform uint claimed; // 0: no two particles want the same trail
 layout(location = TRAIL_LEAST_AT) uniform vec3 least; // corner of the region
 layout(location = TRAIL_GREATEST_AT) uniform vec3 greatest;
-layout(location = TRAIL_PLANE_AT) uniform vec4 plane; // normal, and its product with the point
+layout(location = TRAIL_PLANE_AT) uniform vec4 plane; // normal, and the normal's dot product with the point
 
-// An owner is 2 (id + 1), and 1 more where its trail is to be seen; 0 is nobody.
+// An owner is 2 (id + 1), plus 1 if the trail is visible; 0: no owner.
 uint chosen_at_first(vec3 at)
 {
     bool anywhere = least == greatest, inside = all(greaterThanEqual(at, least)) && all(lessThanEqual(at, greatest));

@@ -1,4 +1,4 @@
-// The picture of all trails that the CPU has drawn over that of the view, by depth.
+// Draws the picture of all trails, drawn by the CPU, over the view's picture, by depth.
 #include "shaders/trails/trails_color.glsl"
 
 layout(binding = TRAIL_LINES_UNIT) uniform samplerBuffer lines; // rows from the bottom up

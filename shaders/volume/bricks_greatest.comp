@@ -1,4 +1,4 @@
-// The greatest value of the field in each brick, of the voxels at its faces too; behind walls as field_at has it.
+// The largest value of the field in each brick, including voxels at its faces; beyond walls as in field_at.
 #include "volume/raycast.glsl"
 #include "shaders/volume/volume_bindings.h"
 

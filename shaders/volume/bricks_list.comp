@@ -1,4 +1,4 @@
-// Lists the faces between a brick that exceeds the limit and one that does not, or the volume's outside: brick and direction.
+// Lists faces between an occupied brick (above the limit) and an empty brick or the volume's outside: brick and direction.
 #include "volume/raycast.glsl"
 #include "shaders/volume/volume_bindings.h"
 

@@ -1,5 +1,5 @@
-// How many particles each cell of the lists has; with PLACE these are put in their places. In between, prefix sums turn numbers
-// into starts: the counter of a cell stands at its successor's place, and is the start of that in the end.
+// Counts the particles of each list cell; with PLACE, stores the particles. Between both passes, prefix sums turn counts into
+// starts: the counter of a cell is at the next cell's index, and ends as the start of the next cell.
 #include "volume/volume_particle.glsl"
 #include "shaders/volume/volume_bindings.h"
 

@@ -1,4 +1,4 @@
-// A drop: opaque, or WATER that bends what is behind at both sides of the ball.
+// A drop: opaque, or WATER with refraction at both sides of the ball.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/environment.glsl"
@@ -17,7 +17,7 @@ layout(location = 3) flat in vec3 albedo;
 layout(location = 0) out vec4 color;
 
 #ifdef WATER
-// Straight through the ball after the first bend; no ray that came in from outside is mirrored at the other side.
+// Straight through the ball after the first refraction; a ray from outside is never totally reflected at the other side.
 vec3 seen_through(inout Surface s)
 {
     vec3 to = refract(s.view, s.normal, 1.0 / refraction_index);

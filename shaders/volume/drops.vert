@@ -1,5 +1,5 @@
-// Particles around which the field does not reach the level, as balls of their own volume: four vertices each, the corners of its
-// bound on the screen. They shrink to nothing as the surface comes up around them.
+// Particles where the field stays below the level, as balls of their own volume: four vertices each, the corners of the bound on
+// the screen. Balls shrink to nothing as the surface forms around.
 #include "common/frame.glsl"
 #include "common/nan.glsl"
 #include "common/particles.glsl"
@@ -8,7 +8,7 @@
 #include "shaders/volume/volume_bindings.h"
 layout(binding = FIELD_UNIT) uniform sampler3D field_map;
 layout(location = DROPS_FLAT_AT) uniform bool flat_scene;  // volumes are areas
-layout(location = DROPS_CORNER_AT) uniform vec3 corner_at; // of the volume, m, box's frame
+layout(location = DROPS_CORNER_AT) uniform vec3 corner_at; // corner of the volume, m, box's frame
 layout(location = DROPS_PER_SIDE_AT) uniform vec3 per_side; // 1/m
 layout(location = DROPS_LOW_AT) uniform vec3 field_low;    // as in RaycastBlock
 layout(location = DROPS_HIGH_AT) uniform vec3 field_high;
@@ -32,7 +32,8 @@ void main()
     vec3 at = particle_position(index);
     float volume = position_words[index * position_stride + 3u];
     vec3 place = clamp((at - corner_at) * per_side, field_low, field_high);
-    // Of 0.5: one alone has 0.17, three in a row 0.33 at most, four that touch 0.40 and a surface between them, an edge of fluid 0.4.
+    // For a level of 0.5: a lone particle has a field of 0.17, three in a row at most 0.33, four touching particles 0.40 with a
+    // surface between, an edge of fluid 0.4.
     float alone = 1.0 - smoothstep(0.6 * surface_level, 0.85 * surface_level, textureLod(field_map, place, 0.0).x);
     float radius = own_radius(volume) * alone;
     gl_Position = vec4(2.0, 2.0, 0.5, 1.0);

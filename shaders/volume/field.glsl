@@ -1,5 +1,5 @@
-// The fluid's field at a place, m in the box's frame: from the volume, or with FIELD_DIRECT summed up there and then. Bound by
-// voxelizer_bind (render/volume/volume.h), whose voxelizer_defines must stand before.
+// The fluid's field at a position, m in the box's frame: from the volume, or with FIELD_DIRECT summed at the position. Bound by
+// voxelizer_bind (render/volume/volume.h); needs voxelizer_defines in front.
 #include "volume/volume.glsl"
 #include "shaders/volume/volume_bindings.h"
 
@@ -34,7 +34,7 @@ vec2 field_sums_at(vec3 box_point)
 }
 #endif
 
-// The mean of the scalar there; 0 where no fluid is.
+// The mean of the scalar; 0 without fluid.
 float field_scalar_at(vec3 box_point)
 {
     vec2 sums = field_sums_at(box_point);

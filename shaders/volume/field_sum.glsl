@@ -1,12 +1,12 @@
 // The field as a sum over the particles around, by the lists of render/volume/cell_lists.c. After: Iwasaki et al. 2006; Müller 2003.
 #include "shaders/volume/volume_bindings.h"
-layout(std430, binding = LIST_STARTS_STORAGE) readonly buffer ListStarts { uint list_starts[]; };          // one more than cells
+layout(std430, binding = LIST_STARTS_STORAGE) readonly buffer ListStarts { uint list_starts[]; };          // number of cells + 1
 layout(std430, binding = LIST_PARTICLES_STORAGE) readonly buffer ListParticles { vec4 list_particles[]; }; // centre, cells; amplitude
 #ifdef SCALAR
 layout(std430, binding = LIST_SCALARS_STORAGE) readonly buffer ListScalars { float list_scalars[]; };
 #endif
 
-// F, and the sum of F scalar, at a place in cells.
+// F, and the sum of F scalar, at a position in cells.
 vec2 field_sum(vec3 at)
 {
     vec2 sum = vec2(0.0);
@@ -15,7 +15,7 @@ vec2 field_sum(vec3 at)
     if (low.x > high.x)
         return sum;
     for (int z = low.z; z <= high.z; z++)
-        for (int y = low.y; y <= high.y; y++) { // cells in a row lie side by side
+        for (int y = low.y; y <= high.y; y++) { // cells of a row are contiguous
             int row = (z * list_size.y + y) * list_size.x;
             uint end = list_starts[row + high.x + 1];
             for (uint i = list_starts[row + low.x]; i < end; i++) {

@@ -1,6 +1,7 @@
-// Marches through the volume from where its faces are entered to where they are left, or to a solid: opaque to the surface, WATER beyond
-// it, or TRANSLUCENT gathering light. WHOLE: with what a draft leaves out. SHOW 1 entry, 2 exit, 3 length, 4 steps, 5 normals show what it goes by instead.
-// After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B; Krüger and Westermann 2003; Scharsach 2005.
+// Marches through the volume from entry to exit, or to a solid: opaque to the surface, WATER beyond the surface, or TRANSLUCENT
+// with gathered light. WHOLE: includes the parts left out in a draft. SHOW 1 entry, 2 exit, 3 length, 4 steps, 5 normals show
+// inputs instead. After: "SPH coupled with volume rendering", SIBGRAPI 2010, section IV.B; Krüger and Westermann 2003; Scharsach
+// 2005.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/environment.glsl"
@@ -24,7 +25,7 @@
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 color;
-layout(location = 1) out float found; // depth of what stands before what is behind, m; 0: nothing does
+layout(location = 1) out float found; // distance of the hit along the eye's axis, m; 0: no hit
 
 #if SHOW == 1 || SHOW == 2 || SHOW == 3
 void show(Ray ray)
@@ -67,7 +68,7 @@ void show(Ray ray)
 #ifdef WATER
     color = vec4(water(surface), 1.0);
 #ifdef WHOLE
-    int rounds = glass == 2u && t <= ray.wall ? 1 : 0; // software drivers skip loops only
+    int rounds = glass == 2u && t <= ray.wall ? 1 : 0; // software drivers only skip loops
     for (int i = 0; i < rounds; i++)
         color.rgb = with_water_line(color.rgb, line_share(ray, t, normal));
 #endif

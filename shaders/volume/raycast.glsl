@@ -1,6 +1,6 @@
 #include "shaders/volume/raycast_block.h"
 
-// The corner of a brick towards the origin, which for the last brick's successor is the volume's side, and no farther out than walls.
+// The corner of a brick nearest to the origin; the last brick's successor gives the volume's side. Never outside the walls.
 vec3 brick_corner(uvec3 brick)
 {
     vec3 at = (vec3(brick) * brick_side + 0.5) / volume_cells;

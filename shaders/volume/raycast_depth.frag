@@ -1,4 +1,4 @@
-// What rays met, into the target's depth.
+// Writes the rays' hits into the target's depth.
 #include "common/frame.glsl"
 #include "shaders/volume/volume_bindings.h"
 

@@ -1,8 +1,8 @@
-// The light that a ray gathers through translucent fluid, from front to back. Wants volume/raycast_surface.glsl for `steps` and
+// The light that a ray gathers through translucent fluid, from front to back. Needs volume/raycast_surface.glsl for `steps` and
 // volume/raycast_light.glsl. After: Max, Optical models for direct volume rendering, 1995.
 #include "common/noise.glsl"
 
-// What a piece of fluid sends to the eye: its skin as a lit surface, its body evenly, as light in it comes from everywhere.
+// Light from a piece of fluid to the eye: the skin as a lit surface, the body evenly, since light inside comes from everywhere.
 vec3 glow_at(Ray ray, float t, vec3 albedo, float skin)
 {
     vec3 place = ray.from + t * ray.to, skinned = vec3(0.0);
@@ -15,7 +15,7 @@ vec3 glow_at(Ray ray, float t, vec3 albedo, float skin)
     return mix(albedo * (sky + 0.5 * key * light_color), skinned, skin);
 }
 
-// Of a part of the ray: optical depths of body and skin, and where it is in the mean.
+// A part of the ray: optical depths of body and skin, and the mean position.
 struct Piece {
     float body, skin, at;
 };
@@ -30,7 +30,7 @@ vec4 transfer_at(float x)
 #endif
 
 #ifdef CURVED
-// The field's place on the ramp of the transfer function, and beyond its ends.
+// Position of the field on the transfer function's ramp, unclamped.
 float ramp_of(float f)
 {
     return (f - ramp_begin) * ramp_scale;
@@ -42,7 +42,7 @@ float curve_sum(float x)
     return x <= 0.0 ? 0.0 : here.y + max(x - 1.0, 0.0) * here.x;
 }
 
-// The mean of the curve between two places on the ramp: of fluid on the way from one to the other.
+// The mean of the curve between two positions on the ramp: for fluid on the way between both.
 float body_between(float from, float to)
 {
     float middle = 0.5 * (from + to);
@@ -51,13 +51,13 @@ float body_between(float from, float to)
     return (curve_sum(to) - curve_sum(from)) / (to - from);
 }
 
-// How far the curve goes up and down between them.
+// Total rise and fall of the curve between two positions.
 float skin_between(float from, float to)
 {
     return abs((to <= 0.0 ? 0.0 : transfer_at(to).z) - (from <= 0.0 ? 0.0 : transfer_at(from).z));
 }
 #else
-// The field's place on the ramp of the transfer function.
+// Position of the field on the transfer function's ramp.
 float ramp_of(float f)
 {
     return clamp((f - ramp_begin) * ramp_scale, 0.0, 1.0);
@@ -74,7 +74,7 @@ float skin_between(float from, float to)
 }
 #endif
 
-// By a scalar: OPACITY 1 by that of the colours, 2 by one of its own.
+// Opacity by a scalar: OPACITY 1 by the colours' scalar, 2 by another scalar.
 #if !defined OPACITY
 float opacity_at(vec3 at)
 {
@@ -103,8 +103,8 @@ float opacity_at(vec3 at)
 }
 #endif
 
-// Marches on from t, where the field is f, until there is enough to be worth shading. Extinction is taken as linear between samples,
-// and that of the skin goes with the ramp's rise or fall: neither depends on how far apart samples are.
+// Marches on from t, where the field is f, until the piece is worth shading. Extinction is linear between samples, and the skin's
+// extinction follows the ramp's rise or fall: both are independent of the distance between samples.
 Piece next_piece(Ray ray, float dt, inout float t, inout float f, inout float next)
 {
     const float enough = 0.1; // a tenth of the opacity, and half of the skin
@@ -125,7 +125,7 @@ Piece next_piece(Ray ray, float dt, inout float t, inout float f, inout float ne
     return piece;
 }
 
-// Premultiplied colour and opacity. `half_way`: t at which half of the light is lost; 0: never.
+// Returns premultiplied colour and opacity. `half_way`: t where half of the light is lost; 0: never.
 vec4 gather(Ray ray, out float half_way)
 {
     float dt = step_length / ray.slant;

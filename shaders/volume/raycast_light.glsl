@@ -1,4 +1,4 @@
-// Colour and light of places in the volume. Wants volume/raycast_ray.glsl, common/light.glsl.
+// Colour and light at positions in the volume. Needs volume/raycast_ray.glsl, common/light.glsl.
 #include "shaders/volume/volume_bindings.h"
 layout(binding = COLORMAP_UNIT) uniform sampler2D colormap;
 
@@ -12,7 +12,7 @@ float scalar_at(vec3 at)
 #else
 layout(binding = FIELD_SCALAR_UNIT) uniform sampler3D field_scalar_map;
 
-// Its mean by the field.
+// The scalar's mean, weighted by the field.
 float scalar_at(vec3 at)
 {
     float field = field_at(at);
@@ -20,11 +20,11 @@ float scalar_at(vec3 at)
 }
 #endif
 
-// `share`: where the scalar is in its range, 0..1.
+// `share`: position of the scalar in its range, 0..1.
 vec3 albedo_at(vec3 at, out float share)
 {
     float value = scalar_at(at);
-    if (by_fluid != 0u) { // numbers of fluids: neighbours in the list mix
+    if (by_fluid != 0u) { // fluid numbers: neighbours in the list mix
         float first = clamp(floor(value), 0.0, 6.0);
         share = 1.0;
         return mix(fluid_color[int(first)].rgb, fluid_color[int(first) + 1].rgb, clamp(value - first, 0.0, 1.0));
@@ -41,12 +41,12 @@ vec3 albedo_at(vec3 at, out float share)
 #endif
 
 #ifdef SHADOWS
-// What the fluid between a place and the light lets through: as fluid_light_at, with the fluid on the way instead of the depth below
-// the first lit surface.
+// The fraction of light through the fluid between a place and the light: as fluid_light_at, with the length of fluid on the way
+// instead of the depth below the first lit surface.
 float lit_at(vec3 place)
 {
     Ray ray = ray_from(place, light_in_eye);
-    const float longest = 8.0 * particle_radius; // nothing to speak of is left
+    const float longest = 8.0 * particle_radius; // beyond this length almost no light is left
     float dt = 2.0 * step_length, t = dt, way = 0.0, end = ray_end(ray);
     while (t < end && way < longest) {
         float f = min(field_at(ray_at(ray, t)), 1.0), on = f > 0.0 ? dt : max(dt, far_step);
@@ -62,7 +62,7 @@ float lit_at(vec3 place)
 }
 #endif
 
-// `lit`: what of the key light the fluid lets through; returns what of that solids do.
+// `lit`: fraction of the key light after the fluid; returns the fraction after fluid and solids.
 float key_at(vec3 place, float lit)
 {
 #ifdef SOLIDS

@@ -1,4 +1,4 @@
-// A ray through the volume, and the field on it. Wants common/frame.glsl.
+// A ray through the volume, and the field along the ray. Needs common/frame.glsl.
 #include "volume/raycast.glsl"
 #include "shaders/volume/volume_bindings.h"
 
@@ -24,13 +24,13 @@ layout(binding = EXIT_UNIT) uniform sampler2D exit_map;
 layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D solid_depth;
 #endif
 
-// A place on it is told by t: m below the eye where it is a ray of the eye.
+// A position on the ray is given by t: m along the eye's axis for a ray from the eye.
 struct Ray {
-    vec3 from, to;    // eye space, m, and along it for t = 1
-    vec3 origin, way; // the same in the volume
+    vec3 from, to;    // eye space: start, m; step for t = 1
+    vec3 origin, way; // in volume space
     float slant;      // length of `to`
-    float begin, end; // t of what is to be marched through
-    float wall;       // t up to which it comes in through a wall
+    float begin, end; // range of t to march through
+    float wall;       // for t up to this value, the ray enters through a wall
 };
 
 vec3 ray_at(Ray ray, float t)
@@ -49,20 +49,20 @@ Ray ray_from(vec3 from, vec3 to)
     return ray;
 }
 
-// t at which the ray passes each of the sides before it, of walls and of the volume; infinite where it is parallel to them.
+// t where the ray passes each of the sides ahead, of walls and volume; infinite if parallel.
 vec3 ray_ends(Ray ray)
 {
     return (clamp(mix(wall_low, wall_high, step(vec3(0.0), ray.way)), 0.0, 1.0) - ray.origin) / ray.way;
 }
 
-// Where the ray leaves the volume, when it is in it at t = 0.
+// t where the ray leaves the volume, if inside at t = 0.
 float ray_end(Ray ray)
 {
     vec3 end = ray_ends(ray);
     return min(min(end.x, end.y), end.z);
 }
 
-// Towards the eye, unit, of the wall that the ray comes in through at the last.
+// Unit normal, towards the eye, of the last wall of entry.
 vec3 wall_normal(Ray ray)
 {
     vec3 at = (mix(wall_high, wall_low, step(vec3(0.0), ray.way)) - ray.origin) / ray.way;
@@ -77,7 +77,7 @@ void cut_to_walls(inout Ray ray)
     vec3 end = (mix(wall_low, wall_high, step(vec3(0.0), ray.way)) - ray.origin) / ray.way;
     ray.wall = max(max(begin.x, begin.y), begin.z);
     ray.begin = max(ray.begin, ray.wall);
-    ray.wall += 0.01 * cell_size / ray.slant; // the faces of bricks, which lie in walls too, are rounded otherwise
+    ray.wall += 0.01 * cell_size / ray.slant; // the faces of bricks, also in walls, are rounded differently
     ray.end = min(ray.end, min(min(end.x, end.y), end.z));
 }
 
@@ -90,7 +90,7 @@ float solid_end()
 #endif
 }
 
-// That of this pixel, from where it enters what is occupied to where it leaves that, or to a solid.
+// The ray of this pixel, from the entry into occupied bricks to the exit, or to a solid.
 Ray eye_ray()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -102,15 +102,15 @@ Ray eye_ray()
     return ray;
 }
 
-// How far one may go from where the field is f without passing where it is `level`, m. That of a fluid which ends at a plane rises
-// as the fourth power of the way into the kernel's reach at first; half of that way is safe in hollows and between drops too. Where
-// nothing is, steps are thus half the kernel's radius: no map of what is empty is read on the way, which costs more than it saves.
+// A safe step from a position with field f that does not pass `level`, m. The field of a fluid with a plane end rises first as
+// the fourth power of the distance into the kernel's reach; half of that distance is safe in hollows and between drops too. In
+// empty space steps are thus half the kernel's radius: reading a map of empty space on the way would cost more than it saves.
 float step_from(float f, float level)
 {
     return max(step_length, far_step * (1.0 - sqrt(sqrt(f / level))));
 }
 
-// Of the field, per cell, in the eye's space: from four values at the corners of a tetrahedron.
+// The field's slope per cell, in eye space: from four values at the corners of a tetrahedron.
 vec3 slope_at(vec3 at)
 {
     const vec2 k = vec2(1.0, -1.0);

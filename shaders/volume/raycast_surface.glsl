@@ -1,7 +1,7 @@
-// The first place on a ray where the field reaches the level. Wants volume/raycast_ray.glsl.
+// The first point on a ray where the field reaches the level. Needs volume/raycast_ray.glsl.
 int steps = 0;
 
-// Between t (below the level) and `beyond`: regula falsi, with the Illinois rule against an end that stays.
+// The root between t (below the level) and `beyond`: regula falsi, with the Illinois rule against a fixed end.
 float refined(Ray ray, float t, float f, float beyond, float g)
 {
     float here = t;
@@ -17,7 +17,7 @@ float refined(Ray ray, float t, float f, float beyond, float g)
     return here;
 }
 
-// t of the surface; negative: none. A ray that starts in the fluid meets it there.
+// t of the surface; negative: none. A ray that starts in the fluid hits at its start.
 float find_surface(Ray ray)
 {
     float t = ray.begin, f = field_at(ray_at(ray, t)), per_m = 1.0 / ray.slant, before = t, below = f;
@@ -28,12 +28,12 @@ float find_surface(Ray ray)
     }
     if (f < surface_level)
         return -1.0;
-    return t > before ? refined(ray, before, below, t, f) : t; // behind the loop: a software driver runs all of each turn
+    return t > before ? refined(ray, before, below, t, f) : t; // after the loop: a software driver runs the whole body in each round
 }
 
 #ifdef WHOLE
-// As slope_at, from differences across a spacing: those of particles in rows, as they lie at rest, cancel out in them, and no dots of
-// the lattice are on a flat top.
+// As slope_at, from differences across a spacing: the patterns of particles in rows, as at rest, cancel out, and a flat top shows
+// no dots of the lattice.
 vec3 slope_across(vec3 at)
 {
     float reach = max(0.5 * particle_spacing / cell_size, 0.6); // cells
@@ -46,7 +46,7 @@ vec3 slope_across(vec3 at)
 vec3 slope_across(vec3 at) { return slope_at(at); }
 #endif
 
-// Out of the fluid, unit; towards the eye where the field is even.
+// Outward unit normal; towards the eye if the field is constant.
 vec3 normal_at(Ray ray, float t)
 {
     if (t <= ray.wall)

@@ -1,15 +1,14 @@
-// Clear water: what is behind it, bent where the ray enters and where it leaves. Wants volume/raycast_surface.glsl and
-// common/clear.glsl.
+// Clear water: the background, refracted at entry and exit. Needs volume/raycast_surface.glsl and common/clear.glsl.
 
-// As step_from, in the fluid: the field of one that ends at a plane falls to its end as it rises on the other side. Fluid that moves
-// has up to a twentieth less inside.
+// As step_from, inside the fluid: the field falls to a plane end as it rises outside. Moving fluid has up to a twentieth less
+// field inside.
 float step_within(float f)
 {
     float rest = clamp((0.95 - f) / max(0.95 - surface_level, 0.1), 0.0, 1.0);
     return max(step_length, 2.0 * far_step * (1.0 - sqrt(sqrt(rest))));
 }
 
-// t at which a ray from the surface into the fluid leaves it.
+// t where a ray from the surface into the fluid leaves the fluid.
 float find_exit(Ray ray, float end)
 {
     float t = 0.0, f = surface_level, g = f, next = step_length;
@@ -24,7 +23,7 @@ float find_exit(Ray ray, float end)
     return min(t, max(end, 0.0));
 }
 
-// Out of the fluid, unit, eye's frame: of the side wall that the ray meets where it leaves the volume; 0: it meets none.
+// Outward unit normal, eye's frame, of the side wall where the ray leaves the volume; 0: no side wall.
 vec3 side_met(Ray ray)
 {
     vec3 end = ray_ends(ray), wall = mix(wall_low, wall_high, step(vec3(0.0), ray.way)), axis = vec3(0.0);
@@ -35,7 +34,7 @@ vec3 side_met(Ray ray)
     return mat3(box_to_eye) * axis;
 }
 
-// Goes on, by sides that mirror, to where the ray leaves; the wall there, as side_met.
+// Follows reflections at side walls to the exit; returns the wall there, as side_met.
 vec3 through_mirrors(inout Ray ray, inout float t, inout float end, inout float thickness)
 {
     float slanted = mirrored_cosine();
@@ -51,8 +50,8 @@ vec3 through_mirrors(inout Ray ray, inout float t, inout float end, inout float 
 }
 
 #ifdef SOLIDS
-// Beyond the fluid: a solid that is met in the box; the copy where it shows none that stands before, for it has the box's edges; else
-// sky and floor.
+// The background beyond the fluid: a solid hit in the box; or the copy, which has the box's edges, unless a solid in front hides
+// the place; else sky and floor.
 vec3 behind_or_sky(vec3 leave, vec3 on)
 {
     vec3 way = way_in_box(leave, on) * on;
@@ -62,8 +61,8 @@ vec3 behind_or_sky(vec3 leave, vec3 on)
 }
 #endif
 
-// Snell's law where the ray enters and where it leaves; where the second surface reflects all, what it mirrors. Sets how much fluid is
-// on the way.
+// Snell's law at entry and exit; with total reflection at the exit, the reflected view. Sets the thickness to the length of
+// fluid.
 vec3 seen_through(inout Surface s)
 {
     vec3 inner = refract(s.view, s.normal, 1.0 / refraction_index);
@@ -95,8 +94,8 @@ vec3 seen_through(inout Surface s)
 }
 
 #ifdef WHOLE
-// Of a place on a wall: the surface is as far away as the field along the wall says. The line is on top of the fluid: around hollows,
-// as churned fluid is full of, it would be a scribble.
+// Line at the surface for a position on a wall: the distance to the surface follows from the field along the wall. Only on top of
+// the fluid: around the hollows of churned fluid, lines would look like scribble.
 float line_share(Ray ray, float t, vec3 normal)
 {
     vec3 at = ray_at(ray, t), slope = slope_at(at) / cell_size;

@@ -1,4 +1,4 @@
-// A solid as voxels of its distance: the first place on the ray where that falls below 0. After: J. Hart, Sphere tracing, 1996.
+// A solid as voxels of its distance: the first point on the ray with a distance below 0. After: J. Hart, Sphere tracing, 1996.
 #include "common/frame.glsl"
 #include "common/light.glsl"
 #include "common/solid_light.glsl"
@@ -13,14 +13,14 @@ layout(location = SOLID_CELL_AT) uniform float cell; // m
 layout(binding = FIELD_UNIT) uniform sampler3D distance_map;
 layout(location = 0) out vec4 color;
 
-// m; texels stand at the corners of cells, the outermost ones at the block's sides.
+// m; texels are at the corners of cells, the outermost texels at the block's sides.
 float distance_at(vec3 at)
 {
     vec3 texels = vec3(textureSize(distance_map, 0));
     return textureLod(distance_map, ((at - block_low) / cell + 0.5) / texels, 0.0).x;
 }
 
-// Between `before`, outside, where the distance is d, and `behind`, where it is e: regula falsi with the Illinois rule.
+// The root between `before`, outside, with distance d, and `behind`, with distance e: regula falsi with the Illinois rule.
 float refined(vec3 from, vec3 to, float before, float d, float behind, float e)
 {
     float here = before;
@@ -35,14 +35,14 @@ float refined(vec3 from, vec3 to, float before, float d, float behind, float e)
     return here;
 }
 
-// Depth below the eye, m; 0: the ray misses it. From inside the ray goes on to where it comes in again, as faces seen from behind
-// are not drawn of other solids either.
+// Distance along the eye's axis, m; 0: no hit. From inside, the ray continues to the next entry: back faces of other solids are
+// not drawn either.
 float find(vec3 from, vec3 to, float begin, float end)
 {
     float per_m = 1.0 / length(to), t = begin, before = t, d = distance_at(from + t * to), last = d;
     while (t < end && (d > 0.0 || last <= 0.0)) {
         before = t, last = d;
-        t = min(t + max(0.8 * abs(d), 0.25 * cell) * per_m, end); // between texels a distance is a little more than it is
+        t = min(t + max(0.8 * abs(d), 0.25 * cell) * per_m, end); // interpolated distances are slightly too large
         d = distance_at(from + t * to);
         if (t >= end && d > 0.0)
             return 0.0;

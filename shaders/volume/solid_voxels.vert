@@ -1,4 +1,4 @@
-// The sides of a solid's block of voxels, of which the far ones are drawn: each pixel of it once, wherever the eye is.
+// The sides of a solid's block of voxels. The far sides are drawn: each pixel once, for any position of the eye.
 #include "common/frame.glsl"
 #include "shaders/volume/volume_bindings.h"
 

@@ -1,5 +1,4 @@
-/* The numbers by which C hands to the shaders of volumes what only they read; those of
-   shaders/shared/bindings.h besides. */
+/* Binding numbers used only by the shaders of volumes; more in shaders/shared/bindings.h. */
 #ifndef SLOSH_VOLUME_BINDINGS_H
 #define SLOSH_VOLUME_BINDINGS_H
 
@@ -12,7 +11,7 @@
 #define FACES_COMMAND_STORAGE 5
 #define FLUID_NUMBERS_STORAGE 6
 #define BOUNDS_STORAGE        7
-/* the lists of cells, bound in this order by one call */
+/* lists of cells, bound in this order by one call */
 #define LIST_STARTS_STORAGE    8
 #define LIST_PARTICLES_STORAGE 9
 #define LIST_SCALARS_STORAGE   10
@@ -21,14 +20,14 @@
 #define FOUND_UNIT    1
 #define TRANSFER_UNIT 6
 #define PACKED_UNIT   7
-/* the volume's two, bound in this order by one call */
+/* both textures of the volume, bound in this order by one call */
 #define FIELD_UNIT        8
 #define FIELD_SCALAR_UNIT 9
 #define ENTRY_UNIT        10
 #define EXIT_UNIT         11
 #define TARGET_DEPTH_UNIT 12
 #define GREATEST_UNIT     13
-/* another volume for opacity, bound in this order by one call */
+/* a second volume for opacity, bound in this order by one call */
 #define OPACITY_FIELD_UNIT  16
 #define OPACITY_SCALAR_UNIT 17
 

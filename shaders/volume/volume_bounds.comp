@@ -1,4 +1,4 @@
-// The least and greatest coordinates of the particles that count, as numbers whose order is that of the floats.
+// The least and greatest coordinates of the particles that count, as integers ordered like the floats.
 #include "volume/volume_particle.glsl"
 #include "shaders/volume/volume_bindings.h"
 

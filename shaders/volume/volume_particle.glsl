@@ -1,11 +1,11 @@
-// A particle as voxelization needs it.
+// A particle's data for voxelization.
 #include "volume/volume.glsl"
 #include "common/particles.glsl"
 #include "common/nan.glsl"
 
 struct Bump {
     vec3 at;      // cells
-    float height; // what it adds at its centre, 0 where it counts for nothing
+    float height; // field at the centre; 0: the particle does not count
 };
 
 Bump volume_particle(uint index)
@@ -29,7 +29,7 @@ float volume_scalar(uint index)
 }
 #endif
 
-// First and last of the cells along an axis that a ball around `at` reaches.
+// First and last cell along an axis that a ball around `at` reaches.
 ivec2 cells_within(float at, float radius, int size)
 {
     return ivec2(max(int(ceil(at - radius - 0.5)), 0), min(int(floor(at + radius - 0.5)), size - 1));

@@ -1,10 +1,10 @@
-// One slice of the volume: a rectangle as wide as the grid, across an axis of the box.
+// One slice of the volume: a rectangle as wide as the grid, perpendicular to an axis of the box.
 #include "common/frame.glsl"
 #include "volume/volume.glsl"
 #include "shaders/volume/volume_bindings.h"
 
 layout(location = SLICE_AXIS_AT) uniform uint axis;
-layout(location = SLICE_PLACE_AT) uniform float place; // along the axis, m in the box's frame
+layout(location = SLICE_PLACE_AT) uniform float place; // position along the axis, m in the box's frame
 layout(location = 0) out vec3 box_point;
 
 void main()

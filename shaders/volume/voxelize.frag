@@ -1,4 +1,4 @@
-// What a particle adds to a voxel, or with PACKED to four, one above the other; blending sums up.
+// A particle's contribution to a voxel, or with PACKED to four stacked voxels; blending sums.
 #include "volume/volume.glsl"
 #include "shaders/volume/volume_bindings.h"
 

@@ -1,4 +1,4 @@
-// One point for each slice of the volume that a particle cuts, in one draw.
+// A point for each slice of the volume that a particle cuts, in one draw.
 #include "volume/volume_particle.glsl"
 #include "volume/disc.glsl"
 

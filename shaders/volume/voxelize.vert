@@ -1,11 +1,11 @@
-// A particle becomes a disc in each slice that it cuts. LAYERS: an instance a slice; PASS: the slices of one pass, SLICES of them;
-// else volume/voxelize.geom makes them of what comes out here.
+// A particle becomes a disc in each slice that it cuts. LAYERS: an instance per slice; PASS: SLICES slices per pass; else
+// volume/voxelize.geom makes the discs from this output.
 #include "volume/volume_particle.glsl"
 #include "volume/disc.glsl"
 #include "shaders/volume/volume_bindings.h"
 
 #ifdef PASS
-layout(location = PASS_SLICE_AT) uniform int pass_slice; // the first
+layout(location = PASS_SLICE_AT) uniform int pass_slice; // the first slice
 #endif
 #if !defined(PASS) && !defined(LAYERS)
 layout(location = 0) out vec4 particle_at;
@@ -24,7 +24,7 @@ void main()
 #endif
 #if defined(PASS)
     int slice = pass_slice;
-    float away = max(max(float(slice) + 0.5 - bump.at.z, bump.at.z - float(slice + SLICES) + 0.5), 0.0); // to the nearest of the slices
+    float away = max(max(float(slice) + 0.5 - bump.at.z, bump.at.z - float(slice + SLICES) + 0.5), 0.0); // distance to the nearest of the slices
     disc = SLICES == 1 ? disc_of(bump, slice) : vec4(bump.at, bump.height);
     gl_Position = disc_place(bump, bump.height > 0.0 && away < kernel_radius);
     gl_PointSize = disc_size(away);

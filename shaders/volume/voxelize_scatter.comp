@@ -1,9 +1,9 @@
-// Each invocation adds a particle's disc in one slice to the volume. Without float atomics they are made of exchanges of bits.
+// Each invocation adds a particle's disc in one slice to the volume. Without float atomics, addition uses exchanges of bits.
 #include "volume/volume_particle.glsl"
 #include "shaders/volume/volume_bindings.h"
 
 layout(local_size_x = 64) in;
-layout(location = DISCS_AT) uniform uint discs; // slices a particle may cut
+layout(location = DISCS_AT) uniform uint discs; // slices that a particle may cut
 #ifdef FLOAT_ATOMICS
 layout(binding = FIELD_IMAGE, r32f) uniform image3D field;
 #define ADD(IMAGE, CELL, VALUE) imageAtomicAdd(IMAGE, CELL, VALUE)
