@@ -95,9 +95,9 @@ typedef struct ViewDef {
     char title[VIEW_TITLE_SIZE]; /* over the picture; "": none */
     bool carries_scene;          /* PNG files contain the scene as text */
     double background[3];        /* linear RGB 0..1, at the horizon */
-    int quality;                 /* linear RGB 0..1, at the horizon */
-    int drawn_quality;           /* a ViewQuality: changes keys with default values, see view_at_quality */
-    double resolution;           /* not a key: chosen for this picture by view_at_quality; VIEW_AUTO before */
+    int quality;                 /* a ViewQuality: changes keys with default values, see view_at_quality */
+    int drawn_quality;           /* not a key: chosen for this picture by view_at_quality; VIEW_AUTO before */
+    double resolution;           /* pixels drawn per pixel shown, along each axis; more than 0, at most 1 */
 
     /* own settings of each overlay, in the order of the list */
     ViewOwn of_overlay[OVERLAY_KINDS_MAX];

@@ -26,7 +26,7 @@ void fluid_tiles_destroy(FluidTiles *tiles);
 /* Makes the buffers again for a new target: then all tiles are marked. */
 void fluid_tiles_follow(FluidTiles *tiles, const Target *target);
 
-/* Lists the marked tiles (shaders/splat/tiles.glsl); `all`: all tiles in the box's bounds. */
+/* Lists the marked tiles (shaders/splat/tiles_list.comp); `all`: all tiles in the box's bounds. */
 void fluid_tiles_list(const FluidTiles *tiles, const Frame *frame, bool all);
 
 /* Draws the listed tiles, each pixel once, at depth 0, with the current program. The program's vertex

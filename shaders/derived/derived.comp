@@ -17,6 +17,7 @@ layout(location = FRAME_TURN_AT) uniform vec3 frame_turn;         // angular vel
 
 #ifdef MEETS
 layout(location = SLOWEST_AT) uniform float slowest; // m/s: slower particles need no sums
+// Fluid fractions of the kernel where no trapped air counts, and where all of it counts. Walls of the box, m; far away: none
 layout(location = AIR_FROM_AT) uniform float air_from;
 layout(location = AIR_ALL_AT) uniform float air_all;
 layout(location = WALLED_LOW_AT) uniform vec3 walled_low;

@@ -98,7 +98,7 @@ vec3 through(inout Surface s)
     float solid = met_on(s.place, tank.first * inner);
     tank.size = solid < 1.0 ? solid * tank.first : tank.size;
     tank.end = solid < 1.0 ? s.place + tank.size * inner : tank.end;
-    mirrored = solid < 1.0 ? 0.0 : stands_before(tank.end) ? filled : mirrored; // a solid in front hides nothing inside the tank
+    mirrored = solid < 1.0 ? 0.0 : stands_before(tank.end) ? filled : mirrored; // a solid in front of the exit is not visible there
 #endif
     s.thickness = mix(s.thickness, tank.size, filled);
     end = mix(end, tank.end, filled - mirrored);
