@@ -125,7 +125,7 @@ Scalar view_color_by(const ViewDef *def);
 /* The name of the colormap in use. */
 const char *view_colormap(const ViewDef *def);
 
-/* The quality that auto stands for; never VIEW_AUTO. `moving`: in a window. */
+/* The def's quality, with auto resolved; never VIEW_AUTO. `moving`: in a window. */
 ViewQuality view_quality(const ViewDef *def, bool moving);
 
 /* The def as drawn: at a quality other than good, the view changes own keys and the resolution, where at

@@ -1,6 +1,6 @@
-// One point a particle: the same as spheres.vert for spheres that are wholly before the eye, centres in view. With centre c,
-// w = -c.z, radius r, q = w^2 - r^2, Q = c.c - r^2 the sphere is on the screen an ellipse with half axes r sqrt(Q) / q away
-// from the picture's middle and r / sqrt(q) across; with the place (x, y) in it in units of these, its reversed depth is
+// One point per particle: as spheres.vert, for spheres wholly in front of the eye with centres in view. With centre c, w = -c.z,
+// radius r, q = w^2 - r^2, Q = c.c - r^2, the sphere is an ellipse on the screen with half axes r sqrt(Q) / q away from the
+// picture's middle and r / sqrt(q) across. With the position (x, y) in the ellipse in units of these, the reversed depth is
 //   near / q (w + r / sqrt(Q) (|c.xy| x + sqrt(q) sqrt(1 - x^2 - y^2))).
 #include "common/frame.glsl"
 #include "common/particles.glsl"
