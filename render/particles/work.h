@@ -12,7 +12,7 @@ void work_buffer_remake(unsigned *buffer, size_t size, const char *label);
 bool work_buffer_ask(unsigned *buffer, size_t size, const char *label);
 
 /* The new capacity of buffers that have room for `capacity` (0: no buffer yet) and need `count`, which is
-   larger: at least half as much again, so that pouring in particles does not remake buffers for each
+   larger. At least half as much again, so that pouring in particles does not remake buffers for each
    picture. */
 size_t work_capacity(size_t capacity, size_t count);
 

@@ -3,11 +3,11 @@
 
    By discs: samples in a pixel are tested against the discs of the foremost spheres around; pass 2 stores
    the discs' positions in the alphas of its maps. Exact, except for spheres that fall between samples. By
-   rows, for surfaces that are not spheres: along each row of pixel sides that are edges, the row's ends
-   show the slope of the true outline, taken as straight from half a pixel beside an end to the row's
-   middle. A pixel then gives the part beyond the outline to the neighbour across the edge. After:
-   Reshetov, Morphological antialiasing, HPG 2009, and Jimenez et al., SMAA: enhanced subpixel
-   morphological antialiasing, CGF 31 (2), 2012. */
+   rows, for surfaces that are not spheres: the ends of each row of edge pixel sides show the slope of the
+   true outline. The outline is taken as straight from half a pixel beside an end to the row's middle. A
+   pixel then gives the part beyond the outline to the neighbour across the edge. After: Reshetov,
+   Morphological antialiasing, HPG 2009, and Jimenez et al., SMAA: enhanced subpixel morphological
+   antialiasing, CGF 31 (2), 2012. */
 #ifndef SLOSH_SILHOUETTE_H
 #define SLOSH_SILHOUETTE_H
 

@@ -1,5 +1,5 @@
-// Spreads a point's light over nearby texels by a cubic B-spline: the shares add up to 1 for any position of the point, so the
-// total light is kept, and points a texel apart give even light.
+// Spreads a point's light over nearby texels by a cubic B-spline. The shares add up to 1 for any position of the point, so the
+// total light is kept; points a texel apart give even light.
 layout(location = 0) flat in vec2 centre;
 layout(location = 0) out float light;
 

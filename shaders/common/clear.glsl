@@ -30,7 +30,7 @@ vec3 reflected(Surface s, vec3 mirror)
 
 // The cosine to a wall's normal below which the sides of a tank in air reflect rays from inside. Through the top or the next
 // side, a side thus shows the tank's floor, and water looks as deep at its edges as elsewhere. The tank's floor on the ground
-// reflects nothing. The index used is half as far again above 1 as the fluid's: with the index of water, rays that entered
+// reflects nothing. The index used is half as far again above 1 as the fluid's. With the index of water, rays that entered
 // through a flat top within some 30 degrees of the wall would leave and end in a fog.
 float mirrored_cosine()
 {

@@ -2,8 +2,8 @@
 // particle-based fluids using anisotropic kernels, ACM Trans. Graph. 32, 2013, section 4. The paper decomposes the covariance and
 // limits eigenvalues from below to a quarter of the largest. Here a fraction of the trace is added to each eigenvalue: bounds the
 // ratio too, has no kink where eigenvalues cross, and needs no eigenvectors. The axes have the ratio of the result; their product
-// equals the sphere's. Walls of the box mirror: images of neighbours behind the walls count as neighbours, so that a surface is
-// as flat beside a wall as elsewhere, and meets the wall at the right place.
+// equals the sphere's. Walls of the box mirror: images of neighbours behind the walls count as neighbours. Thus a surface is as
+// flat beside a wall as elsewhere, and meets the wall at the right place.
 #include "common/frame.glsl"
 #include "common/neighbourhood.glsl"
 #include "splat/crowd.glsl"

@@ -24,7 +24,7 @@ layout(location = 2) out float weight_sum;
 const float least_weight = 1e-4;
 
 // True if the previous pass found exactly this depth. A driver that rounds differently there has errors of up to 1e-3 of a radius
-// at the rim, where the root is steep, and a radius is mostly below 1e-2 of the depth: `slack` 1e-5 loses no pixel. Vectors to
+// at the rim, where the root is steep. A radius is mostly below 1e-2 of the depth: `slack` 1e-5 loses no pixel. Vectors to
 // outlines need less slack, since the vectors of all spheres in the slack add up.
 bool foremost(Splat hit, float nearest, float slack)
 {
