@@ -52,11 +52,11 @@ bool average_begin(Average *average, const Frame *frame, const AverageLook looks
    band. */
 bool average_band(Average *average, int number);
 
-/* Buffer of set `number`, 0 .. room - 1, for projecting on the CPU; the caller clears the buffer. Waits
-   for the GPU's reading. */
+/* Buffer of set `number`, 0 .. room - 1, for projecting on the CPU; the caller clears the buffer. */
 SetImage average_image(const Average *average, int number);
 
-/* Adds `sets` sets of the buffer to the sums; the sets count after the last band. */
+/* Adds `sets` sets of the buffer to the sums; the sets count after the last band. If the CPU projects,
+   waits until the GPU has read the buffer. */
 void average_add(Average *average, int sets, const Frame *frame);
 
 /* Draw the mean over the target: first the part behind overlays and edges, then the part in front, with
