@@ -1,25 +1,25 @@
-/* Binding numbers used only by the shaders of splats; more in shaders/shared/bindings.h. */
+/* Binding numbers used only by the shaders of splats; see also shaders/shared/bindings.h. */
 #ifndef SLOSH_SPLAT_BINDINGS_H
 #define SLOSH_SPLAT_BINDINGS_H
 
 /* Storage buffers of culling; the shapes of particles have 9 */
 #define CULL_MAP_STORAGE  4
 #define CULL_KEPT_STORAGE 6
-/* both lists, bound in this order by one call */
+/* two lists, bound in order by a single call */
 #define NEAREST_LIST_STORAGE  7
 #define BLEND_LIST_STORAGE    8
 #define CULL_COMMANDS_STORAGE 10
 
-/* tiles; culling sets the marks, and leaves their number free */
+/* tiles; the marks have a number unused by culling, which sets the marks */
 #define TILE_RECTS_STORAGE   4
 #define TILE_MARKS_STORAGE   5
 #define TILE_COMMAND_STORAGE 6
 
-/* Tiles: side in pixels; margin in pixels that full-screen passes read around their own pixels */
+/* Tiles: side in pixels; margin in pixels read around a full-screen pass's own pixels */
 #define TILE        16
 #define TILE_MARGIN 2
 
-/* Texture units. The pass of outlines binds 1 to 7 by one call. */
+/* Texture units; the pass of outlines binds 1 to 7 by a single call */
 #define NEAREST_UNIT      1
 #define TARGET_DEPTH_UNIT 2
 #define PICTURE_UNIT      3
@@ -30,7 +30,7 @@
 #define LIMIT_UNIT        8
 #define CULL_ROWS_UNIT    9
 #define THICKNESS_UNIT    10
-/* a level above zero; value and slope are bound by one call */
+/* a level above zero; value and slope are bound by a single call */
 #define MARCH_UNIT 11
 #define VALUE_UNIT 12
 #define SLOPE_UNIT 13

@@ -11,7 +11,7 @@
 #define FACES_COMMAND_STORAGE 5
 #define FLUID_NUMBERS_STORAGE 6
 #define BOUNDS_STORAGE        7
-/* lists of cells, bound in this order by one call */
+/* lists of cells, bound in order by a single call */
 #define LIST_STARTS_STORAGE    8
 #define LIST_PARTICLES_STORAGE 9
 #define LIST_SCALARS_STORAGE   10
@@ -20,14 +20,14 @@
 #define FOUND_UNIT    1
 #define TRANSFER_UNIT 6
 #define PACKED_UNIT   7
-/* both textures of the volume, bound in this order by one call */
+/* textures of the volume, bound in order by a single call */
 #define FIELD_UNIT        8
 #define FIELD_SCALAR_UNIT 9
 #define ENTRY_UNIT        10
 #define EXIT_UNIT         11
 #define TARGET_DEPTH_UNIT 12
 #define GREATEST_UNIT     13
-/* a second volume for opacity, bound in this order by one call */
+/* a second volume for opacity, bound in order by a single call */
 #define OPACITY_FIELD_UNIT  16
 #define OPACITY_SCALAR_UNIT 17
 
