@@ -38,8 +38,9 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *def, const WorldDef *wo
 bool renderer_resize(Renderer *renderer, int width, int height, Error *error);
 
 /* First step of drawing: adds to a state the derived data that the picture reads, and automatic ranges
-   (waits for the GPU, unless renderer_set_late). The data is valid until this renderer's next call. Data
-   already present stays: callers can write one range into several renderers' states. */
+   (waits for the GPU, unless renderer_set_late). The data is valid until this renderer's next
+   renderer_derive. Data already present stays: callers can write one range into several renderers'
+   states. */
 void renderer_derive(Renderer *renderer, ParticleBuffers *particles);
 
 /* Draws one state into the renderer's own target; stages are measured by `timer` (NULL: not measured).

@@ -132,7 +132,7 @@ typedef struct ViewKind {
     bool (*dear)(const ViewDef *def);
     double radius;                /* particle radius in spacings if ViewDef.radius is 0 */
     unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: the def's curves that the view draws */
-    const KeyOwner *curves_where; /* owner of the condition for drawing the curves; NULL: always drawn */
+    const KeyOwner *curves_where; /* draw curves only if this owner is in use; NULL: always */
     /* Changes the radii, which are preset to the radii of balls; NULL: particles are balls. */
     void (*radii)(const ViewDef *def, const ParticleBuffers *particles, ParticleRadii *radii);
     /* The drawn shapes of particles if a GPU needs more memory for these than for balls; NULL: balls. */

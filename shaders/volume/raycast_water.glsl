@@ -1,7 +1,7 @@
 // Clear water: the background, refracted at entry and exit. Needs volume/raycast_surface.glsl and common/clear.glsl.
 
-// As step_from, inside the fluid: the field falls to a plane end as it rises outside. Moving fluid has up to a twentieth less
-// field inside.
+// As step_from, inside the fluid: towards a plane end, the field falls just as it rises outside. Moving fluid has up to a
+// twentieth less field inside.
 float step_within(float f)
 {
     float rest = clamp((0.95 - f) / max(0.95 - surface_level, 0.1), 0.0, 1.0);
