@@ -1,6 +1,6 @@
 /* All that `render` sees of a simulation: one state, in GL buffers. Whoever made the buffers owns them
-   (render/particles/upload for the CPU backend, the GPU backends for their own); they stay as they are until that
-   owner's next state. */
+   (render/particles/upload for the CPU backend, the GPU backends for their own); they stay as they are until
+   that owner's next state. */
 #ifndef SLOSH_PARTICLE_BUFFERS_H
 #define SLOSH_PARTICLE_BUFFERS_H
 
