@@ -1,4 +1,4 @@
-/* The end of all ranks, and memory that has to be there. */
+/* Ends all ranks on an error; memory or the end. */
 #include "sim/dist/dist.h"
 
 #include <stdarg.h>

@@ -1,8 +1,9 @@
-/* Who has which cells.
+/* Ownership of the cells.
 
-   Zoltan bisects the cells that have particles, RCB, and keeps its cuts, by which every cell finds its owner,
-   empty ones too. Coordinates are those of the cell with a part of the others, so that no two cells have the
-   same one: a cut may run within a layer of cells, and shares differ by a cell and not by a layer. */
+   Zoltan bisects the cells that have particles (RCB) and keeps the cuts. The cuts give every cell an owner,
+   also empty cells. The coordinate of a cell along an axis has a small part of the other two coordinates,
+   so that no two cells share a coordinate. So a cut may run within a layer of cells, and shares differ by a
+   cell and not by a layer. */
 #include "sim/dist/dist_state.h"
 
 #include <stdlib.h>
@@ -65,7 +66,7 @@ static void coordinates(const CellGrid *cells, uint32_t cell, double x[3])
     }
 }
 
-/* ---- what Zoltan asks ---- */
+/* ---- Zoltan's callbacks ---- */
 
 static int object_count(void *data, int *code)
 {
@@ -124,8 +125,8 @@ static void set_up(Dist *dist)
     Zoltan_Set_Geom_Multi_Fn(dist->zoltan, geometry, dist);
 }
 
-/* What boundary particles have of the fluid around them is made here for those next to the fluid here: so
-   the fluid around these has to be here too. */
+/* Two layers with solids: a rank also computes the boundary particles next to its own fluid, from the fluid
+   around these particles. So their surrounding fluid must be present. */
 static int layers(const Constants *constants)
 {
     return constants->boundary.count > 0 ? 2 : 1;
@@ -170,9 +171,9 @@ void dist_end(Dist *dist)
     free(dist);
 }
 
-/* ---- who sees which cell ---- */
+/* ---- visibility of cells ---- */
 
-/* The place along an axis, across a periodic side; -1: behind a wall. */
+/* The cell's index along an axis, wrapped over a periodic side; -1 beyond a wall. */
 static int along(const Constants *s, int axis, int at)
 {
     const int cells = s->cells.size[axis] - 2;
@@ -181,7 +182,7 @@ static int along(const Constants *s, int axis, int at)
     return s->periodic.axis[axis] ? (at - 1 + 2 * cells) % cells + 1 : -1;
 }
 
-/* The cells around one, at most ROUND_MOST, itself among them. */
+/* The cells around `cell`, including `cell`: at most ROUND_MOST. */
 static int around(const Dist *dist, uint32_t cell, uint32_t out[ROUND_MOST])
 {
     const Constants *s = dist->constants;
@@ -220,7 +221,7 @@ static void *grown(void *memory, size_t count, size_t *room, size_t size)
     return memory;
 }
 
-/* Other owners of cells around one of this rank's, each once. */
+/* Lists the foreign ranks that own a cell around the own cell `cell`, each rank once. */
 static void look_around(Dist *dist, uint32_t cell)
 {
     uint32_t near[ROUND_MOST];
@@ -262,7 +263,7 @@ static void find_owners(Dist *dist)
     }
 }
 
-/* Zoltan seeks for ever in the cuts of nothing. */
+/* Zoltan never returns from a search in the cuts of nothing. */
 static bool any_objects(const Dist *dist)
 {
     int most = dist->objects.count;

@@ -1,10 +1,10 @@
-/* Who has which particles where several processes (ranks) share a world, and how they hear of each other:
-   Zoltan's recursive bisection of the cells, its communication plans for what moves. Six operations.
+/* Distribution of the particles over several processes (ranks) that share a world. Zoltan's recursive
+   bisection shares out the cells; Zoltan's communication plans move the data. Six operations.
 
-   A cell of the grid belongs to one rank. A rank has its own particles and, as ghosts, those of all cells
-   next to its own ones: so it finds for its own particles what one process would find, in the same order. All
-   functions are collective: each rank calls them in the same order. One rank that fails says why and ends all
-   (dist_die). */
+   A cell of the grid belongs to one rank. A rank has its own particles and, as ghosts, all particles of the
+   cells next to its own cells. So each rank finds for its own particles what one process would find, in the
+   same order. All functions are collective: each rank calls them in the same order. A rank that fails
+   prints the reason and ends all ranks (dist_die). */
 #ifndef SLOSH_DIST_H
 #define SLOSH_DIST_H
 
@@ -14,59 +14,58 @@
 
 typedef struct Dist Dist;
 
-/* Behind MPI_Init. The cells of `constants`, which outlive it, belong to nobody yet: dist_balance must
- * follow. */
+/* Call after MPI_Init. `constants` must outlive the Dist. No rank owns a cell yet: call dist_balance next. */
 Dist *dist_init(const Constants *constants);
 
-/* Shares the cells anew. `weight`: of each cell of the grid, what its particles cost, 0 for nothing; read
-   where the cell is the rank's own, or with `known` the same on all ranks. They stay as they are where all
-   are 0, which the first time they may not be. */
+/* Shares the cells out again. `weight`: cost of the particles of each grid cell, 0 for an empty cell. A
+   rank reads the weights of its own cells only; with `known` the weights are the same on all ranks. The
+   shares stay if all weights are 0, which the first call does not allow. */
 void dist_balance(Dist *dist, const double *weight, bool known);
 
-/* Behind cpu_cells: particles that stand in cells of others go there. There are no ghosts before. */
+/* Sends particles in foreign cells to the owners of those cells. Call after cpu_cells and without ghosts. */
 void dist_migrate(Dist *dist, Cpu *cpu);
 
-/* Brings the ghosts, with their cells, for cpu_sort. Of ghosts places, ids and fluids are there, and nothing
- * else. */
+/* Brings the ghosts, with cells, for cpu_sort. A ghost has a position, an id and a fluid; the rest is 0. */
 void dist_halo(Dist *dist, Cpu *cpu);
 
-/* Behind cpu_sort, which put the ghosts and those that others see in other places. */
+/* Call after cpu_sort: updates the indices of the ghosts and of the particles sent as ghosts. */
 void dist_follow(Dist *dist, Cpu *cpu);
 
-/* Ghosts get what their owners have now: of the rows of cpu->all whose bits are wanted; with `motion`
-   Cpu.motion too. */
+/* Copies the owners' current values to the ghosts: the rows of cpu->all whose bits are set in `wanted`;
+   with `motion` also Cpu.motion. */
 void dist_update(Dist *dist, Cpu *cpu, uint64_t wanted, bool motion);
 
 void dist_end(Dist *dist); /* NULL is allowed */
 
-/* ---- what is asked of it ---- */
+/* ---- queries ---- */
 
 int dist_rank(const Dist *dist);
 int dist_size(const Dist *dist);
 
-/* Whose cell it is. */
+/* The rank that owns the cell. */
 int dist_owner(const Dist *dist, uint32_t cell);
 
-/* As Cpu.foreign has it; NULL where there is one rank. */
+/* As Cpu.foreign; NULL with a single rank. */
 const uint8_t *dist_foreign(const Dist *dist);
 
-/* Takes the ghosts out; the grid is then none. */
+/* Removes the ghosts; the grid is invalid afterwards. */
 void dist_drop(Dist *dist, Cpu *cpu);
 
-/* Ghosts at hand. */
+/* Number of ghosts present. */
 size_t dist_ghosts(const Dist *dist);
 
-/* What this rank sent to others since the last call: movers, ghosts and their values. What plans and sums
-   over all ranks take is not in it. */
+/* Data sent by the rank since the last call: moved particles, ghosts and ghost values. Messages of plans
+   and of sums over all ranks are not counted. */
 typedef struct DistSent {
     size_t bytes, messages;
 } DistSent;
 DistSent dist_sent(Dist *dist);
 
-/* Says "slosh-dist: rank N: ..." on standard error and ends all ranks. */
+/* Prints "slosh-dist: rank N: ..." on standard error and ends all ranks. */
 _Noreturn void dist_die(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* Memory for count * size bytes or more at *memory, of which *room has count; what was there is lost. */
+/* Makes *memory hold at least `bytes` bytes; *room is the current size in bytes. Old contents are lost.
+   Ends all ranks if memory is short. */
 void dist_reserve(void *memory, size_t *room, size_t bytes);
 
 #endif

@@ -1,11 +1,11 @@
-/* What goes from rank to rank, by Zoltan's communication plans: particles that move, ghosts, their values. */
+/* Exchange between ranks by Zoltan's communication plans: moved particles, ghosts, ghost values. */
 #include "sim/dist/dist_state.h"
 
 #include <string.h>
 
 enum { TAG_PARTICLES = 4711, TAG_GHOSTS, TAG_VALUES };
 
-/* Of a ghost, before the grid. */
+/* A ghost as sent, before the grid. */
 typedef struct Ghost {
     float x[3];
     uint32_t fluid;
@@ -13,7 +13,8 @@ typedef struct Ghost {
     uint32_t cell;
 } Ghost;
 
-/* Cells are known of those that are there. */
+/* Makes room for `count` particles. cpu_cells finds the cells of the present particles again after the
+   arrays grew. */
 static void reserve_particles(Cpu *cpu, size_t count)
 {
     if (count <= cpu->capacity)
@@ -23,7 +24,7 @@ static void reserve_particles(Cpu *cpu, size_t count)
     cpu_cells(cpu);
 }
 
-/* The last particle takes the place of each ghost; that one may be a ghost too. */
+/* Moves the last particle into the slot of each ghost; the last particle may be a ghost too. */
 void dist_drop(Dist *dist, Cpu *cpu)
 {
     if (!dist->plan)
@@ -43,7 +44,7 @@ void dist_drop(Dist *dist, Cpu *cpu)
     dist->ghost_count = dist->send_count = 0;
 }
 
-/* ---- particles that move ---- */
+/* ---- moved particles ---- */
 
 static size_t record_size(const ColumnRows *rows)
 {
@@ -53,7 +54,7 @@ static size_t record_size(const ColumnRows *rows)
     return size;
 }
 
-/* All of these rows of particle i, one behind the other. */
+/* Packs the rows of particle i in sequence. */
 static void pack_one(Cpu *cpu, const ColumnRows *rows, size_t i, char *to)
 {
     for (int r = 0; r < rows->count; r++)
@@ -76,7 +77,7 @@ static void unpack_one(Cpu *cpu, const ColumnRows *rows, size_t i, const char *f
         }
 }
 
-/* A plan for `count` records to dist->to; how many come. */
+/* A plan to send `count` records to the ranks dist->to; *come: number of records to receive. */
 static ZOLTAN_COMM_OBJ *make_plan(Dist *dist, size_t count, int tag, int *come)
 {
     ZOLTAN_COMM_OBJ *plan = NULL;
@@ -84,7 +85,7 @@ static ZOLTAN_COMM_OBJ *make_plan(Dist *dist, size_t count, int tag, int *come)
     return plan;
 }
 
-/* `count` records of dist->out go, others come to dist->in. */
+/* Sends `count` records from dist->out, receives records into dist->in. */
 static void carry(Dist *dist, ZOLTAN_COMM_OBJ *plan, int tag, size_t count, size_t size, const char *what)
 {
     int messages = 0;
@@ -96,7 +97,8 @@ static void carry(Dist *dist, ZOLTAN_COMM_OBJ *plan, int tag, size_t count, size
     dist->sent.messages += (size_t)messages;
 }
 
-/* Takes those that leave out of the arrays, the last first, into dist->out. */
+/* Moves leaving particles from the arrays to dist->out, the last first. Returns the number of leaving
+   particles. */
 static size_t take_leavers(Dist *dist, Cpu *cpu, size_t size)
 {
     const size_t count = dist_pick(dist, cpu, dist->foreign);
@@ -142,7 +144,7 @@ static const Seen *who_sees(const Dist *dist, const Cpu *cpu, size_t i)
     return &dist->sets[dist->border[cpu->spare_cell[i]]];
 }
 
-/* Those that others see: where they stand, whom they go to, and what goes. */
+/* Prepare the ghost particles to send: pick the particles, find the receiving ranks, pack. */
 static void send_ghosts(Dist *dist, Cpu *cpu)
 {
     const CpuParticles *p = &cpu->now;
@@ -198,7 +200,7 @@ void dist_halo(Dist *dist, Cpu *cpu)
     append_ghosts(dist, cpu);
 }
 
-/* Behind the grid; a cell has few places. */
+/* The new index of particle `before` after the grid. A cell has few particles to search. */
 static uint32_t place_now(const Cpu *cpu, uint32_t before)
 {
     uint32_t place =
@@ -216,9 +218,10 @@ void dist_follow(Dist *dist, Cpu *cpu)
         dist->ghost_at[k] = place_now(cpu, dist->ghost_at[k]);
 }
 
-/* ---- their values ---- */
+/* ---- values of ghosts ---- */
 
-/* One array's entries of `size` bytes, between particles and records of `record` bytes, from `offset` on. */
+/* Copies entries of `size` bytes between one array and records of `record` bytes. `out` or `in` points at
+   the entry in the first record. */
 static void pack(const char *array, size_t size, const uint32_t *at, size_t count, size_t record, char *out)
 {
     for (size_t k = 0; k < count; k++)

@@ -1,4 +1,4 @@
-/* The few among a rank's particles that others hear of. */
+/* Picks the few particles of a rank to send. */
 #include "sim/dist/dist_state.h"
 
 #include <string.h>
@@ -8,7 +8,7 @@ enum { PICK_GRAIN = 4 * CPU_GRAIN };
 typedef struct Pick {
     const Cpu *cpu;
     const uint8_t *marked;
-    uint32_t *found, *count; /* those of a range from its begin on; how many, of each range */
+    uint32_t *found, *count; /* indices, from the begin of each range; number per range */
 } Pick;
 
 static void pick_range(void *context, size_t begin, size_t end)

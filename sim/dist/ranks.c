@@ -31,7 +31,7 @@ void ranks_cells(uint32_t *cell)
         cell[k] = told->cpu->cell[cpu_owned(told->cpu, k)];
 }
 
-/* Within what a rank computes, but no part of it. */
+/* Runs within computing time, but counts as waiting and exchange only. */
 static void sum_all(ExactSum *sums, int count)
 {
     const Clock begin = clock_now();
@@ -58,7 +58,7 @@ static void ranks_destroy(void *state)
     free(ranks);
 }
 
-/* Those of an initial state whose cells are the rank's own. */
+/* Particles of an initial state in the rank's own cells. */
 typedef struct Share {
     InitialState initial;
     float *position, *velocity, *density, *pressure;

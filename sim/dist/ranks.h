@@ -1,5 +1,6 @@
-/* The backend cpu on MPI ranks: each rank makes the same world and calls the same functions of it, and its
-   backend has a share of the particles. To the bit what backend cpu does, whatever the ranks and threads. */
+/* The backend cpu on MPI ranks: each rank makes the same world and calls the same world functions; the
+   backend of each rank has a share of the particles. Results equal backend cpu to the bit, for any number
+   of ranks and threads. */
 #ifndef SLOSH_RANKS_H
 #define SLOSH_RANKS_H
 
@@ -7,34 +8,36 @@
 
 struct Backend; /* sim/world/backend.h */
 
-/* Its name in a def; slosh-dist puts it in the place of "cpu". backend_add it first. Reads of the
-   particles (world_read) give each rank its own, ranks_owned of them. */
+/* Backend name in a def; slosh-dist sets it instead of "cpu". Call backend_add first. world_read gives each
+   rank its own particles, ranks_owned of them. */
 #define RANKS_BACKEND "ranks"
 extern const struct Backend backend_ranks;
 
-/* What the ranks of this process' world did since the last call. */
+/* Work of the process's rank since the last call. */
 typedef struct RanksFigures {
-    double compute, exchange, balance, wait; /* s: passes; what ghosts and movers take; shares; for others */
+    double compute, exchange, balance, wait; /* s: passes; ghosts and moved particles; sharing; waiting for
+                                                slower ranks */
     size_t owned, ghosts;                    /* particles now */
-    size_t bytes;                            /* memory of the particles' state, ghosts included */
-    size_t sent, messages;                   /* bytes to others; see dist_sent */
-    int balances;                            /* how often cells changed hands */
+    size_t bytes;                            /* memory of the particle state, including ghosts */
+    size_t sent, messages;                   /* bytes and messages sent; see dist_sent */
+    int balances;                            /* number of times cells changed owners */
 } RanksFigures;
 
-/* Of the last world that was made; this rank's own. Not collective. */
+/* Figures of the rank, for the last world made. Not collective. */
 void ranks_figures(RanksFigures *figures);
 
-/* Particles that this rank owns in the last world that was made. */
+/* Number of own particles of the rank in the last world made. */
 size_t ranks_owned(void);
 
-/* The cell of each of them, in the order in which world_read gives them. In one process they stand by their
-   cells, and by their ids in each. Of a world that has a grid. */
+/* Writes the cell of each own particle, in the order of world_read. One process orders particles by cell,
+   and by id in a cell. The world must have a grid. */
 void ranks_cells(uint32_t *cell);
 
-/* A state that the first rank has becomes that of all: of the def's worlds. Collective. */
+/* Copies the first rank's state to all ranks; `def`: the world's def. Collective. */
 void ranks_spread(WorldState *state, const WorldDef *def);
 
-/* Whether shares follow the time that ranks take (the default), or stay as they began. Before the world. */
+/* True (the default): shares follow the ranks' times. False: the first shares stay. Call before the world
+   is made. */
 void ranks_balance(bool on);
 
 #endif

@@ -1,4 +1,4 @@
-/* How long a rank computes, exchanges and waits. */
+/* Times of a rank: computing, exchange, waiting. */
 #include "sim/dist/ranks_state.h"
 
 #include <time.h>

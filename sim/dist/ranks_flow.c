@@ -1,15 +1,15 @@
-/* Particles that come and go. */
+/* Emitters and drains on ranks. */
 #include "sim/dist/ranks_state.h"
 #include "sim/dist/reduce.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether none of those that came since the grid, on any rank, is near. */
+/* True if no particle emitted since the grid, on any rank, is near x. */
 static bool clear_of_others(const Ranks *ranks, const float x[3])
 {
     const Constants *s = ranks->cpu->constants;
-    const float least = 0.9f * s->spacing; /* as sim/cpu/flow.c has it */
+    const float least = 0.9f * s->spacing; /* same value as in sim/cpu/flow.c */
     for (size_t k = 0; k < ranks->came_count; k++) {
         const float *other = ranks->came + 3 * k;
         float d[3] = {x[0] - other[0], x[1] - other[1], x[2] - other[2]};
@@ -20,7 +20,7 @@ static bool clear_of_others(const Ranks *ranks, const float x[3])
     return true;
 }
 
-/* Who came on another rank since the grid. */
+/* Records a position where a foreign rank emitted a particle since the grid. */
 static void note(Ranks *ranks, const float x[3])
 {
     if (ranks->came_count == ranks->came_room) {
@@ -32,7 +32,8 @@ static void note(Ranks *ranks, const float x[3])
     memcpy(ranks->came + 3 * ranks->came_count++, x, 3 * sizeof *x);
 }
 
-/* On each rank, where one of them has none: then with another grid, since that is lost. */
+/* If a rank lacks room, grows the arrays on all ranks and builds the grid again, because growing loses the
+   grid. */
 static void room_to_emit(Ranks *ranks, size_t count)
 {
     Cpu *cpu = ranks->cpu;
@@ -46,8 +47,8 @@ static void room_to_emit(Ranks *ranks, size_t count)
     ranks_grid(ranks);
 }
 
-/* Who owns the cell of a place says whether there is room. Places of one layer are a spacing apart: they do
-   not ask each other. */
+/* The owner of a position's cell decides if there is room. Positions of a layer are a spacing apart and
+   need no check among themselves. */
 size_t ranks_emit(void *state, const EmitLayer *layer, size_t most)
 {
     Ranks *ranks = state;

@@ -1,4 +1,4 @@
-/* States that are read and kept by each rank, saved by all, and gone back to. */
+/* States: read and marked by each rank alone, saved and loaded by all ranks together. */
 #include "sim/dist/ranks_state.h"
 #include "sim/dist/reduce.h"
 
@@ -31,7 +31,7 @@ bool ranks_save(void *state, const ParticleColumns *to)
     return true;
 }
 
-/* ---- going back and going on ---- */
+/* ---- load, mark and back ---- */
 
 static void start_with(Ranks *ranks, size_t count, size_t guarded)
 {
@@ -46,7 +46,7 @@ static void start_with(Ranks *ranks, size_t count, size_t guarded)
     ranks->fresh = 0;
 }
 
-/* No ghosts, and room for so many particles of its own. */
+/* Drops the ghosts and makes room for `count` own particles. */
 static void make_room(Ranks *ranks, size_t count)
 {
     Cpu *cpu = ranks->cpu;

@@ -1,10 +1,10 @@
-/* Whose cells are whose, at first and as the fluid moves. */
+/* Shares of the cells: at the start and as the fluid moves. */
 #include "sim/dist/ranks_state.h"
 #include "sim/dist/reduce.h"
 
-/* Shares are made anew where the slowest rank takes so many times the mean, and the time so lost since they
-   were made last is more than what making them takes: particles that change hands cost about as much again.
- */
+/* Cells are shared out again if the slowest rank takes more than UNEVEN times the mean time, and the time
+   lost since the last sharing exceeds TAKES times the cost of sharing: moved particles cost about as much
+   again. */
 static const double UNEVEN = 1.05, TAKES = 2;
 
 static bool balances = true;
@@ -30,7 +30,8 @@ void share_first(Ranks *ranks, const Constants *constants, const InitialState *i
     ranks->took = clock_now().cpu - begin.cpu;
 }
 
-/* Behind cpu_cells, what its cells cost: particles, each as much as the rank's took in a step. */
+/* Call after cpu_cells. Weight of each own cell: its particles, each at the rank's mean time per particle
+   and step. */
 static void weigh(Ranks *ranks)
 {
     const Cpu *cpu = ranks->cpu;
@@ -60,8 +61,8 @@ void share_anew(Ranks *ranks)
 
 void look_at_shares(Ranks *ranks)
 {
-    /* Who waits for nobody takes the least: a rank that came late, or shares its core, makes no shares dear.
-     */
+    /* The least time of all ranks is the cost of sharing: a late rank or a rank on a shared core waits and
+       would raise the cost. */
     double most[2] = {ranks->cpu_time, -ranks->took}, mean = ranks->cpu_time;
     if (!balances || dist_size(ranks->dist) == 1)
         return;

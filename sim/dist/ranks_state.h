@@ -1,4 +1,4 @@
-/* The backend of ranks inside: what its files share. */
+/* Internals of the backend of ranks, for the ranks_*.c files. */
 #ifndef SLOSH_RANKS_STATE_H
 #define SLOSH_RANKS_STATE_H
 
@@ -8,29 +8,29 @@
 
 enum { PASSES_KNOWN = 64 };
 
-/* Which rows of cpu->all a pass reads and writes, a bit each. */
+/* The rows of cpu->all read and written by a pass, a bit per row. */
 typedef struct Touched {
     const Pass *pass;
     uint64_t reads, writes;
-    bool walks, packed, whole; /* some loop walks; finds Cpu.motion filled; no loop leaves ghosts out */
+    bool walks, packed, whole; /* a loop walks; reads filled Cpu.motion; no loop leaves out ghosts */
 } Touched;
 
 typedef struct Ranks {
     Cpu *cpu;
     Dist *dist;
-    uint64_t fresh; /* rows of which ghosts have what their owners have */
+    uint64_t fresh; /* rows of cpu->all up to date for ghosts */
     Touched known[PASSES_KNOWN];
     int known_count;
-    size_t total, guarded; /* of all ranks: particles; the guards' work */
-    size_t began_guarded;  /* before this rank's count began */
-    ParticleColumns kept;  /* of the last mark */
+    size_t total, guarded; /* over all ranks: particles; guarded steps of particles */
+    size_t began_guarded;  /* `guarded` before the rank's own count began */
+    ParticleColumns kept;  /* state of the last mark */
     size_t kept_count, kept_room;
-    double *weight;  /* of each cell: room */
-    bool due;        /* shares are to be made anew at the next grid */
-    double took;     /* s of this rank's processor: to make them, the last time */
-    double cpu_time; /* s of this rank's computing since then, of all its threads, */
-    double worked;   /* and particles that it computed, each in each step */
-    float *came;     /* places of particles that emitters sent out since the grid, on any rank */
+    double *weight;  /* scratch per cell */
+    bool due;        /* share the cells out at the next grid */
+    double took;     /* s of the rank's processor time for the last sharing */
+    double cpu_time; /* s of computing since then, over all threads of the rank */
+    double worked;   /* particles computed since then, summed over steps */
+    float *came;     /* positions emitted on foreign ranks since the grid */
     size_t came_count, came_room;
     RanksFigures figures;
 } Ranks;
@@ -43,27 +43,27 @@ typedef struct Clock {
 
 Clock clock_now(void);
 
-/* The time since then counts as computing; does not, within a longer time that will be counted so; counts as
-   an exchange. */
+/* Adds the time since `since`: computed to computing; exchanged to exchange. not_computed takes the time
+   out of a longer one counted as computing. */
 void computed(Ranks *ranks, Clock since);
 void not_computed(Ranks *ranks, Clock since);
 void exchanged(Ranks *ranks, Clock since);
 
-/* For who is slower, before an exchange, so that the exchange's time is its own. */
+/* Waits for slower ranks before an exchange, to keep waiting out of the exchange time. */
 void wait_for_others(Ranks *ranks);
 
-/* ---- whose particles are whose: ranks_shares.c ---- */
+/* ---- shares: ranks_shares.c ---- */
 
-/* The first shares: by the particles of each cell, which all ranks know; of an empty box by its cells. */
+/* First shares: by the particles of each cell, known to all ranks; an empty box is shared by cells. */
 void share_first(Ranks *ranks, const Constants *constants, const InitialState *initial);
 
-/* Shares anew, where a look found that they are due. */
+/* Shares the cells out again, after look_at_shares found sharing due. */
 void share_anew(Ranks *ranks);
 
-/* Once a frame: whether the slowest rank of late was much slower than the mean. */
+/* Once per frame: sharing is due if the slowest rank was much slower than the mean. */
 void look_at_shares(Ranks *ranks);
 
-/* Whether the cell at x (m) is this rank's. */
+/* True if the cell at x (m) belongs to the rank. */
 bool is_own(const Dist *dist, const Constants *constants, const float *x);
 
 /* ---- a step: ranks_step.c ---- */
@@ -78,7 +78,7 @@ void ranks_kick(void *state, const float gravity[3], float dt);
 void ranks_touch(void *state, const FingerStep *finger);
 double ranks_guide(void *state, const Guide *guides, int count);
 
-/* ---- what all ranks add up: ranks_sums.c ---- */
+/* ---- sums over all ranks: ranks_sums.c ---- */
 
 StepWatch ranks_watch(void *state);
 Excess ranks_excess(void *state, const ColumnDef *column);
@@ -86,7 +86,7 @@ double ranks_sum(void *state, const ColumnDef *column);
 void ranks_energy(void *state, bool turning, EnergySums *sums);
 void ranks_sums(void *state, WorldSums *sums);
 
-/* ---- states that are read, kept, and gone back to: ranks_keep.c ---- */
+/* ---- states: ranks_keep.c ---- */
 
 bool ranks_read(void *state, const ParticleArrays *out);
 size_t ranks_held(const void *state);
@@ -95,17 +95,19 @@ bool ranks_load(void *state, const ParticleColumns *from, size_t count, size_t g
 bool ranks_mark(void *state, Error *error);
 void ranks_back(void *state, size_t count, size_t guarded);
 
-/* ---- particles that come and go: ranks_flow.c ---- */
+/* ---- emitters and drains: ranks_flow.c ---- */
 
 size_t ranks_emit(void *state, const EmitLayer *layer, size_t most);
 size_t ranks_drain(void *state, const Fill *regions, int count);
 
 /* ---- memory ---- */
 
-/* Room for a rank's own particles as they come and go, and for ghosts. */
+/* Array size for `count` own particles: on more than one rank with spare room for moved particles and
+   ghosts. */
 size_t room_for(size_t count, int size);
 
-/* Memory for count entries of `size` bytes where `wanted` is not NULL; ends all ranks where there is none. */
+/* Memory for `count` entries of `size` bytes, NULL if `wanted` is NULL. Ends all ranks if memory is short.
+   The caller frees. */
 void *some(const void *wanted, size_t count, size_t size);
 
 #endif

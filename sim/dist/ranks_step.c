@@ -1,5 +1,5 @@
-/* The parts of a step that no sum over all ranks is of. Ghosts get what a pass will read of them before it
- * runs. */
+/* Parts of a step without sums over all ranks. Before a pass runs, ghosts get the values that the pass
+   reads. */
 #include "sim/dist/ranks_state.h"
 
 #include <string.h>
@@ -16,7 +16,9 @@ static uint64_t rows_named(const Cpu *cpu, const char *list)
 static Touched look_at(const Cpu *cpu, const Pass *pass)
 {
     Touched touched = {.pass = pass,
-                       .reads = rows_named(cpu, pass->reads) & ~rows_named(cpu, "remainder"), /* of its own */
+                       .reads = rows_named(cpu, pass->reads) & ~rows_named(cpu, "remainder"), /* read of own
+                                                                                                 particles
+                                                                                                 only */
                        .writes = rows_named(cpu, pass->writes),
                        .whole = true};
     for (const CpuLoop *loop = pass->cpu->loops; loop->body; loop++) {
@@ -38,7 +40,7 @@ static Touched touched_by(Ranks *ranks, const Pass *pass)
     return touched;
 }
 
-/* What ghosts had of these columns is old now. */
+/* Marks the named columns of the ghosts as out of date. */
 static void stale(Ranks *ranks, const char *names)
 {
     ranks->fresh &= ~rows_named(ranks->cpu, names);
@@ -110,7 +112,7 @@ void ranks_run(void *state, const Pass *pass, const PassInput *input)
     }
     const Clock begin = clock_now();
     cpu_run_pass(ranks->cpu, pass, input);
-    if (touched.whole) /* ghosts have it too, from what their owners had */
+    if (touched.whole) /* ghosts have the result too, from their owners' inputs */
         ranks->fresh |= touched.writes;
     else
         ranks->fresh &= ~touched.writes;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of energy, or of what box and solids feel. */
+/* Sums of energy, or of forces felt by box and solids. */
 enum { SUMS_MOST = FELT_MOST * PUSH_NUMBERS };
 
 void reduce_exact(ExactSum *sums, int count)

@@ -1,4 +1,4 @@
-/* Sums and greatest values over all ranks. Collective; all ranks get the same bits. */
+/* Sums and maxima over all ranks. Collective; all ranks get the same bits. */
 #ifndef SLOSH_REDUCE_H
 #define SLOSH_REDUCE_H
 
@@ -7,17 +7,17 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Each of `count` sums becomes that of all ranks: the same bits whoever has which part. As many at most as
-   box and solids feel (sim/cpu/felt.h). */
+/* Replaces each of `count` sums by the sum over all ranks: the same bits for any distribution of the terms.
+   `count`: at most the number of sums felt by box and solids (sim/cpu/felt.h). */
 void reduce_exact(ExactSum *sums, int count);
 
-/* The greatest of each; sums, in doubles, for figures that no step reads; whole numbers. */
+/* Maximum of each value; sum of each value, in doubles, for figures that no step reads; sum of an integer. */
 void reduce_most(double *values, int count);
 void reduce_sum(double *values, int count);
 int64_t reduce_count(int64_t value);
 
-/* A rank's `count` entries of `size` bytes, behind those of the ranks before it: at `all` on each rank that
-   has one (not NULL), with room for those of all ranks. */
+/* Gathers each rank's `count` entries of `size` bytes in the order of the ranks, at `all` on each rank
+   where `all` is not NULL. `all` needs room for the entries of all ranks. */
 void reduce_gather(const void *own, size_t count, size_t size, void *all);
 
 #endif

@@ -1,10 +1,10 @@
-/* A state that was read from a file, from the first rank to all. */
+/* Sends a state read from a file from the first rank to all ranks. */
 #include "sim/dist/dist.h"
 #include "sim/dist/ranks.h"
 
 #include <string.h>
 
-/* In pieces, since MPI counts in int. */
+/* Sends in pieces, since MPI counts in int. */
 static void spread_bytes(void *bytes, size_t size)
 {
     static const size_t PIECE = 1 << 30;
