@@ -1,5 +1,4 @@
-/* Boundary particles among the others: they go where their solids are, and take what fluid there is next to
-   them for what they stand for. */
+/* Boundary particles: they move with the solids and take their values from the fluid around. */
 #include "sim/cpu/cpu.h"
 
 #include <math.h>
@@ -9,7 +8,7 @@ static size_t rest_of(const Cpu *cpu, size_t i)
     return cpu->now.id[i] - BOUNDARY_ID;
 }
 
-/* Matter that two solids share counts once, for the first of them. */
+/* Matter of overlapping solids counts once, for the first solid. */
 static bool in_earlier_solid(const Cpu *cpu, int solid, const float x[3])
 {
     const Constants *s = cpu->constants;
@@ -30,7 +29,7 @@ static void place_one(Cpu *cpu, size_t i)
     solid_to_box(pose, s->boundary.rest + 3 * b, x);
     solid_velocity_at(pose, x, v);
     if (!walls_contain(&s->walls, x) || in_earlier_solid(cpu, solid, x))
-        x[0] = ASIDE; /* no fluid sees it; behind walls stand the walls' own */
+        x[0] = ASIDE; /* invisible to the fluid; beyond walls, the walls act */
     p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
     p->vx[i] = v[0], p->vy[i] = v[1], p->vz[i] = v[2];
 }
@@ -65,7 +64,8 @@ static void place_solids(const Place *place)
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps)
 {
     Place place = {.cpu = cpu};
-    bool moves = false; /* this solid, or one before it, whose move may uncover particles of this one */
+    bool moves = false; /* true if the solid or an earlier solid moves, which may uncover particles of the
+                           solid */
     for (int k = 0; k < cpu->constants->solid_count; k++) {
         cpu->solid[k] = steps[k];
         moves |= !steps[k].still;
@@ -104,7 +104,7 @@ void cpu_boundary_terms(Cpu *cpu, size_t i)
         cpu->now.kind[i] = cpu->now.fluid[i];
 }
 
-/* Weighted sums over the fluid that a boundary particle sees. */
+/* Weighted sums over the fluid around a boundary particle. */
 typedef struct Seen {
     float weight, pressure, viscosity, density_x[3], v[3];
 } Seen;
@@ -132,10 +132,10 @@ typedef struct BoundaryPass {
     const ApparentGravity *gravity;
 } BoundaryPass;
 
-/* The cells around one: boundary particles that follow each other mostly share it. */
+/* The rows of cells around `cell`, kept for the next boundary particle in the same cell. */
 typedef struct Around {
     uint32_t cell;
-    int count; /* of rows; 0: of no cell yet */
+    int count; /* of rows; 0: no cell yet */
     CellRow rows[CELL_ROWS];
 } Around;
 
@@ -147,9 +147,9 @@ static void look_around(const PairArgs *args, uint32_t cell, Around *around)
     around->count = cell_rows(args->constants, args->fold, args->cell_start, cell, around->rows);
 }
 
-/* Adami, Hu, Adams, "A generalized wall boundary condition for smoothed particle hydrodynamics", 2012, eq. 27
-   and 23: the fluid's pressure goes on hydrostatically, its velocity, where it sticks, through that of the
-   wall. A volume of 0 where it slips: then no friction sees the particle. */
+/* Adami, Hu, Adams, "A generalized wall boundary condition for smoothed particle hydrodynamics", 2012, eq.
+   27 and 23: the fluid's pressure continues hydrostatically; with no slip, the fluid's velocity is mirrored
+   at the wall's velocity. With slip the volume is 0, so that friction ignores the particle. */
 static void fill_one(const BoundaryPass *pass, const PairArgs *args, Around *around, size_t i)
 {
     Cpu *cpu = pass->cpu;
@@ -203,7 +203,7 @@ void cpu_boundary_fill(Cpu *cpu, const ApparentGravity *gravity)
     parallel_ranges(cpu->threads, cpu->constants->boundary.count, CPU_GRAIN, fill_range, &pass);
 }
 
-/* Their own velocities, of those whose place is that of their solid. */
+/* Restore the boundary particles' own velocities. */
 static void restore_range(void *context, size_t begin, size_t end)
 {
     const Place *place = context;

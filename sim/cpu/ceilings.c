@@ -14,17 +14,17 @@
 enum {
     TRIES = 8,
     ROUNDS = 1 << 17,    /* of a loop in registers: half a millisecond */
-    PIECES = 8,          /* for each thread, so that one that is held up does not hold up all */
-    COPY_LEAST = 1 << 16 /* bytes: of a core's first cache */
+    PIECES = 8,          /* per thread, so that a delayed thread does not delay all */
+    COPY_LEAST = 1 << 16 /* bytes: within the first-level cache of a core */
 };
 
 PAIR_LOOPS(multiply_add);
 
-static const size_t copied = (size_t)1 << 27; /* bytes, at least, in a try */
+static const size_t copied = (size_t)1 << 27; /* least number of bytes copied per try */
 
 typedef struct Loop {
     PairLoop *run;
-    float told[4]; /* as sim/cpu/pairs_ceiling.c fills it in */
+    float told[4]; /* filled in by sim/cpu/pairs_ceiling.c */
 } Loop;
 
 static void run_piece(void *context, size_t begin, size_t end)
@@ -53,7 +53,8 @@ static FlopCeiling flops_of(int threads, PairLoop *run)
 }
 
 #if defined(__x86_64__)
-/* The same in one instruction each, outside of the sets, since no pair loop is compiled so. */
+/* The same loop with fused multiply-add, outside of the sets: no pair loop is compiled with fused
+   operations. */
 #define FUSED(name, needs, Wide, set1, fmadd)                                                                \
     __attribute__((target(needs))) static void name(const PairArgs *args, size_t begin, size_t end)          \
     {                                                                                                        \
@@ -76,7 +77,7 @@ FUSED(fused_512, "avx512f", __m512, _mm512_set1_ps, _mm512_fmadd_ps)
 #undef FUSED
 #endif
 
-/* That of the sets where the processor has no such instruction. */
+/* Best fused rate; the rate of the sets if the processor has no fused operations. */
 static FlopCeiling fused_of(int threads, FlopCeiling best)
 {
     FlopCeiling found[2] = {{0}};
@@ -95,7 +96,7 @@ static FlopCeiling fused_of(int threads, FlopCeiling best)
 
 typedef struct Copying {
     char *from, *to;
-    size_t part; /* bytes of each thread */
+    size_t part; /* bytes per thread */
     int times;
 } Copying;
 
@@ -105,7 +106,7 @@ static void copy_part(void *context, size_t begin, size_t end)
     for (int k = 0; k < copying->times; k++) {
         memcpy(copying->to + begin * copying->part, copying->from + begin * copying->part,
                (end - begin) * copying->part);
-        __asm__ volatile("" ::: "memory"); /* each of the times is done */
+        __asm__ volatile("" ::: "memory"); /* keeps every repetition */
     }
 }
 
@@ -125,8 +126,7 @@ static CopyCeiling copy_of(int threads, size_t bytes, char *from, char *to)
     return best;
 }
 
-/* Twice what the last cache holds, for both arrays together: what is copied has left it when it is next
-   copied. */
+/* Twice the last cache for both arrays together: copied data has left the cache before the next copy. */
 static size_t memory_sized(void)
 {
     const long cache = sysconf(_SC_LEVEL3_CACHE_SIZE);

@@ -1,19 +1,19 @@
-/* What stands across a periodic side. The grid's outermost cells lie outside of the box: along a periodic
-   axis each shows a cell of the other side, whose particles stand there once more, a size of the box further.
-   Lists of neighbours have these copies, so that pair sums know nothing of sides. */
+/* Copies of particles across periodic sides. The outermost grid cells are outside of the box. Along a
+   periodic axis each outermost cell shows a cell of the opposite side: copies of its particles, shifted by
+   the box size. Neighbour lists contain the copies, so pair sums need no code for periodic sides. */
 #include "sim/cpu/pass.h"
 
 #include <string.h>
 
-/* Where the copies of those in one cell of the box stand: across one periodic side, or more in a corner. */
+/* Positions of the copies of a box cell: across a periodic side, or across several sides in a corner. */
 typedef struct Shown {
     int count;
-    uint32_t place[7]; /* of the outermost cells' fold */
-    int sides[7][3];   /* across which: the copies' shift in sizes of the box */
+    uint32_t place[7]; /* places of the fold for outermost cells */
+    int sides[7][3];   /* crossed sides: the copies' shift in box sizes */
 } Shown;
 
-/* The cell across the sides of those axes whose bits are set in `axes`; false: one of them is not next to it.
- */
+/* Moves a cell across the sides of the axes set in `axes`; false if the cell is not next to each of these
+   sides. */
 static bool cross(const Constants *s, int axes, int at[3], int sides[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -53,8 +53,8 @@ static void shift_of(const Constants *s, uint8_t code, float shift[3])
         shift[k] = (float)(code % 3 - 1) * (s->periodic.axis[k] ? s->periodic.size[k] : 0);
 }
 
-/* Behind the cells of particles, before their sort: where the copies of each place begin, one entry further
-   on until they are placed; how many there are. */
+/* Call after cpu_cells, before the sort. Writes the begin of the copies of each place, shifted by an entry
+   until placement. Returns the number of copies. */
 static size_t count_copies(Cpu *cpu)
 {
     const size_t places = cpu->fold.count;
@@ -87,7 +87,7 @@ void cpu_copies_drop(Cpu *cpu)
     cpu->watch.memory = true;
 }
 
-/* In the order of the particles of which they are. */
+/* Places the copies in the order of the originals. */
 static void place_copies(Cpu *cpu)
 {
     Shown across = {.count = 0};
@@ -103,7 +103,7 @@ static void place_copies(Cpu *cpu)
     }
 }
 
-/* Columns whose names stand in one of the lists. */
+/* Columns named in either list. */
 static ColumnRows rows_among(const Cpu *cpu, const char *list, const char *other)
 {
     ColumnRows rows = {0};
@@ -156,7 +156,7 @@ void cpu_copies_update(Cpu *cpu, const Pass *pass)
     const ColumnRows rows = rows_among(cpu, pass->reads, pass->writes);
     ColumnRows wanted = {0};
     for (int r = 0; r < rows.count;
-         r++) /* not what the grid has placed, nor what only the particle itself reads */
+         r++) /* without columns placed by the grid or read of the particle alone */
         if (!cpu_name_among("position id fluid remainder", rows.row[r]->name))
             wanted.row[wanted.count++] = rows.row[r];
     copies_of_rows(cpu, &wanted);

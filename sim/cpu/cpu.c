@@ -9,7 +9,7 @@
 #include <string.h>
 
 typedef struct IN_A_ROOM CpuDef {
-    int threads; /* 0: one a processor */
+    int threads; /* 0: a thread per processor */
     int simd;    /* of simd_kinds */
 } CpuDef;
 
@@ -21,7 +21,7 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-/* Zeroed and aligned to a cache line, with room for the lanes past the end. */
+/* Zeroed memory aligned to a cache line, with room for lanes past the end. */
 static void *array(Cpu *cpu, size_t count, size_t size)
 {
     const size_t bytes = ((count + LANES) * size + 63) / 64 * 64;
@@ -54,7 +54,7 @@ static void cpu_destroy(void *state)
     free(cpu);
 }
 
-/* Columns that are needed and not there yet. */
+/* Creates needed columns that are missing. */
 static bool columns_fit(Cpu *cpu)
 {
     const ColumnDef *own = cpu->constants->method->columns;
@@ -72,7 +72,7 @@ static bool cpu_adapt(void *state, Error *error)
     return columns_fit(state) || error_set(error, "no memory for another term; use a larger spacing");
 }
 
-/* Of a particle amid others at the spacing. */
+/* Number of neighbours of a particle on a lattice at the spacing. */
 static double neighbours_expected(const Constants *s)
 {
     const double reach = (double)s->support_radius / (double)s->spacing;
@@ -124,7 +124,7 @@ int *world_threads(const WorldDef *def)
     return &cpu_def(def)->threads;
 }
 
-/* Of so many particles that fill the box evenly: as many as its outermost cells, over all others. */
+/* Expected number of copies if `particles` fill the box evenly: the share of the outermost cells. */
 static size_t copies_expected(const Constants *s, size_t particles)
 {
     double cells = 1;
@@ -162,7 +162,7 @@ static void *cpu_create(const Constants *constants, const WorldDef *def, const I
     return cpu;
 }
 
-/* Such a state without arrays. */
+/* A copy of the state without arrays. */
 static Cpu bare(const Cpu *cpu)
 {
     return (Cpu){
@@ -183,7 +183,7 @@ static Cpu bare(const Cpu *cpu)
     };
 }
 
-/* Gives the state other arrays, as `to` has them so far. */
+/* Moves the state into new arrays sized by `to`. False if memory is short, with nothing changed. */
 static bool move_into(Cpu *cpu, Cpu *to)
 {
     Error none;
@@ -271,7 +271,7 @@ static void cpu_info(const void *state, WorldInfo *info)
 typedef struct Copy {
     const ColumnRows *rows;
     const CpuParticles *from, *to;
-    const uint32_t *place; /* in `from`; NULL: the same as in `to` */
+    const uint32_t *place; /* index in `from`; NULL: same as in `to` */
 } Copy;
 
 static void copy_range(void *context, size_t begin, size_t end)

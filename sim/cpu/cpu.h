@@ -1,4 +1,4 @@
-/* The CPU backend's state: structure of arrays, sorted by cell, and the grid that sorts it. */
+/* State of the CPU backend: structure of arrays, sorted by cell, and the grid for the sort. */
 #ifndef SLOSH_CPU_H
 #define SLOSH_CPU_H
 
@@ -16,65 +16,62 @@ typedef struct Cpu {
     const Constants *constants;
     PairSet pairs;
     int threads;
-    size_t count, owned; /* particles: boundary particles of solids and ghosts included; its own alone */
-    size_t capacity;     /* room for */
+    size_t count, owned; /* all particles, with boundary and ghost particles; own particles */
+    size_t capacity;     /* room for particles */
     CpuParticles now;
-    CpuParticles spare; /* what `grid` sorts into: its columns then change places with those of `now` */
-    ColumnRows all, saved, sorted, of_fluids; /* columns, and those with these flags */
+    CpuParticles spare; /* target of the sort in `grid`; then its columns and those of `now` are swapped */
+    ColumnRows all, saved, sorted, of_fluids; /* all columns; columns with these flags */
     float (*place)[4], (*motion)[4];          /* packed for pair sums: see PairArgs */
-    NeighbourLists lists;                     /* by the first pass behind `grid` that has need of them */
-    uint32_t *cell, *spare_cell;              /* by `grid`: of each particle, sorted; before the sort */
-    uint32_t *rank;                           /* by `grid`: place within the cell before its sort by id */
-    uint32_t *order;                          /* by `grid`: old place of each new one */
+    NeighbourLists lists;                     /* made by the first pass after `grid` that walks */
+    uint32_t *cell, *spare_cell;              /* by `grid`, per particle: sorted; before the sort */
+    uint32_t *rank;                           /* by `grid`: place in the cell before the sort by id */
+    uint32_t *order;                          /* by `grid`: old index of each new index */
     CellFold fold;
-    uint32_t *cell_start; /* by `grid`, of each place of `fold`: places + 2; the last is for what is set
-                             aside */
-    size_t gridded;       /* by `grid`: how many it has seen */
-    size_t copies;      /* by `grid`, in boxes with periodic sides: particles that stand across one, behind */
-    size_t copy_room;   /* the others; room for */
-    uint32_t *copy_of;  /* of each of them: of which particle; at `count` and on */
-    uint8_t *copy_side; /* and across which sides, from 0 on */
-    uint32_t *copy_start;   /* the first of each place of `fold`; places + 2; NULL: no periodic sides */
-    uint32_t *owned_at;     /* by `grid`: where its own particles stand; NULL without solids and ghosts */
-    uint32_t *boundary_at;  /* and the solids'; NULL without solids */
-    uint32_t *fluid_at;     /* and the fluids', ghosts among them; without ghosts `owned_at` */
-    uint32_t *fluid_before; /* of each particle: how many of the fluids' particles stand before it; one entry
-                               more, for all */
-    const uint8_t *foreign; /* of each cell: 1 where its particles are ghosts, another's that are read here;
-                               NULL: none are */
-    uint8_t *ghost;         /* by `grid`, of each particle: 1 for a ghost; NULL: there are none */
-    SolidStep solid[SOLIDS_MAX]; /* the last move of each: solids stand at the end of it */
-    WorldSums *partial;          /* by `sums`: one a range */
+    uint32_t *cell_start;   /* by `grid`, per place of `fold`: places + 2; the last for particles set aside */
+    size_t gridded;         /* by `grid`: particles in the grid */
+    size_t copies;          /* by `grid`, with periodic sides: copies of particles across a side, after */
+    size_t copy_room;       /* the particles; room for copies */
+    uint32_t *copy_of;      /* per copy: index of the original; from entry `count` on */
+    uint8_t *copy_side;     /* per copy: crossed sides; from entry 0 on */
+    uint32_t *copy_start;   /* first copy of each place of `fold`; places + 2; NULL: no periodic sides */
+    uint32_t *owned_at;     /* by `grid`: indices of own particles; NULL without solids and ghosts */
+    uint32_t *boundary_at;  /* indices of boundary particles; NULL without solids */
+    uint32_t *fluid_at;     /* indices of fluid particles and ghosts; without ghosts `owned_at` */
+    uint32_t *fluid_before; /* per particle: number of fluid particles before; an extra entry for the total */
+    const uint8_t *foreign; /* per cell: 1 if the cell belongs to a foreign rank and has ghosts; NULL: no
+                               ghosts */
+    uint8_t *ghost;         /* by `grid`, per particle: 1 for a ghost; NULL: no ghosts */
+    SolidStep solid[SOLIDS_MAX]; /* last move per solid; solids are at its end */
+    WorldSums *partial;          /* by `sums`: an entry per range */
     WorldGauge gauge;            /* by `gauge` */
-    size_t bytes;                /* of all these */
+    size_t bytes;                /* of all arrays above */
     size_t guarded;              /* atomic */
-    Forces *forces;              /* where what box and solids feel is summed; NULL: nobody asked, */
-    struct CpuFelt *felt;        /* by which it is summed: sim/cpu/felt.h */
-    /* Each of `count` sums becomes that of all processes that share the world; NULL: it is one. */
+    Forces *forces;              /* sums of forces on box and solids; NULL: not requested */
+    struct CpuFelt *felt;        /* scratch for these sums: sim/cpu/felt.h */
+    /* Replaces each of `count` sums by the sum over all processes of the world; NULL: a single process. */
     void (*sum_all)(ExactSum *sums, int count);
-    StepWatch watch; /* by `kick`, atomic while it runs; until `watch` */
+    StepWatch watch; /* written by `kick` (atomic), read and reset by `watch` */
 } Cpu;
 
-/* Boundary particles stand among the others, with FLUIDS_MAX + their solid for a fluid and ids from here on.
- */
+/* Boundary particles stand among the fluid particles: `fluid` is FLUIDS_MAX + solid, ids start here. */
 #define BOUNDARY_ID (UINT64_C(1) << 63)
 
-/* Of a boundary particle that is set aside: x, m. Its square is finite, since lanes past a row's end read it.
- */
+/* x of a boundary particle set aside, m. Its square is finite, since lanes past a row's end read the
+   value. */
 #define ASIDE PAST
 
-enum { CPU_GRAIN = LISTS_GRAIN }; /* particles in a range: some 0.2 ms of work, small against a step */
+enum { CPU_GRAIN = LISTS_GRAIN }; /* particles per range: some 0.2 ms of work, small against a step */
 
 PairArgs cpu_pair_args(Cpu *cpu);
 
-/* Whether a particle is a fluid's and no ghost. */
+/* True for a fluid particle that is no ghost. */
 static inline bool cpu_owns(const Cpu *cpu, size_t i)
 {
     return cpu->now.fluid[i] < FLUIDS_MAX && !(cpu->ghost && cpu->ghost[i]);
 }
 
-/* The next run of its own particles at or after *begin, as far as *stop; false when there is none before
-   `end`. Without solids and ghosts it is all. */
+/* Finds the next run of own particles at or after *begin, up to *stop; false if no run begins before `end`.
+   Without solids and ghosts all particles are a run. */
 static inline bool cpu_run(const Cpu *cpu, size_t *begin, size_t end, size_t *stop)
 {
     *stop = end;
@@ -87,21 +84,21 @@ static inline bool cpu_run(const Cpu *cpu, size_t *begin, size_t end, size_t *st
     return *begin < end;
 }
 
-/* Where its own k-th particle stands. */
+/* Index of the k-th own particle. */
 static inline size_t cpu_owned(const Cpu *cpu, size_t k)
 {
     return cpu->owned_at ? cpu->owned_at[k] : k;
 }
 
-/* Whether its own k-th particle and the one before were in one cell when `grid` looked: cells are whole
-   wherever the particles are shared, so what is added up cell by cell has the same bits there. */
+/* True if the k-th own particle and the previous own particle shared a cell in the last grid. Ranks share
+   out whole cells, so sums made cell by cell have the same bits on any number of ranks. */
 static inline bool cpu_cell_goes_on(const Cpu *cpu, size_t k)
 {
     return k > 0 && cpu->gridded == cpu->count &&
            cpu->cell[cpu_owned(cpu, k)] == cpu->cell[cpu_owned(cpu, k - 1)];
 }
 
-/* The first of its own particles from the k-th on that begins a cell; Cpu.owned if none does. */
+/* The first own particle from k on that begins a cell; Cpu.owned if none. */
 static inline size_t cpu_cell_first(const Cpu *cpu, size_t k)
 {
     while (k < cpu->owned && cpu_cell_goes_on(cpu, k))
@@ -109,7 +106,7 @@ static inline size_t cpu_cell_first(const Cpu *cpu, size_t k)
     return k;
 }
 
-/* What the pair sums need of particle i's fluid, of the terms that the scene names. */
+/* Sets particle i's columns for the pair terms of its fluid, if the scene has these terms. */
 static inline void cpu_fill_terms(const Cpu *cpu, size_t i)
 {
     const Constants *s = cpu->constants;
@@ -123,27 +120,30 @@ static inline void cpu_fill_terms(const Cpu *cpu, size_t i)
         p->kind[i] = (float)fluid;
 }
 
-/* The grid's cell of x, m. */
+/* The grid cell of x (m). */
 uint32_t cpu_cell_of(const Constants *constants, const float x[3]);
 
-/* From now on there are ghosts: in those cells, as Cpu.foreign says, which outlives this. False when memory
-   is short. */
+/* Enables ghosts in the cells marked by `foreign` (Cpu.foreign), which must outlive `cpu`. Returns false if
+   memory is short. */
 bool cpu_share(Cpu *cpu, const uint8_t *foreign);
 
-/* Room for so many particles, boundary particles included; keeps what goes with them (COLUMN_SORTED), and a
-   grid must follow. False when memory is short: nothing has changed. */
+/* Grows the room to `capacity` particles, boundary particles included. Keeps columns with COLUMN_SORTED;
+   build the grid afterwards. Returns false if memory is short, with nothing changed. */
 bool cpu_grow(Cpu *cpu, size_t capacity);
 
-/* Where its own particles, ghosts and boundary particles stand, after a change without a grid. */
+/* Finds the indices of own, ghost and boundary particles after a change without a grid. */
 void cpu_find(Cpu *cpu);
 
-/* The grid; its two parts: the cell of each particle, in `spare_cell`; the particles sorted by these. */
+/* Builds the grid. Two parts: cpu_cells finds the cell of each particle (`spare_cell`), cpu_sort sorts the
+   particles by cell. */
 void cpu_grid(void *state);
 
-/* sim/cpu/copies.c, in boxes with periodic sides: counts the copies of the particles whose cells `grid` has
-   found, false where there is no room for them; makes room, false when memory is short: then a grid
-   must follow, or there are none, and the step is in trouble; puts them behind the particles. Before a walk
-   of the pass: gives them what its pair sums gather; what is packed. */
+/* sim/cpu/copies.c, for boxes with periodic sides.
+
+   _fit: counts the copies after cpu_cells; false if room is short. _grow: makes room; false if memory is
+   short. _drop: then leaves the world without copies and reports the step's memory trouble. _place: puts
+   the copies after the particles. Before a pass walks, _update copies the columns of the pass's pair sums
+   and _pack the packed values. */
 bool cpu_copies_fit(Cpu *cpu);
 bool cpu_copies_grow(Cpu *cpu);
 void cpu_copies_drop(Cpu *cpu);
@@ -151,9 +151,9 @@ void cpu_copies_place(Cpu *cpu);
 void cpu_copies_update(Cpu *cpu, const Pass *pass);
 void cpu_copies_pack(Cpu *cpu);
 
-/* Before a step: the first drift puts those that go through a periodic side back at once. Behind it: puts
-   those that went through a periodic side back into the box. Until then they stay where the lists of
-   neighbours have them. */
+/* cpu_enter, before a step: the first drift wraps particles over periodic sides at once. cpu_leave, after a
+   step: wraps particles that left through a periodic side. In between, particles stay unwrapped to match
+   the neighbour lists. */
 void cpu_enter(void *state);
 void cpu_leave(void *state);
 void cpu_cells(Cpu *cpu);
@@ -161,9 +161,10 @@ void cpu_sort(Cpu *cpu);
 void cpu_run_pass(void *state, const Pass *pass, const PassInput *input);
 void cpu_drift(void *state, const BoxStep *step);
 
-/* sim/cpu/boundary.c, of solids: appends their particles after the fluids'; moves them along; gives those at
-   `i` no share in the fluids' terms; fills in what the forces need of them, and takes back the velocities
-   that are mirrored for it. */
+/* sim/cpu/boundary.c, for solids. _append: adds the boundary particles after the fluid particles. _move:
+   moves boundary particles with the solids. _terms: clears the fluid terms of boundary particle i. _fill:
+   extrapolates the fluid to the boundary particles, for forces. _restore: undoes the mirrored velocities of
+   _fill. cpu_guard_solids: keeps a particle out of the solids; true if x or v changed. */
 void cpu_boundary_append(Cpu *cpu);
 void cpu_boundary_move(Cpu *cpu, const SolidStep *steps);
 void cpu_boundary_terms(Cpu *cpu, size_t i);
@@ -172,14 +173,15 @@ void cpu_boundary_restore(Cpu *cpu);
 bool cpu_guard_solids(const Cpu *cpu, const SolidStep *steps, const float before[3], float x[3], float v[3]);
 void cpu_pose(void *state, const SolidPose *pose);
 size_t cpu_emit(void *state, const EmitLayer *layer, size_t most);
-/* Of cpu_emit: whether a particle may come in at x (m), which is in the box and in no cell of ghosts; adds
-   there the layer's particle of that number, for which there must be room. */
+/* Parts of cpu_emit. cpu_has_room: true if a particle may be emitted at x (m); x must be in the box and in
+   no cell of ghosts. cpu_append: adds the layer's particle `number` at x; the room must exist. */
 bool cpu_has_room(Cpu *cpu, const float x[3]);
 void cpu_append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number);
 double cpu_guide(void *state, const Guide *guides, int count);
 size_t cpu_drain(void *state, const Fill *regions, int count);
 
-/* Backend.excess and .sum; and the same as parts that add up: what is above 0, its greatest value or all. */
+/* Backend.excess and .sum; then the same as parts: adds the positive values or all values to `sum`.
+   cpu_excess_part returns the greatest value. */
 Excess cpu_excess(void *state, const ColumnDef *column);
 double cpu_sum(void *state, const ColumnDef *column);
 float cpu_excess_part(Cpu *cpu, const ColumnDef *column, ExactSum *sum);
@@ -190,15 +192,15 @@ StepWatch cpu_watch(void *state);
 void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
-/* sim/cpu/forces.c, where a world was asked: adds what the kick does, behind it; and what the guards of a
-   drift did, summed by sim/cpu/felt.h. */
+/* sim/cpu/forces.c, if forces were requested. _kick: call after a kick to add its forces. _drift: adds the
+   impulses of the drift's guards, summed by sim/cpu/felt.h. */
 bool cpu_feel(void *state, Forces *to, Error *error);
 void cpu_feel_kick(Cpu *cpu, float dt);
 void cpu_feel_drift(Cpu *cpu);
 bool cpu_gauge(void *state, const double gravity[3]);
 bool cpu_gauged(void *state, WorldGauge *gauge, bool waits);
 void cpu_energy(void *state, bool turning, EnergySums *sums);
-/* The same as parts that add up, one for each number of EnergySums. */
+/* cpu_energy as parts that add up: a sum per number of EnergySums. */
 enum { ENERGY_SUMS = sizeof(EnergySums) / sizeof(double) };
 void cpu_energy_part(Cpu *cpu, bool turning, ExactSum sums[ENERGY_SUMS]);
 

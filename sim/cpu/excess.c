@@ -1,5 +1,5 @@
-/* Sums over a column: of each cell, and of these exactly, so that they depend neither on threads nor on who
-   adds up which part. */
+/* Sums over a column: per cell in double, then exact over cells. So the bits depend neither on threads nor
+   on ranks. */
 #include "sim/cpu/cpu.h"
 
 typedef struct ExcessPass {

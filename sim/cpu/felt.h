@@ -1,5 +1,5 @@
-/* What box and solids feel, as sums that have the same bits whoever adds up which part: of cells of particles
-   in double, and of these exactly. */
+/* Forces on box and solids, as sums with the same bits for any division of the work: per cell in double,
+   exact over cells. */
 #ifndef SLOSH_CPU_FELT_H
 #define SLOSH_CPU_FELT_H
 
@@ -11,21 +11,21 @@ typedef struct PushSum {
     ExactSum number[PUSH_NUMBERS];
 } PushSum;
 
-/* A part, of a range. Only `any` needs to be false before. */
+/* The part of a range. Initialize `any` to false; the rest needs no value. */
 typedef struct CpuFelt {
     bool any;
     PushSum of[FELT_MOST]; /* the box, then each solid */
 } CpuFelt;
 
-/* Adds a push to the box (0) or to a solid (1 + its number). */
+/* Adds a push to the box (`whom` 0) or to solid k (`whom` 1 + k). */
 void cpu_felt_add(CpuFelt *felt, int whom, const Push *push);
 
-/* Zeroes the sum; adds a range's part to it. */
+/* cpu_felt_begin zeroes the sum; cpu_felt_merge adds a range's part to the sum. */
 void cpu_felt_begin(Cpu *cpu);
 void cpu_felt_merge(Cpu *cpu, const CpuFelt *felt);
 
-/* Adds to a part what a guard of `whom` at x (m) did to a velocity, `before`, which then becomes v; NULL:
-   adds nothing. */
+/* Adds to `felt` the impulse of the guard of `whom` on a particle at x (m): velocity `before` became v.
+   Then sets `before` to v. `felt` NULL: adds nothing. */
 void cpu_feel_guard(CpuFelt *felt, int whom, float mass, const float x[3], const float v[3], float before[3]);
 
 #endif

@@ -1,12 +1,12 @@
-/* Particles that come and go between steps. */
+/* Emitters, guides and drains, between steps. */
 #include "sim/cpu/cpu.h"
 #include "sim/matter/fill.h"
 
 #include <math.h>
 
-static const float ROOM = 0.9f; /* least distance to others, in spacings */
+static const float ROOM = 0.9f; /* least distance to present particles, in spacings */
 
-/* Whether no particle is near x: neither of those in the grid, nor of those that came after it was made. */
+/* True if no particle is near x: neither a particle in the grid nor a particle added since the grid. */
 bool cpu_has_room(Cpu *cpu, const float x[3])
 {
     const PairArgs pairs = cpu_pair_args(cpu), *args = &pairs;
@@ -73,8 +73,8 @@ typedef struct Guiding {
     ExactSum *work;
 } Guiding;
 
-/* Adds what holding a particle to the guide's velocity takes: the impulse times that velocity, as of a wall
-   that moves. Ghosts are others'. */
+/* Adds the work of setting a particle to the guide's velocity: impulse times guide velocity, as for a
+   moving wall. Owners count the work of ghosts. */
 static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum *work)
 {
     const Cpu *cpu = pass->cpu;

@@ -1,5 +1,5 @@
-/* Forces on box and solids. All that fluid particles are pushed with is m a at the kick; what boundary
-   particles have of it is summed over pairs once more, for these alone. */
+/* Forces on box and solids. The total force on the fluid is m a at the kick. The part on boundary particles
+   is summed over pairs in a separate loop, only on request. */
 #include "sim/cpu/felt.h"
 #include "sim/cpu/pass.h"
 
@@ -50,11 +50,11 @@ void cpu_felt_merge(Cpu *cpu, const CpuFelt *felt)
     parallel_unlock();
 }
 
-/* What was summed, of all processes that share the world. */
+/* The sums over all processes of the world, as force times time. */
 static void sum_up(Cpu *cpu, Push out[FELT_MOST])
 {
     const int width = cpu->constants->solid_count + 1;
-    const double unit = cpu->constants->unit_volume; /* forces are over U */
+    const double unit = cpu->constants->unit_volume; /* forces are in units of U */
     if (cpu->sum_all)
         cpu->sum_all(cpu->felt->of[0].number, width * PUSH_NUMBERS);
     for (int whom = 0; whom < width; whom++)
@@ -64,7 +64,7 @@ static void sum_up(Cpu *cpu, Push out[FELT_MOST])
         }
 }
 
-/* To a solid what stands about the box's origin. */
+/* Adds to a solid a push given about the box's origin. */
 static void add_to_solid(Cpu *cpu, int solid, Push *push)
 {
     const float *x = cpu->solid[solid].end.x;
@@ -145,7 +145,7 @@ typedef struct SolidPass {
     float dt;
 } SolidPass;
 
-/* What fluid particle i does to boundary particle b. */
+/* Push of fluid particle i on boundary particle b. */
 static void add_pair(const SolidPass *pass, const float from[3], size_t i, size_t b, Push *sum)
 {
     const CpuParticles *p = &pass->cpu->now;
@@ -163,8 +163,7 @@ static void add_pair(const SolidPass *pass, const float from[3], size_t i, size_
             (double[]){t * (double)force[0], t * (double)force[1], t * (double)force[2]});
 }
 
-/* The fluid from `begin` to before `end` in Cpu.fluid_at, cell by cell: of ghosts other processes add what is
-   theirs. */
+/* Adds the fluid in entries [begin, end) of Cpu.fluid_at, cell by cell. Ghosts are left to their owners. */
 static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, size_t end, size_t b,
                       CpuFelt *felt)
 {
@@ -208,7 +207,7 @@ static void solid_range(void *context, size_t begin, size_t end)
     cpu_felt_merge(pass->cpu, &felt);
 }
 
-/* What solids take the box does not. */
+/* A push on a solid is taken off the box. */
 void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt)
 {
     SolidPass pass = {cpu, force, dt};

@@ -1,4 +1,4 @@
-/* What is plotted of the state, where it is asked for. */
+/* Plotted sums of the state, computed on request. */
 #include "sim/world/gauge.h"
 #include "sim/cpu/cpu.h"
 
@@ -9,7 +9,7 @@ enum { ENERGY_ALWAYS = offsetof(EnergySums, second) / sizeof(double) };
 typedef struct GaugePass {
     const Cpu *cpu;
     const double *gravity;
-    WorldGauge *partial; /* one a range */
+    WorldGauge *partial; /* an entry per range */
 } GaugePass;
 
 static void gauge_range(void *context, size_t begin, size_t end)
@@ -27,7 +27,7 @@ static void gauge_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* Sums in an order that does not depend on the number of threads, in the same memory as `sums`. */
+/* Sums in a fixed order for any number of threads; shares the memory of `sums`. */
 bool cpu_gauge(void *state, const double gravity[3])
 {
     Cpu *cpu = state;
@@ -64,8 +64,8 @@ typedef struct EnergyPass {
     ExactSum *sums;
 } EnergyPass;
 
-/* The surface of a cell's fluid, m2, as sides that its cell shares with empty ones: of a ball 1.3 to 1.5
-   times its own, of what is alone in its cell all sides. */
+/* Surface of the fluid in a cell, m2: sides between the cell and empty cells. For a ball, 1.3 to 1.5 times
+   the ball's surface; for a particle alone in a cell, all sides. */
 static double bare_sides(const Cpu *cpu, size_t i)
 {
     const Constants *s = cpu->constants;
@@ -80,7 +80,8 @@ static double bare_sides(const Cpu *cpu, size_t i)
     return bare * pow((double)s->support_radius, s->dimensions - 1);
 }
 
-/* Adds its own particles of one cell from the k-th on, before `last`; where the next cell begins. */
+/* Adds the own particles of a cell from the k-th on, before `last`. Returns the first particle of the next
+   cell. */
 static size_t energy_cell(const EnergyPass *pass, size_t k, size_t last, EnergySums *sums)
 {
     const Cpu *cpu = pass->cpu;
@@ -96,8 +97,7 @@ static size_t energy_cell(const EnergyPass *pass, size_t k, size_t last, EnergyS
     return k;
 }
 
-/* What a cell's particles add goes exactly into the sums: these decide about steps, and ranks that share the
-   cells have to come to the same bits. */
+/* Adds each cell's sums exactly: energies decide about steps, and ranks must get the same bits. */
 static void energy_range(void *context, size_t begin, size_t end)
 {
     const EnergyPass *pass = context;

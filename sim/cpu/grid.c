@@ -1,12 +1,12 @@
-/* Counting sort by place of the cells' fold (sim/world/cell_fold.h). Places among those of a cell are handed
-   out by atomic counters in any order, then sorted by cell and id: the result depends on positions and ids
-   alone, not on threads or history. */
+/* Counting sort by places of the cell fold (sim/world/cell_fold.h). Atomic counters hand out the places
+   within a cell in any order; a sort by cell and id follows. So the result depends on positions and ids
+   only, not on threads or history. */
 #include "sim/cpu/cpu.h"
 
 #include <string.h>
 
 typedef struct CellMap {
-    float origin[3], inverse[3], first[3], last[3]; /* of the inner cells */
+    float origin[3], inverse[3], first[3], last[3]; /* cells inside the border */
     int size[3];
 } CellMap;
 
@@ -24,8 +24,8 @@ static CellMap cell_map(const Constants *constants)
     return map;
 }
 
-/* Clamped, so that a position that is not finite does no harm before it is reported. Without libm, whose
-   floorf is a call on a processor of the first x86-64. */
+/* The cell along axis k, clamped, so that a non-finite position does no harm before the report. Without
+   libm: its floorf is a call on baseline x86-64. */
 static uint32_t cell_along(const CellMap *map, int k, float x)
 {
     const float place = (x - map->origin[k]) * map->inverse[k];
@@ -48,7 +48,7 @@ uint32_t cpu_cell_of(const Constants *constants, const float x[3])
     return cell_at(&map, x[0], x[1], x[2]);
 }
 
-/* Neighbours in the last order are mostly in the same cell: an atomic a run of them, not one a particle. */
+/* Particles in sequence mostly share a cell: an atomic per run, not per particle. */
 static void take_places(void *state, size_t begin, size_t end)
 {
     Cpu *cpu = state;
@@ -72,8 +72,7 @@ static void find_cells(void *state, size_t begin, size_t end)
     const CellMap map = cell_map(cpu->constants);
     const CpuParticles *p = &cpu->now;
     for (size_t i = begin; i < end; i++) {
-        const bool aside =
-            cpu->boundary_at && p->x[i] == ASIDE; /* in a cell of their own that nobody reads */
+        const bool aside = cpu->boundary_at && p->x[i] == ASIDE; /* in an extra cell that is never read */
         cpu->spare_cell[i] =
             aside ? (uint32_t)cpu->constants->cells.count : cell_at(&map, p->x[i], p->y[i], p->z[i]);
     }
@@ -87,8 +86,8 @@ static void place_particles(void *state, size_t begin, size_t end)
         cpu->order[cpu->cell_start[place[i]] + cpu->rank[i]] = (uint32_t)i;
 }
 
-/* Insertion, since a cell holds some ten particles, mostly in order: by id; where cells share a place, `cell`
-   is there, by cell first, so that each cell's particles follow each other. */
+/* Insertion sort by id, since a cell holds some ten particles, mostly in order. `cell`: given if cells
+   share a place; sorts by cell first, so that each cell's particles are contiguous. */
 static inline void sort_place(uint32_t *order, size_t count, const ParticleId *id, const uint32_t *cell)
 {
     for (size_t i = 1; i < count; i++) {

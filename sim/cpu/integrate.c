@@ -8,7 +8,7 @@ typedef struct Drift {
     const BoxStep *step;
 } Drift;
 
-/* How often solids and walls had to hold particle i. `felt`: NULL where nobody asked. */
+/* Number of times solids and walls held particle i. `felt`: NULL if forces are not requested. */
 static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float x[3], float v[3],
                     CpuFelt *felt)
 {
@@ -34,13 +34,13 @@ static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float 
     return (size_t)by_solid + (size_t)by_wall;
 }
 
-/* How often the guards held a particle of the run [begin, end). */
+/* Number of times guards held particles of the run [begin, end). */
 static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, CpuFelt *felt, const bool wide)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
     const WallsFar inside = walls_far(&cpu->constants->walls, 0);
-    /* While lists are in use particles stay where the lists have them: cpu_leave wraps. */
+    /* While lists are in use, particles keep the positions of the lists: cpu_leave wraps. */
     const bool solids = drift->step->solids, wraps = cpu->constants->periodic.any && !cpu->lists.ready;
     size_t held = 0;
     for (size_t i = begin; i < end; i++) {
@@ -119,7 +119,7 @@ static void wrap_range(void *context, size_t begin, size_t end)
 
 void cpu_enter(void *state)
 {
-    ((Cpu *)state)->lists.ready = false; /* lists that a new or loaded world has made belong to no step */
+    ((Cpu *)state)->lists.ready = false; /* lists made by a new or loaded world belong to no step */
 }
 
 void cpu_leave(void *state)
@@ -135,7 +135,7 @@ typedef struct Kick {
     float dt;
 } Kick;
 
-/* The greatest of values that are not negative: their bits are in the same order. */
+/* Atomic maximum of non-negative values: their bits have the same order. */
 static void atomic_greatest(float *greatest, float value)
 {
     uint32_t bits, *at = (uint32_t *)greatest;
@@ -146,8 +146,8 @@ static void atomic_greatest(float *greatest, float value)
         ;
 }
 
-/* The drag of the walls, sim/box/wall_drag.h, by v' = v + (a + g - k v') dt: at the end of the step, so that
-   it can't overshoot however near the wall; what is left of a + g then is put in a's place. */
+/* Drag of the walls, sim/box/wall_drag.h, implicit: v' = v + (a + g - k v') dt. So the drag cannot
+   overshoot, however near the wall. The remaining a + g replaces a. */
 static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
 {
     Cpu *cpu = kick->cpu;
@@ -174,9 +174,9 @@ static void kick_run(const Kick *kick, size_t begin, size_t end)
     const CpuParticles *p = &cpu->now;
     const float fastest = cpu->constants->method->leaps
                               ? 1e18F
-                              : cpu->constants->support_radius / kick->dt; /* its square is finite */
+                              : cpu->constants->support_radius / kick->dt; /* with a finite square */
     float speed2 = 0, acceleration2 = 0, volume = INFINITY;
-    bool bounded = true; /* false for NaN as well */
+    bool bounded = true; /* also false for NaN */
     if (cpu->constants->no_slip && !cpu->constants->implicit.on)
         hold_by_walls(kick, begin, end);
     for (size_t i = begin; i < end; i++) {

@@ -1,11 +1,10 @@
-/* The making of lists by eight lanes, of which those that a mask keeps are moved together. For pairs_lists.c.
- */
+/* Neighbour lists with eight lanes: a mask compresses the kept lanes. For pairs_lists.c. */
 #ifndef SLOSH_LISTS_AVX2_H
 #define SLOSH_LISTS_AVX2_H
 
 #include "sim/cpu/lists_block.h"
 
-/* COMPRESS(m): a byte for each lane that is set in m, from the lowest on. */
+/* COMPRESS(m): the set lanes of m, a byte each, lowest lane first. */
 #define SET(m, b)     ((m) >> (b)&1)
 #define BELOW(m, b)   (__builtin_popcount((m) & ((1 << (b)) - 1)))
 #define LANE(m, b)    ((uint64_t)(SET(m, b) ? (b) : 0) << 8 * BELOW(m, b))
@@ -15,7 +14,7 @@
 #define COMPRESS64(m) COMPRESS16(m), COMPRESS16((m) + 16), COMPRESS16((m) + 32), COMPRESS16((m) + 48)
 static const uint64_t compressed[256] = {COMPRESS64(0), COMPRESS64(64), COMPRESS64(128), COMPRESS64(192)};
 
-/* Which lanes stay, and how many. */
+/* The kept lanes and their number. */
 typedef struct Kept {
     int count;
     __m256i lanes;
@@ -28,20 +27,20 @@ SIMD_INLINE Kept kept(i8 mask)
                   _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)compressed[bits]))};
 }
 
-/* Stores the lanes that stay, one behind the other, and something in the places up to LANES. */
+/* Stores the kept lanes in sequence, and arbitrary values up to LANES. */
 SIMD_INLINE void keep(void *out, i8 from, Kept kept)
 {
     _mm256_storeu_si256(out, _mm256_permutevar8x32_epi32((__m256i)from, kept.lanes));
 }
 
-/* How far x is from the box along an axis; 0 within. */
+/* Distance of x to the box along an axis; 0 inside. */
 SIMD_INLINE f8 outside(const Around *box, int axis, f8 x)
 {
     const f8 d = x - f8_splat(box->middle[axis]);
     return f8_positive((f8)((i8)d & i8_splat(INT32_MAX)) - f8_splat(box->half[axis]));
 }
 
-/* Who is in the box or near enough to it, of the particles [begin, end). */
+/* Adds the particles of [begin, end) in or near the box. */
 SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint32_t begin, uint32_t end,
                            Block *block)
 {
@@ -63,7 +62,7 @@ SIMD_INLINE void block_add(const PairArgs *args, const Around *around_box, uint3
     block->count = count;
 }
 
-/* Adds those of the candidates that are neighbours of particle i. */
+/* Appends the neighbours of particle i among the candidates. */
 SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
                        const int32_t *j, int count, Writer *out)
 {
@@ -87,7 +86,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     out->coincident -= i8_sum(coincident);
 }
 
-/* A square of LANES by LANES entries is turned. */
+/* Transposes LANES by LANES entries. */
 SIMD_INLINE void turn(__m256i row[LANES])
 {
     __m256i pair[LANES], four[LANES];
@@ -107,7 +106,7 @@ SIMD_INLINE void turn(__m256i row[LANES])
     }
 }
 
-/* Side by side: rows of LANES, as many as the longest has and up to whole LANES, with `none` past a list's
+/* Interleaves the lists: `rows` rows of LANES entries, rounded up to whole LANES, `none` past a list's
    end. */
 SIMD_INLINE void interleave(const uint32_t *index, const Found *found, uint32_t rows, uint32_t none,
                             uint32_t *to)

@@ -1,20 +1,20 @@
-/* The candidates for neighbours of a cell's particles, for pairs_lists.c and the two ways in which it fills
-   and searches them. */
+/* Neighbour candidates of a cell's particles, for pairs_lists.c and its two ways to fill and search a
+   block. */
 #ifndef SLOSH_LISTS_BLOCK_H
 #define SLOSH_LISTS_BLOCK_H
 
 #include "sim/cpu/pair_loop.h"
 
-enum { BLOCK_MOST = 2048 /* 32 kB: as many as fluid has around a cell at the widest support */ };
+enum { BLOCK_MOST = 2048 /* 32 kB: the fluid around a cell at the widest support */ };
 
-/* Candidates: places and indices. */
+/* Candidates: positions and indices. */
 typedef struct Block {
     int count;
     float x[BLOCK_MOST + LANES], y[BLOCK_MOST + LANES], z[BLOCK_MOST + LANES];
     int32_t j[BLOCK_MOST + LANES];
 } Block;
 
-/* The box around some particles: its middle and half of its size, m. */
+/* The bounding box of some particles: centre and half size, m. */
 typedef struct Around {
     float middle[3], half[3];
 } Around;
@@ -34,24 +34,25 @@ static void around(const PairArgs *args, size_t begin, size_t end, Around *box)
     }
 }
 
-/* How near to that box is near enough: a little more than h, since places in the box are rounded. */
+/* Squared distance to the box for candidates: slightly more than h^2, since positions in the box are
+   rounded. */
 SIMD_INLINE float block_reach2(const PairArgs *args)
 {
     const float h = args->constants->support_radius;
     return h * h * 1.0001f;
 }
 
-/* The lists of a group as they were found, one behind the other, each filled up to whole LANES: where each
-   begins and how many entries it has. */
+/* A group's lists before interleaving, in sequence, each filled up to whole LANES: begin and number of
+   entries. */
 typedef struct Found {
     uint32_t first[LANES], count[LANES], used;
     bool coincident;
 } Found;
 
-/* The list that is being written. */
+/* The list under construction. */
 typedef struct Writer {
     int32_t *at;
-    int coincident; /* the particle itself is one */
+    int coincident; /* counts the particle itself */
 } Writer;
 
 #endif

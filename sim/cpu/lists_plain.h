@@ -1,19 +1,19 @@
-/* The making of lists without lanes that can be moved: squares of distances by loops that the compiler makes
-   as wide as it can, then the entries to be kept one by one. For pairs_lists.c. */
+/* Neighbour lists without lane compression: the compiler vectorizes the squared distances, then entries are
+   kept one by one. For pairs_lists.c. */
 #ifndef SLOSH_LISTS_PLAIN_H
 #define SLOSH_LISTS_PLAIN_H
 
 #include "sim/cpu/lists_block.h"
 
-/* How far x is from the box along an axis; 0 within. */
+/* Distance of x to the box along an axis; 0 inside. */
 SIMD_INLINE float outside(const Around *box, int axis, float x)
 {
     const float d = fabsf(x - box->middle[axis]) - box->half[axis];
     return d > 0 ? d : 0;
 }
 
-/* Who is in the box or within h of it, of the particles [begin, end): a little more than h, since places in
-   the box are rounded. */
+/* Adds the particles of [begin, end) in the box or within slightly more than h of the box: the margin
+   covers rounding of positions. */
 static void block_add(const PairArgs *args, const Around *around_box, uint32_t begin, uint32_t end,
                       Block *block)
 {
@@ -27,7 +27,7 @@ static void block_add(const PairArgs *args, const Around *around_box, uint32_t b
         square[k] = dx * dx + dy * dy + dz * dz;
     }
     int used = block->count;
-    for (int k = 0; k < count; k++) { /* without a branch, which would be taken at random */
+    for (int k = 0; k < count; k++) { /* no branch: its outcome would be random */
         block->x[used] = x[k];
         block->y[used] = y[k];
         block->z[used] = z[k];
@@ -37,7 +37,7 @@ static void block_add(const PairArgs *args, const Around *around_box, uint32_t b
     block->count = used;
 }
 
-/* Adds those of at most BLOCK_MOST candidates that are neighbours of particle i. */
+/* Appends the neighbours of particle i among at most BLOCK_MOST candidates. */
 SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const float *y, const float *z,
                        const int32_t *j, int count, Writer *out)
 {
@@ -46,7 +46,8 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     float square[BLOCK_MOST + LANES];
     int coincident = 0;
     for (int k = 0; k < count; k++) {
-        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): block_add wrote `count` of them
+        // NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult): block_add wrote `count` of
+        // them
         const float dx = at[0] - x[k], dy = at[1] - y[k], dz = at[2] - z[k];
         square[k] = dx * dx + dy * dy + dz * dz;
         coincident += square[k] < least * least;
@@ -60,7 +61,7 @@ SIMD_INLINE void offer(const PairArgs *args, size_t i, const float *x, const flo
     out->at = to;
 }
 
-/* Side by side: rows of LANES, as many as the longest has, with `none` past a list's end. */
+/* Interleaves the lists: `rows` rows of LANES entries, `none` past a list's end. */
 static void interleave(const uint32_t *index, const Found *found, uint32_t rows, uint32_t none, uint32_t *to)
 {
     for (int lane = 0; lane < LANES; lane++) {

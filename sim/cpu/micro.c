@@ -1,4 +1,4 @@
-/* What `slosh bench --micro` is told of this backend: see sim/world/micro.h. */
+/* Data of the backend for `slosh bench --micro`: see sim/world/micro.h. */
 #include "sim/world/micro.h"
 
 #include "sim/cpu/ceilings.h"
@@ -9,11 +9,11 @@ static void nothing(const CpuRange *range)
     (void)range;
 }
 
-/* A walk that asks for nothing: what remains is the making of the lists. */
+/* An empty walk: its time is the time to make the lists. */
 static PairCost lists_pair(const Constants *constants)
 {
     (void)constants;
-    return (PairCost){.flops = 8}; /* the distance of each that is found; of the others nobody need know */
+    return (PairCost){.flops = 8}; /* distance of each neighbour found; rejected candidates are not counted */
 }
 
 static const CpuPass lists = {.loops = {{nothing, .walks = true}}, .pair = lists_pair};
@@ -21,7 +21,7 @@ static const CpuPass lists = {.loops = {{nothing, .walks = true}}, .pair = lists
 static const Pass neighbours = {
     .name = "lists", .stage = STAGE_DENSITY, .cpu = &lists, .reads = "position", .writes = ""};
 
-/* Each column that is sorted is read and written once, as are cell, rank and order. */
+/* Bytes per particle: each sorted column is read and written once, as are cell, rank and order. */
 static double grid_stream(const void *state)
 {
     const Cpu *cpu = state;

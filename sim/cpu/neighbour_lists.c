@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Rows of a group of particles with so many neighbours in the mean. */
+/* Expected rows of a group whose particles have `neighbours` neighbours on average. */
 static double rows_expected(double neighbours)
 {
     return 1.2 * neighbours + 8;

@@ -1,5 +1,5 @@
-/* The images of particles in the walls of the box (sim/box/wall_images.h), a group at a time. For the files
-   that are compiled once for each instruction set. */
+/* Images of particles in the box's walls (sim/box/wall_images.h), per group. For files compiled for each
+   instruction set. */
 #ifndef SLOSH_PAIR_IMAGES_H
 #define SLOSH_PAIR_IMAGES_H
 
@@ -7,22 +7,22 @@
 #include "sim/cpu/walk.h"
 #include "sim/world/constants.h"
 
-/* An image of each particle of a group, of those that have one: where it stands, and its mirror's signs; the
-   others' are far from all. Whom an image sees its particle sees too, since it is nearer to all on its own
-   side of the wall; and the image sees the particle. */
+/* An image of each particle of a group: position and signs of the mirror. Lanes without an image stand far
+   away. All neighbours of an image are neighbours of the particle, which is nearer to everything on its
+   side of the wall. An image can see the particle itself. */
 typedef struct Mirrored {
     Place at, sign;
 } Mirrored;
 
-/* The images of a group, in the order that wall_images has. */
+/* Images of a group, in the order of wall_images. */
 typedef struct Images {
-    int count; /* the particles themselves, which stand first, not counted */
+    int count; /* without the particles, which are entry 0 */
     Mirrored of[IMAGES_MAX];
-    f8 near2[IMAGES_MAX]; /* square of each one's distance to the box, m2 */
-    i8 there[IMAGES_MAX]; /* whether a particle has it */
+    f8 near2[IMAGES_MAX]; /* squared distance of each image to the box, m2 */
+    i8 there[IMAGES_MAX]; /* mask of the particles that have the image */
 } Images;
 
-/* Of the walls' images: sums of squares round h. */
+/* Distance to walls without images in reach; the margin covers rounding of squares. */
 SIMD_INLINE WallsFar out_of_sight(const Constants *s)
 {
     return walls_far(&s->walls, 1.001f * s->support_radius);
@@ -35,8 +35,8 @@ SIMD_INLINE i8 beside_walls(const WallsFar *far, const Place *at)
            (at->z < f8_splat(far->low[2])) | (at->z > f8_splat(far->high[2]));
 }
 
-/* All that are there so far, mirrored in the wall across `axis` that stands at `wall`, d away from the
-   particles, on `side`. */
+/* Mirrors images 0 to `from` - 1 in the wall across `axis` at `wall`, on `side`. `d`: distance of the
+   particles to the wall. */
 SIMD_INLINE void mirror_in(Images *images, int from, int axis, float wall, float side, f8 d, float h2)
 {
     const f8 at = f8_splat(wall) - f8_splat(side) * d, d2 = d * d, away = f8_splat(-PAST), none = f8_splat(0);
@@ -59,7 +59,7 @@ SIMD_INLINE void mirror_in(Images *images, int from, int axis, float wall, float
     }
 }
 
-/* False where no particle of the group has any: wall_images of each. */
+/* Fills in wall_images of each particle of the group; false if no particle has an image. */
 SIMD_INLINE bool images_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
                            Images *images)
 {

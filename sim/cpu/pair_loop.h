@@ -1,4 +1,4 @@
-/* What the loops over pairs share. For the files that are compiled once for each instruction set. */
+/* Shared code of pair loops. For files compiled for each instruction set. */
 #ifndef SLOSH_PAIR_LOOP_H
 #define SLOSH_PAIR_LOOP_H
 
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* PAIR_LOOP(name) { body }: a loop over pairs, of a name of its own in each set; its arguments are those of
+/* PAIR_LOOP(name) { body }: a pair loop with a separate name in each set; its arguments are those of
    PairLoop. */
 #define PAIR_JOIN(name, set)   name##_##set
 #define PAIR_EXPAND(name, set) PAIR_JOIN(name, set)
@@ -16,13 +16,13 @@
     PairLoop PAIR_NAME(name);                                                                                \
     void PAIR_NAME(name)(const PairArgs *args, size_t begin, size_t end)
 
-/* Of two viscosities: pair_viscosity of sim/matter/viscosity.h. */
+/* Harmonic mean of two viscosities: pair_viscosity of sim/matter/viscosity.h. */
 SIMD_INLINE f8 harmonic(f8 a, f8 b)
 {
     return f8_splat(4) * a * b / greater(a + b, f8_splat(1e-30F));
 }
 
-/* That of a pair; of one fluid without a division. */
+/* Viscosity of a pair; without a division for a single fluid. */
 SIMD_INLINE f8 pair_viscosities(const PairArgs *args, f8 mi, const uint32_t *j)
 {
     return args->viscosity ? harmonic(mi, f8_gather(args->viscosity, j)) : mi + mi;
@@ -33,8 +33,7 @@ static uint32_t folded_id(ParticleId id)
     return (uint32_t)(id ^ id >> 32);
 }
 
-/* A direction that only the two ids decide, opposite for (a, b) and (b, a); of two dimensions in the plane.
- */
+/* A direction from the two ids alone, opposite for (a, b) and (b, a); in the plane for two dimensions. */
 static void direction_of_ids(ParticleId a, ParticleId b, int dimensions, float out[3])
 {
     const uint32_t low = folded_id(a < b ? a : b), high = folded_id(a < b ? b : a);
@@ -51,14 +50,14 @@ static void direction_of_ids(ParticleId a, ParticleId b, int dimensions, float o
         out[k] *= scale;
 }
 
-/* How far coincident pairs are taken to be apart, in h: nothing beside h for a pressure that does not end at
-   r = 0; where solvers hold the number density they have to see a gradient (that of Wendland's C2 is 0 at
-   r = 0, and at 0.1 h two thirds of its greatest). */
+/* Assumed distance of coincident pairs, in h. TWINS_NEAR: negligible beside h, for pressure forces that do
+   not vanish at r = 0. TWINS_PART: for solvers of the number density, which need a gradient (Wendland C2: 0
+   at r = 0, two thirds of the maximum at 0.1 h). */
 #define TWINS_NEAR 1e-6f
 #define TWINS_PART 0.1f
 
-/* Coincident pairs get a direction by their ids and that length, of h (DESIGN 3). By value, so that what has
-   no such pair, nearly always, stays in registers. */
+/* Gives coincident pairs a direction by their ids and the distance `part` in h (DESIGN 3). By value, so
+   that the usual case without coincident pairs stays in registers. */
 static __attribute__((noinline, unused)) Separation separate_to(const PairArgs *args, size_t i,
                                                                 const uint32_t *j, Separation d, float part)
 {

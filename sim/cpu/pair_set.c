@@ -21,7 +21,7 @@ static bool has_avx2(void)
 #endif
 }
 
-/* What the environment says; -1: nothing that there is. */
+/* The kind named by the environment; -1: unknown name. */
 static int wanted_by_environment(void)
 {
     const char *wanted = getenv("SLOSH_SIMD");

@@ -1,5 +1,5 @@
-/* The instruction sets that the loops over pairs are compiled for, in files NAME/pairs*.c: the one that fits
-   the processor is chosen when a world is made. All of them give the same bits. */
+/* Instruction sets of the pair loops in files NAME/pairs*.c. The best set for the processor is chosen when
+   a world is made. All sets give the same bits. */
 #ifndef SLOSH_PAIR_SET_H
 #define SLOSH_PAIR_SET_H
 
@@ -16,7 +16,7 @@ typedef struct PairLoops {
     PairLoop *in[PAIR_SETS];
 } PairLoops;
 
-/* PAIR_LOOPS(name): the loop that a file NAME/pairs*.c begins with PAIR_LOOP(name). */
+/* PAIR_LOOPS(name): declares the loop defined by PAIR_LOOP(name) in a file NAME/pairs*.c. */
 #if defined(__x86_64__)
 #define PAIR_LOOPS(name)                                                                                     \
     PairLoop name##_baseline, name##_avx2;                                                                   \
@@ -27,19 +27,19 @@ typedef struct PairLoops {
     static const PairLoops name = {{name##_baseline}}
 #endif
 
-/* What solver.simd may say, ended by a NULL name: the widest that the processor has first. */
+/* Values of solver.simd, ended by a NULL name; the first value takes the widest set of the processor. */
 typedef struct SimdKind {
     const char *name, *help;
 } SimdKind;
 
 extern const SimdKind simd_kinds[];
 
-/* The set of that number in simd_kinds; of the first what the environment variable SLOSH_SIMD
-   names, as far as the processor has it, for tests of a whole program; else the widest that the processor
-   has. False, with the reason, where it cannot. */
+/* Chooses the set for entry `simd` of simd_kinds. Entry 0 takes the set named by the environment variable
+   SLOSH_SIMD if the processor has the set (for tests of the whole program), otherwise the widest set.
+   Returns false, with the reason, if the choice is impossible. */
 bool pair_set_choose(int simd, PairSet *set, Error *error);
 
-/* Its name in simd_kinds. */
+/* The set's name in simd_kinds. */
 const char *pair_set_name(PairSet set);
 
 #endif

@@ -1,14 +1,14 @@
-/* The kernels that solver.kernel names, in pair loops. For the files that are compiled once for each
-   instruction set. */
+/* The kernels named by solver.kernel, in pair loops. For files compiled for each instruction set. */
 #ifndef SLOSH_PAIR_SHAPE_H
 #define SLOSH_PAIR_SHAPE_H
 
 #include "sim/cpu/walk.h"
 #include "sim/kernel/kernel.h"
 
-/* Both are 0 from q = 1 on. f(q) = -w'(q) / q, of 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3; of (1 - q)^4 (1 + 4 q);
-   of the quintic's powers of 3 - 3 q, 2 - 3 q, 1 - 3 q, up to a factor that the caller's scale takes care of.
- */
+/* Kernel slope f(q) = -w'(q) / q, up to a factor in the caller's scale; 0 from q = 1 on.
+
+   w is 1 - 6 q^2 + 6 q^3 and 2 (1 - q)^3 for the cubic; (1 - q)^4 (1 + 4 q) for Wendland C2; for the
+   quintic the powers of 3 - 3 q, 2 - 3 q, 1 - 3 q. */
 SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
 {
     const f8 one = f8_splat(1), zero = f8_splat(0), t = closeness(q);
@@ -21,7 +21,7 @@ SIMD_INLINE f8 shape(f8 q, const ShapeKernel kernel)
     return (a2 * a2 - f8_splat(6) * (b2 * b2) + f8_splat(15) * (c2 * c2)) / q;
 }
 
-/* w(q) / w(0). */
+/* w(q) / w(0); 0 from q = 1 on. */
 SIMD_INLINE f8 height(f8 q, const ShapeKernel kernel)
 {
     const f8 one = f8_splat(1), zero = f8_splat(0), t = closeness(q), t2 = t * t;

@@ -1,5 +1,4 @@
-/* A loop that does nothing but multiply and add, in registers of the set's width: the most that a pair loop
-   could do. */
+/* A loop of multiplications and additions in registers of the set's width: an upper bound for pair loops. */
 #include "sim/cpu/pair_loop.h"
 
 #if defined(__AVX512F__)
@@ -11,9 +10,9 @@ enum { WIDTH = 16 };
 #endif
 typedef float Wide __attribute__((vector_size(WIDTH)));
 
-enum { CHAINS = 12 }; /* independent ones: more than two units times the latency of a sum would need */
+enum { CHAINS = 12 }; /* independent chains: more than two units need to hide the latency of a sum */
 
-/* (end - begin) times; fx: operations each time, bits of a register, and a sum that nobody needs. */
+/* Runs (end - begin) rounds. fx[0]: operations per round; fx[1]: register bits; fx[2]: an unused sum. */
 PAIR_LOOP(multiply_add)
 {
     Wide a[CHAINS], factor = {0}, term = {0};

@@ -1,8 +1,8 @@
-/* Makes the lists of images: see sim/cpu/image_lists.h. */
+/* Builds the lists of wall images: see sim/cpu/image_lists.h. */
 #include "sim/cpu/image_lists.h"
 #include "sim/cpu/pair_loop.h"
 
-/* Entries j of which the image sees some, behind those that each lane has. */
+/* Appends to each lane's list the entry of j that the image sees. */
 SIMD_INLINE void see(const PairArgs *args, const Mirrored *image, const uint32_t *j, uint32_t *to,
                      uint32_t count[LANES])
 {
@@ -14,7 +14,7 @@ SIMD_INLINE void see(const PairArgs *args, const Mirrored *image, const uint32_t
     }
 }
 
-/* Rows of those that an image sees, of at most `rows`: how many. */
+/* Lists the neighbours of an image in at most `rows` rows. Returns the number of rows. */
 SIMD_INLINE uint32_t list_image(const PairArgs *args, size_t i, const Mirrored *image, size_t rows,
                                 uint32_t *to)
 {
@@ -31,7 +31,7 @@ SIMD_INLINE uint32_t list_image(const PairArgs *args, size_t i, const Mirrored *
     return most;
 }
 
-/* Those of a group behind the `used` numbers of its range; as many as there are then. */
+/* Appends the image lists of a group after the `used` numbers of the range. Returns the new `used`. */
 SIMD_INLINE uint32_t list_images(const PairArgs *args, size_t i, const Images *images, uint32_t used)
 {
     NeighbourLists *lists = args->lists;
@@ -51,7 +51,7 @@ SIMD_INLINE uint32_t list_images(const PairArgs *args, size_t i, const Images *i
     return used;
 }
 
-/* Those of one range, behind its lists. */
+/* Lists the images of a range, after the range's neighbour lists. */
 PAIR_LOOP(image_lists)
 {
     const WallsFar far = out_of_sight(args->constants);

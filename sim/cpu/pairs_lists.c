@@ -1,5 +1,5 @@
-/* Makes the lists of neighbours. For each cell a block of all that its particles may see, then for each
-   particle those of the block within h. */
+/* Builds the neighbour lists. Per cell, a block of all candidates; then per particle the candidates within
+   h. */
 #if defined(__AVX2__)
 #include "sim/cpu/lists_avx2.h"
 #else
@@ -24,7 +24,7 @@ static void rows_add(Rows *rows, uint32_t begin, uint32_t end)
     rows->end[rows->count++] = end;
 }
 
-/* All that stand in the cells next to `cell`, itself included, copies across periodic sides among them. */
+/* All particles in `cell` and the cells around, with copies across periodic sides. */
 static void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
 {
     const Constants *s = args->constants;
@@ -44,7 +44,7 @@ static void rows_of(const PairArgs *args, uint32_t cell, Rows *rows)
     }
 }
 
-/* Of the particles [begin, end) of one cell. False when the block is too small for the crowd around them. */
+/* The block of particles [begin, end) of a cell. False if the crowd around overflows the block. */
 static bool block_make(const PairArgs *args, const Rows *rows, size_t begin, size_t end, Block *block)
 {
     Around box;
@@ -63,7 +63,7 @@ static void list_block(const PairArgs *args, size_t i, const Block *block, Write
     offer(args, i, block->x, block->y, block->z, block->j, block->count, out);
 }
 
-/* Of a crowd that no block holds. */
+/* For a crowd too large for a block. */
 static void list_rows(const PairArgs *args, size_t i, const Rows *rows, Writer *out)
 {
     int32_t index[BLOCK_MOST + LANES];
@@ -77,7 +77,7 @@ static void list_rows(const PairArgs *args, size_t i, const Rows *rows, Writer *
         }
 }
 
-/* As many as there are of them, rounded up. */
+/* Upper bound of the number of candidates. */
 static size_t most_of(const Rows *rows)
 {
     size_t most = 0;
@@ -86,7 +86,7 @@ static size_t most_of(const Rows *rows)
     return most;
 }
 
-/* The list of particle i, behind those that the group has already. Empty when memory is short. */
+/* Lists particle i after the group's lists so far. The list stays empty if memory is short. */
 static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Block *block, Found *found)
 {
     NeighbourLists *lists = args->lists;
@@ -108,8 +108,7 @@ static void list_one(const PairArgs *args, size_t i, const Rows *rows, const Blo
     found->used += (count + LANES - 1) / LANES * LANES;
 }
 
-/* Lists of the group of particle i, found one by one, come to stand behind the `used` entries of its range.
- */
+/* Interleaves the lists of particle i's group after the `used` entries of the range. */
 static void list_group(const PairArgs *args, size_t i, const Found *found, uint32_t *used)
 {
     NeighbourLists *lists = args->lists;
@@ -132,14 +131,13 @@ typedef struct Making {
     uint32_t used; /* entries of the range's memory */
 } Making;
 
-/* Of what is set aside, and of ghosts: nobody sees the first, and another lists the second. */
+/* True for particles set aside, which have no neighbours, and for ghosts, which their owners list. */
 static bool has_no_lists(const PairArgs *args, uint32_t cell)
 {
     return cell == args->constants->cells.count || (args->foreign && args->foreign[cell]);
 }
 
-/* Of the particles [begin, end), those of one cell or a part of them. Boundary particles and ghosts have no
-   lists. */
+/* Lists the particles [begin, end), a cell or part of a cell. Boundary particles and ghosts have no lists. */
 static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last, Making *making)
 {
     const uint32_t cell = args->cell[begin];
@@ -159,7 +157,7 @@ static void list_cell(const PairArgs *args, size_t begin, size_t end, bool last,
     }
 }
 
-/* Those of one range, from its first particle on. */
+/* Lists the particles of a range, from the range's first particle on. */
 PAIR_LOOP(lists)
 {
     Making making = {.used = 0};

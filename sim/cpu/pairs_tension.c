@@ -1,8 +1,8 @@
-/* The pair sums of surface tension, within each fluid; added to the forces that stand there. */
+/* Pair sums of surface tension, within each fluid; added to the forces. */
 #include "sim/cpu/pair_loop.h"
 
-/* -(g_i + g_j) / 2 V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 with volumes for masses; r and h in units of
-   Constants.unit. */
+/* -(g_i + g_j) / 2 V_i V_j C(r) x_ij / r: Akinci 2013, eq. 1, with volumes instead of masses; r and h in
+   units of Constants.unit. */
 SIMD_INLINE f8 cohesion(f8 r, f8 h, f8 repulsion)
 {
     const f8 both = (h - r) * r, cube = both * both * both;
@@ -40,8 +40,8 @@ static void add_cohesion(const PairArgs *args, size_t begin, size_t end)
     }
 }
 
-/* -sigma (Laplacian of c) n / |n| an unit volume, n = grad c, where |n| > 0.3 / h: Müller 2003, eq. 15 to 19,
-   c the fluid's own colour; squares of lengths in units of that of Constants.unit. */
+/* -sigma (Laplacian of c) n / |n| per unit volume, n = grad c, if |n| > 0.3 / h: Müller 2003, eq. 15 to 19;
+   c is the fluid's own colour. Squared lengths in units of Constants.unit squared. */
 static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
 {
     const Constants *s = args->constants;
@@ -69,7 +69,7 @@ static void add_colour_field(const PairArgs *args, size_t begin, size_t end)
         const f8 volume = f8_load(args->volume + i);
         nx *= colour, ny *= colour, nz *= colour;
         const f8 length = f8_sqrt(nx * nx + ny * ny + nz * nz);
-        const f8 bent = bend - volume * h2 * inner; /* its own too */
+        const f8 bent = bend - volume * h2 * inner; /* with the particle's own part */
         const f8 pull = f8_masked(length * f8_splat(h) >= f8_splat(0.3f),
                                   -f8_load(args->tension + i) * colour * bent * volume / length);
         lanes_add(args->fx, i, begin, end, pull * nx);

@@ -70,7 +70,7 @@ static void run_loop(Running *running)
             cpu_copies_update(cpu, running->pass);
             cpu_copies_pack(cpu);
         }
-        columns_clear(&cpu->all, &cpu->now, none); /* lists are filled up with it */
+        columns_clear(&cpu->all, &cpu->now, none); /* dummy particle that fills up lists */
         memcpy(cpu->place[none], (float[]){PAST, PAST, PAST, 0}, 16);
         memset(cpu->motion[none], 0, 16);
         if (!cpu->lists.ready)
@@ -101,7 +101,7 @@ void cpu_force_end(const CpuRange *range)
 {
     const Cpu *cpu = range->cpu;
     const CpuParticles *p = &cpu->now;
-    if (p->tension && cpu->constants->tension_model != TENSION_CURVATURE) /* the method's own */
+    if (p->tension && cpu->constants->tension_model != TENSION_CURVATURE) /* the method has its own */
         cpu_pairs(range, &tension);
     for (size_t i = range->begin; i < range->end; i++) {
         const float inverse_mass = 1 / cpu->constants->mass[p->fluid[i]];

@@ -1,5 +1,4 @@
-/* What a method's pass is on the CPU: loops over all particles, one behind the other, each in ranges side by
-   side. */
+/* A method's pass on the CPU: loops over all particles in sequence, each loop in parallel ranges. */
 #ifndef SLOSH_CPU_PASS_H
 #define SLOSH_CPU_PASS_H
 
@@ -18,11 +17,11 @@ typedef struct CpuRange {
 typedef struct CpuLoop {
     void (*body)(const CpuRange *range);
     bool walks; /* over neighbours */
-    /* Before a walk, for all particles: fills Cpu.place, .motion or both as the walk needs them. NULL: both.
-     */
+    /* Before a walk, for all particles: fills Cpu.place, .motion or both, as the walk requires. NULL:
+       both. */
     void (*pack)(const CpuRange *range);
-    bool packed; /* the pass before has filled them */
-    bool solids; /* over the particles of solids too; else over runs of the fluids' alone */
+    bool packed; /* the previous pass has filled them */
+    bool solids; /* also over boundary particles; otherwise over runs of own fluid particles */
 } CpuLoop;
 
 /* Fluid particle i next to boundary particle b. */
@@ -30,31 +29,31 @@ typedef struct SolidPair {
     const Cpu *cpu;
     float dt; /* of the step, s */
     size_t i, b;
-    float d[3], r; /* x_i - x_b, m, and its length: in (0, h) */
+    float d[3], r; /* x_i - x_b, m; its length in (0, h) */
 } SolidPair;
 
-/* What b pushes i with, N over Constants.unit_volume. */
+/* Force of b on i, N in units of Constants.unit_volume. */
 typedef void (*SolidForce)(const SolidPair *pair, float force[3]);
 
 typedef struct CpuPass {
-    CpuLoop loops[3];                             /* ended by one without a body */
-    PairCost (*pair)(const Constants *constants); /* counted as sim/world/micro.h says; NULL: no pairs */
-    SolidForce solid; /* of the pass that has run; NULL: it pushes nothing that stays */
+    CpuLoop loops[3];                             /* ended by a loop without a body */
+    PairCost (*pair)(const Constants *constants); /* counted as in sim/world/micro.h; NULL: no pairs */
+    SolidForce solid; /* for forces on solids, after the pass; NULL: no lasting force on solids */
 } CpuPass;
 
-/* Whether the name is one of the list, which has blanks between them; as Pass.reads. */
+/* True if `name` is in the blank-separated list, as in Pass.reads. */
 bool cpu_name_among(const char *list, const char *name);
 
-/* The pair sums of a range. */
+/* Runs the pair sums of a range. */
 static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
 {
     loops->in[range->cpu->pairs](range->args, range->begin, range->end);
 }
 
-/* sim/cpu/forces.c: adds what solids feel of a pass over dt (s). */
+/* sim/cpu/forces.c: adds the forces of a pass on solids over dt (s). */
 void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt);
 
-/* F U = -W'(r) / r of a kernel, 1/m2, times `scale`: of pairs that are few. */
+/* F U = -W'(r) / r of a kernel, 1/m2, times `scale`: for few pairs. */
 static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, double scale)
 {
     const Constants *s = pair->cpu->constants;
@@ -62,7 +61,7 @@ static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, doubl
     return (float)(-scale * s->unit_volume * kernel->derivative(r, (double)s->support_radius) / r);
 }
 
-/* pair_viscosity of sim/matter/viscosity.h, Pa s, where forces have friction. */
+/* pair_viscosity of sim/matter/viscosity.h, Pa s, for forces with friction. */
 static inline float cpu_pair_viscosity(const SolidPair *pair)
 {
     const float *viscosity = pair->cpu->now.viscosity;
@@ -70,10 +69,10 @@ static inline float cpu_pair_viscosity(const SolidPair *pair)
                      : 2 * pair->cpu->constants->viscosity[0];
 }
 
-/* Forces as sums over pairs and walls become accelerations, surface tension among them. */
+/* Adds surface tension, then turns the summed forces into accelerations. */
 void cpu_force_end(const CpuRange *range);
 
-/* sim/box/wall_cushion.h, behind cpu_force_end. */
+/* Adds sim/box/wall_cushion.h; call after cpu_force_end. */
 void cpu_cushion(const CpuRange *range);
 
 #endif

@@ -1,4 +1,4 @@
-/* What others see of the state: copies and sums. */
+/* Reads of the state: copies and sums. */
 #include "sim/cpu/cpu.h"
 #include "sim/world/sums.h"
 
@@ -24,11 +24,11 @@ bool cpu_read(void *state, const ParticleArrays *out)
     return true;
 }
 
-/* Others with r < h, boundary particles of solids not among them. */
+/* Number of fluid neighbours with r < h, without boundary particles. */
 static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
 {
     const float h2 = args->constants->support_radius * args->constants->support_radius;
-    int count = -1; /* not itself */
+    int count = -1; /* without the particle itself */
     CellRow rows[CELL_ROWS];
     const int row_count = cell_rows(args->constants, args->fold, args->cell_start, args->cell[i], rows);
     for (int row = 0; row < row_count; row++) {
@@ -36,7 +36,8 @@ static int neighbours_of(const Cpu *cpu, const PairArgs *args, size_t i)
             continue;
         for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
             float d[3] = {args->x[i] - args->x[j], args->y[i] - args->y[j], args->z[i] - args->z[j]};
-            periodic_nearest(&args->constants->periodic, d); /* who has gone through a side since the grid */
+            periodic_nearest(&args->constants->periodic, d); /* for particles that crossed a side since the
+                                                                grid */
             count += d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2 && cpu->now.fluid[j] < FLUIDS_MAX;
         }
     }
@@ -54,7 +55,7 @@ static void add_particle(const Cpu *cpu, const PairArgs *args, size_t i, WorldSu
 typedef struct SumPass {
     const Cpu *cpu;
     PairArgs args;
-    WorldSums *partial; /* one a range */
+    WorldSums *partial; /* an entry per range */
 } SumPass;
 
 static void sum_range(void *context, size_t begin, size_t end)

@@ -1,6 +1,5 @@
-/* One wide type: eight floats, whatever the machine has: two registers of 128 bits or one of 256.
-
-   Arithmetic is GCC's and clang's vector extension; what it lacks is below. */
+/* A wide type of eight floats on any machine: two registers of 128 bits or a register of 256 bits.
+   Arithmetic uses the vector extension of GCC and clang; missing operations are below. */
 #ifndef SLOSH_SIMD_H
 #define SLOSH_SIMD_H
 
@@ -93,7 +92,7 @@ SIMD_INLINE f8 f8_sqrt(f8 a)
 #endif
 }
 
-/* a where it is above 0, else 0. */
+/* max(a, 0). */
 SIMD_INLINE f8 f8_positive(f8 a)
 {
 #if defined(__AVX__)
@@ -113,7 +112,7 @@ typedef struct f8x4 {
     f8 x, y, z, w;
 } f8x4;
 
-/* Entries j[0 .. 7] of packed columns: loads of 16 bytes and a transposition, at half the price of four
+/* Entries j[0 .. 7] of packed columns: loads of 16 bytes and a transposition, at half the cost of four
    gathers. */
 SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
 {
@@ -150,7 +149,7 @@ SIMD_INLINE f8x4 f8_load4(const float (*p)[4], const uint32_t *j)
 #endif
 }
 
-/* One bit a lane. */
+/* A bit per lane. */
 SIMD_INLINE int i8_bits(i8 mask)
 {
 #if defined(__AVX__)

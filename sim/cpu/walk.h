@@ -1,18 +1,17 @@
-/* The walk over neighbours: the one that all pair loops have. For the files that are compiled once for each
-   instruction set.
+/* The walk over neighbours, shared by all pair loops. For files compiled for each instruction set.
 
-   LANES particles walk their lists side by side, a lane each: a particle's sum is in the order of its list,
-   at any width, and no sum over lanes is needed. */
+   LANES particles walk their lists side by side, a lane each. A particle's sum follows the order of its
+   list at any width, and no sum over lanes is needed. */
 #ifndef SLOSH_WALK_H
 #define SLOSH_WALK_H
 
 #include "sim/cpu/simd.h"
 
-/* GROUPS (i, begin, end) { ... }: for each LANES particles i, i + 1, ... some of which are in [begin, end).
- */
+/* GROUPS (i, begin, end) { ... }: for each group of LANES particles i, i + 1, ... that overlaps [begin,
+   end). */
 #define GROUPS(i, begin, end) for (size_t i = (begin) / LANES * LANES; i < (end); i += LANES)
 
-/* Results of the group i, of those that are in [begin, end): others of it may be another thread's. */
+/* Stores results of group i within [begin, end): the rest of the group may belong to a different thread. */
 SIMD_INLINE void lanes_store(float *column, size_t i, size_t begin, size_t end, f8 value)
 {
     if (i >= begin && i + LANES <= end)
@@ -28,7 +27,7 @@ SIMD_INLINE void lanes_add(float *column, size_t i, size_t begin, size_t end, f8
     lanes_store(column, i, begin, end, f8_load(column + i) + value);
 }
 
-/* Where the particles of a group stand. */
+/* Positions of a group's particles. */
 typedef struct Place {
     f8 x, y, z;
 } Place;
@@ -41,7 +40,7 @@ SIMD_INLINE Place place_of(const PairArgs *args, size_t i)
 /* The lists of a group. */
 typedef struct Near {
     const uint32_t *first, *end;
-    bool coincident; /* where one of them stands stands another one, nearly */
+    bool coincident; /* some particle of the group nearly coincides with a neighbour */
 } Near;
 
 SIMD_INLINE Near near_of(const PairArgs *args, size_t i)
@@ -53,18 +52,16 @@ SIMD_INLINE Near near_of(const PairArgs *args, size_t i)
                   (rows & LISTS_COINCIDENT) != 0};
 }
 
-/* NEIGHBOURS (near, j) { const Separation d = separation(args, at, j); ... }: for the next neighbour of each;
-   j points to their indices. */
+/* NEIGHBOURS (near, j) { const Separation d = separation(args, at, j); ... }: for the next neighbour of
+   each lane; j points to the neighbours' indices. */
 #define NEIGHBOURS(near, j) for (const uint32_t *j = (near).first; j < (near).end; j += LANES)
 
-/* A neighbour each: x_ij = x_i - x_j, m; r^2, and of lanes past their list's end far more than h^2; p_j
- * V_j^2.
- */
+/* A neighbour per lane: x_ij = x_i - x_j, m; r^2, far above h^2 past the list's end; p_j V_j^2. */
 typedef struct Separation {
     f8 x, y, z, r2, term;
 } Separation;
 
-/* From neighbours at p, as args->place has them. */
+/* From neighbours at p, in the layout of args->place. */
 SIMD_INLINE Separation apart(Place at, f8x4 p)
 {
     Separation d = {.x = at.x - p.x, .y = at.y - p.y, .z = at.z - p.z, .term = p.w};
@@ -83,7 +80,7 @@ SIMD_INLINE f8x4 motion(const PairArgs *args, const uint32_t *j)
     return f8_load4(args->motion, j);
 }
 
-/* 1 - r / h, and 0 past the list's end. */
+/* 1 - r / h; 0 past the list's end. */
 SIMD_INLINE f8 closeness(f8 q)
 {
     return f8_positive(f8_splat(1) - q);

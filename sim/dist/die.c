@@ -1,4 +1,4 @@
-/* Ends all ranks on an error; memory or the end. */
+/* Ends all ranks on an error or if memory is short. */
 #include "sim/dist/dist.h"
 
 #include <stdarg.h>
