@@ -1,4 +1,4 @@
-/* The list of backends, and what is asked of them all. */
+/* List of the backends and queries over the list. */
 #include "sim/world/backend.h"
 
 #include <assert.h>

@@ -1,10 +1,10 @@
 #include "sim/world/cell_fold.h"
 
 enum {
-    PLACES = 4,     /* a particle, at least: a cell of the fluid has some nine */
-    WORTH_IT = 2,   /* times as many cells as places */
-    LEAST_BITS = 6, /* 27 cells side by side need 64 places to be apart */
-    DIFFERENCES = 9 /* along an axis */
+    PLACES = 4,     /* per particle, at least: a cell of fluid has some nine particles */
+    WORTH_IT = 2,   /* least ratio of cells to places */
+    LEAST_BITS = 6, /* 27 adjacent cells need 64 places to be apart */
+    DIFFERENCES = 9 /* per axis */
 };
 
 CellFold cell_fold_plain(const CellGrid *cells)
@@ -14,7 +14,7 @@ CellFold cell_fold_plain(const CellGrid *cells)
         .y = width, .z = width * (uint32_t)cells->size[1], .mask = UINT32_MAX, .count = cells->count};
 }
 
-/* By how much two of the cells that a walk visits may differ along an axis: across a periodic side too. */
+/* Possible index differences along an axis between cells of a walk, also across a periodic side. */
 static int differences(const Constants *s, int k, int out[DIFFERENCES])
 {
     const int n = s->cells.size[k] - 2, all[DIFFERENCES] = {0, 1, -1, 2, -2, n - 1, 1 - n, n - 2, 2 - n};
@@ -38,8 +38,8 @@ static bool are_apart(const Constants *s, const CellFold *fold)
     return true;
 }
 
-/* Rows begin where the R2 sequence has its points, 1/p and 1/p^2 of the way with p^3 = p + 1: evenly spread,
-   however many there are. False when none nearby keeps neighbours apart. */
+/* Rows begin at points of the R2 sequence, 1/p and 1/p^2 of the table with p^3 = p + 1: evenly spread for
+   any number of rows. False if no nearby offset keeps neighbour cells apart. */
 static bool rows_spread(const Constants *s, CellFold *fold, uint32_t places)
 {
     fold->mask = places - 1;

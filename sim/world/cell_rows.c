@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* The cell at `place` along one axis, for a place outside the box: across a periodic side. */
+/* The cell at `place` along an axis; a place outside of the box is wrapped across a periodic side. */
 static int across(const Constants *s, int k, int place, float *shift)
 {
     const int cells = s->cells.size[k] - 2;
@@ -13,7 +13,7 @@ static int across(const Constants *s, int k, int place, float *shift)
     return place < 1 ? place + cells : place - cells;
 }
 
-/* `count` cells from `first` on along x. */
+/* `count` cells along x from `first` on. */
 static CellRow row_from(const CellFold *fold, const uint32_t *start, int first, int count, const int at[3],
                         const float shift[3])
 {
@@ -51,7 +51,7 @@ uint32_t cell_near(const Constants *s, const CellFold *fold, size_t place, const
         at[k] = (int)fminf(fmaxf(along, 1), (float)cells->size[k] - 2);
     }
     uint32_t cell = 0;
-    for (int n = 0; n <= 27; n++) { /* at last its own, if none has */
+    for (int n = 0; n <= 27; n++) { /* if no cell fits, ends at the cell of x */
         const int near = n < 27 ? n : middle, step[3] = {near % 3 - 1, near / 3 % 3 - 1, near / 9 - 1};
         uint32_t to[3];
         float shift;

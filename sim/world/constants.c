@@ -50,7 +50,7 @@ static bool shape_check(const SolidDef *solid, int dimensions)
     }
 }
 
-/* A box that turns about z, a bowl whose axis is in the plane, and none before or behind it. */
+/* True for a box rotated about z, or a bowl with its axis in the plane; z of the centre must be 0. */
 static bool solid_in_plane(const SolidDef *solid)
 {
     const double *axis = solid->axis;
@@ -59,7 +59,7 @@ static bool solid_in_plane(const SolidDef *solid)
            (solid->kind != SOLID_BOWL || axis[2] == 0);
 }
 
-/* One that fluid moves. */
+/* Checks a floating solid. */
 static bool floats_check(const WorldDef *def, int index, Error *error)
 {
     const SolidDef *solid = &def->solids[index];
@@ -130,7 +130,7 @@ static bool fluids_check(const WorldDef *def, Error *error)
     return true;
 }
 
-/* Where the sides across an axis are one. */
+/* Checks settings for periodic sides. */
 static bool periodic_check(const WorldDef *def, Error *error)
 {
     const double h = def->support * def->spacing;
@@ -160,7 +160,7 @@ static bool periodic_check(const WorldDef *def, Error *error)
     return true;
 }
 
-/* Curvature wants particles that stay evenly spread at the surface, as not all methods keep them. */
+/* Curvature requires particles evenly spread at the surface, as not all methods provide. */
 static bool tension_check(const WorldDef *def, Error *error)
 {
     const Method *method = method_find(def->method);
@@ -186,7 +186,7 @@ static bool def_check(const WorldDef *def, Error *error)
     for (int k = 0; k < def->dimensions; k++)
         if (!positive(def->box_size[k]))
             return error_set(error, "the box has no size; give three positive lengths in metres");
-    if (!(def->spacing >= 1e-7 && def->spacing <= 1e4)) /* where all sums keep to the range of floats */
+    if (!(def->spacing >= 1e-7 && def->spacing <= 1e4)) /* range in which all sums fit in floats */
         return error_set(error, "spacing must be 1e-7 to 1e4 m, not %g m", def->spacing);
     if (!(def->support >= 1.5 && def->support <= 4))
         return error_set(error, "support must be 1.5 to 4 spacings");
@@ -279,7 +279,7 @@ static void fluids_set(Constants *constants, const WorldDef *def)
         constants->lid_velocity[k] = (float)def->lid[k];
 }
 
-/* What is the method's own. */
+/* Sets the method's constants. */
 static void own_set(Constants *constants, const WorldDef *def)
 {
     const Method *method = method_find(def->method);
@@ -287,7 +287,7 @@ static void own_set(Constants *constants, const WorldDef *def)
         method->constants(constants, def);
 }
 
-/* The kernel by which implicit friction weighs pairs. */
+/* The kernel that weights pairs in implicit friction. */
 static const Kernel *friction_kernel(const WorldDef *def)
 {
     const Kernel *own = method_kernels(def).slope;
@@ -299,7 +299,7 @@ static const Kernel *friction_kernel(const WorldDef *def)
 
 static void implicit_set(Constants *constants, const WorldDef *def, Lattice *lattice)
 {
-    /* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it */
+    /* f(q) = -w'(q) / q at q = 1/2, as in sim/cpu/pair_shape.h */
     static const double half[SHAPE_KERNELS] = {
         [KERNEL_CUBIC] = 3, [KERNEL_WENDLAND_C2] = 2.5, [KERNEL_QUINTIC] = (5.0625 - 6 * 0.0625) / 0.5};
     const double h = def->support * def->spacing, r = 0.5 * h;
@@ -311,7 +311,7 @@ static void implicit_set(Constants *constants, const WorldDef *def, Lattice *lat
                               lattice->gradient_scale * lattice->radial_scale * constants->unit_volume);
 }
 
-/* The tables of what the walls do, as far as the def needs them and they are not there. */
+/* Creates tables of wall friction if needed and missing. */
 static bool drag_set(Constants *constants, const WorldDef *def, Error *error)
 {
     bool needed = false;
@@ -334,7 +334,7 @@ static void tension_set(Constants *constants, const WorldDef *def)
     const double h = def->support * def->spacing;
     const double u = constants->unit, volume = constants->unit_volume;
     double scale = 1;
-    if (def->tension_model == TENSION_COHESION) /* of its kernel in u^6, times x / u */
+    if (def->tension_model == TENSION_COHESION) /* kernel in u^6, times x / u */
         scale = cohesion_scale(def->dimensions, def->spacing, h) * volume * pow(u, 5);
     if (def->tension_model == TENSION_CURVATURE) {
         constants->curvature = curvature_calibrate(def->dimensions, def->spacing, h);

@@ -5,26 +5,29 @@
 
 #include <math.h>
 
-/* Of all energy, in so many steps. What summed density heats by too long a step of sound is 5 % in 3,400
-   steps (docs/failures.md), friction that boils doubles velocities from step to step. */
+/* Allowed gain as a share of all energy, in STEPS steps. With summed density, too long a step for sound
+   heats by 5 % in 3,400 steps (docs/failures.md); boiling by friction doubles velocities from step to
+   step. */
 static const double GAIN = 0.1, STEPS = 200;
 
-/* Of what moves, is pressed and was stirred, where the step is longer than friction is known to stand: boxes
-   that move and boil gain a third to two thirds of that, calm ones a tenth. */
+/* Allowed gain as a share of the energy of motion, compression and stirring, if the step exceeds the known
+   stable step of friction. Moving boxes that boil gain a third to two thirds of that energy, calm boxes a
+   tenth. */
 static const double GAIN_SUSPECT = 0.25;
 
-static const double STILL = 1e-6; /* m/s, rad/s: a hand at rest comes to its place as a spring does */
+static const double STILL = 1e-6; /* m/s, rad/s: a box approaches the position of a resting hand like a
+                                     spring */
 
-/* Of what is trouble, what the box's change of velocity may do beside the mean between two looks: where it is
-   more, looks stand closer, down to one at each end of a step, where its work is known. */
+/* Largest uncertainty of the work by the box's velocity change between two looks, as a share of the allowed
+   gain. Above, looks are closer, down to a look at each end of a step, where the work is exact. */
 static const double JOLT = 0.02;
 
-/* A look costs some 4 % of a step, on a GPU a wait: not at each step, but before energy has doubled. */
+/* A look costs some 4 % of a step, on a GPU a wait: so not at each step, but before energy has doubled. */
 static const double EVERY = 8, EVERY_ON_GPU = 50, FASTER = 1.2;
 
-static const double COMPRESSED = 0.01; /* its energy is part of what a gain is compared with */
+static const double COMPRESSED = 0.01; /* compression energy at this value is part of the reference energy */
 
-/* Whose way is prescribed, or a hand's. */
+/* True for a solid with prescribed motion, or moved by a hand. */
 static bool driven(const SolidDef *solid)
 {
     return solid_moves(solid) && !solid_floats(solid);
@@ -38,7 +41,7 @@ static bool any_driven(const WorldDef *def)
     return any;
 }
 
-/* Where the gauge is all there is: it knows energy, and nothing of momenta. */
+/* True if the gauge suffices: it has energy and no momenta. */
 static bool gauge_does(const World *world)
 {
     const WorldDef *def = &world->def;
@@ -50,8 +53,8 @@ static bool gauge_does(const World *world)
     return still;
 }
 
-/* Not where solids push a method that moves places: what they press in comes out steps later, and neither is
-   in the forces that they feel. */
+/* False if solids push a method that moves positions: energy pressed in comes out steps later, and neither
+   shows in the forces on solids. */
 static bool watched(const World *world)
 {
     return !finger_on(&world->finger) && world->def.retries > 0 &&
@@ -71,7 +74,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of a vector in the world's axes, the mean in those of the box at both looks. */
+/* A vector of the world's axes in the box's axes: mean of both looks. */
 static void in_box(const BoxState *begin, const BoxState *end, const double world[3], double out[3])
 {
     double one[3], other[3];
@@ -81,8 +84,8 @@ static void in_box(const BoxState *begin, const BoxState *end, const double worl
         out[k] = 0.5 * (one[k] + other[k]);
 }
 
-/* Between two looks, in the box's axes: gravity, m/s2; the box's turning, rad/s; what it gained of that and
-   of velocity, m/s; how long, s. */
+/* Between two looks, in the box's axes: gravity, m/s2; angular velocity, rad/s; its change, rad/s; change
+   of velocity, m/s; duration, s. */
 typedef struct Felt {
     double gravity[3], omega[3], turned[3], gained[3], time;
 } Felt;
@@ -103,7 +106,7 @@ static Felt felt_between(const World *world, const BoxState *begin, const BoxSta
     return felt;
 }
 
-/* Sum m |omega cross x|^2 / 2, J: what it gains is the work of the centrifugal force. */
+/* Sum m |omega cross x|^2 / 2, J: its increase is the work of the centrifugal force. */
 static double centrifugal(const EnergySums *sums, const double omega[3])
 {
     const double *s = sums->second, *w = omega;
@@ -112,15 +115,16 @@ static double centrifugal(const EnergySums *sums, const double omega[3])
                    2 * (w[0] * w[1] * s[3] + w[1] * w[2] * s[4] + w[2] * w[0] * s[5])));
 }
 
-/* m, from the box's origin. */
+/* Greatest distance from the box's origin, m. */
 static double furthest(const World *world)
 {
     const double *size = world->def.box_size;
     return sqrt(0.25 * (size[0] * size[0] + size[2] * size[2]) + size[1] * size[1]);
 }
 
-/* What would come free at most on the way to the lowest corner, or out to the walls, J: of a particle never
-   below 0, so that energy leaves with it. Along a periodic axis there is no lowest place. */
+/* Potential energy at most freed on the way to the lowest corner, or out to the walls, J. Never negative
+   for a particle, so that a drained particle takes energy along. A periodic axis has no lowest place and
+   does not count. */
 static double to_be_freed(const World *world, const EnergySums *sums, const Felt *felt)
 {
     const double *size = world->def.box_size, out = furthest(world);
@@ -134,8 +138,8 @@ static double to_be_freed(const World *world, const EnergySums *sums, const Felt
     return freed;
 }
 
-/* What the box's motion is for the fluid, gravity, and Euler's force: that of velocities gained is exact
-   where they were gained at once, walls at rest do none. */
+/* Work of gravity, of the box's motion and of Euler's force between two looks, J. Exact for velocities
+   gained at once; walls at rest do no work. */
 static double work_done(const World *world, const EnergySums *before, const EnergySums *now, const Felt *felt)
 {
     double work = to_be_freed(world, before, felt) - to_be_freed(world, now, felt);
@@ -147,7 +151,7 @@ static double work_done(const World *world, const EnergySums *before, const Ener
     return work;
 }
 
-/* What a change of velocity between two looks may have done beside `work_done`, J. */
+/* Largest possible work of a velocity change between two looks beyond `work_done`, J. */
 static double doubt(const World *world, const BoxState *begin, const BoxState *end)
 {
     double moved = 0, turned = 0;
@@ -175,7 +179,7 @@ void energy_forget(World *world)
     world->energy = (EnergyMark){0};
 }
 
-/* What of tension may come free, J. */
+/* Surface energy that may come free, J. */
 static double surface(const World *world, const EnergySums *sums)
 {
     double most = 0;
@@ -184,7 +188,7 @@ static double surface(const World *world, const EnergySums *sums)
     return most * sums->bare;
 }
 
-/* How much more energy is trouble, J: what tension may have pulled, or a lid dragged along, is none. */
+/* The gain of energy that counts as trouble, J; energy from tension or from a lid is allowed. */
 static double too_much(const World *world, const EnergyMark *now, const Felt *felt)
 {
     const WorldDef *def = &world->def;
@@ -197,7 +201,8 @@ static double too_much(const World *world, const EnergyMark *now, const Felt *fe
     return (suspect ? fmin(gain, GAIN_SUSPECT * free) : gain) + now->surface + lid;
 }
 
-/* Of the gauge: places as far as gravity tells them, all of one mass, each with a surface of its own. */
+/* Sums from the gauge: first moment along gravity only, the greatest particle mass for all particles, and a
+   free surface for each particle. */
 static void sums_of_gauge(World *world, EnergySums *sums)
 {
     const Constants *s = &world->constants;
@@ -227,7 +232,7 @@ static void sums_now(World *world, bool turning, EnergySums *sums)
         bodies_sums(world->bodies, sums);
 }
 
-/* What is there, with the work since the look before. */
+/* Takes the present sums and adds the work since the last look. */
 static Felt look(World *world, const BoxState *box, bool turning)
 {
     EnergyMark *mark = &world->energy;
@@ -267,7 +272,7 @@ static void take_as_least(World *world)
     mark->stirred = 0;
 }
 
-/* Whether what is seen now may be compared with the mark. */
+/* True if present sums are comparable with the mark. */
 static bool goes_on(const World *world)
 {
     const EnergyMark *mark = &world->energy;
@@ -280,7 +285,7 @@ static bool goes_on(const World *world)
     return same && (gauged || mark->turning != 0 || !turns(&world->box));
 }
 
-/* Against the least of late, and then a new least. */
+/* Compares with the recent minimum, then takes a new minimum. */
 static bool compare(World *world)
 {
     EnergyMark *mark = &world->energy;
@@ -312,7 +317,7 @@ bool energy_sound(World *world)
     return world->seen == STEP_TROUBLE_NONE;
 }
 
-/* ---- what comes, and what is pushed ---- */
+/* ---- emitters and solids ---- */
 
 void energy_comes(World *world, const EmitLayer *layer, size_t number)
 {
@@ -343,8 +348,8 @@ bool energy_asks_solids(const World *world)
     return watched(world) && any_driven(&world->def);
 }
 
-/* What the solids push with, which is the other way round of what they feel. Friction by implicit viscosity
-   is in the box's share: its work is at most that share's, at the fastest of them. */
+/* Work of the solids: forces on the fluid are opposite to forces on the solids. Friction by implicit
+   viscosity is in the box's force; its work is at most that force times the fastest solid's speed. */
 void energy_of_solids(World *world, const Forces *felt, const SolidStep solids[SOLIDS_MAX])
 {
     double fastest = 0;

@@ -1,5 +1,5 @@
-/* What each particle adds to a world's gauge (sim/world/world.h): for the backends, which gather these and
-   nothing else of a state that is asked for. */
+/* Contribution of a particle to a world's gauge (sim/world/world.h), for the backends. A gauge gathers
+   nothing else of the state. */
 #ifndef SLOSH_GAUGE_H
 #define SLOSH_GAUGE_H
 
@@ -9,8 +9,8 @@
 
 #include <math.h>
 
-/* Sums, of which the mean is not divided by the count yet. A particle at x (m) with the velocity v (m/s) and
-   that compression; `gravity` in the box's frame, m/s2. */
+/* Adds a particle at x (m) with velocity v (m/s) and `compression` to the sums; the mean is not yet divided
+   by the count. `gravity` in the box's frame, m/s2. */
 static inline void gauge_add(WorldGauge *gauge, const Constants *constants, const double gravity[3],
                              int fluid, double compression, const float x[3], const float v[3])
 {
@@ -30,7 +30,7 @@ static inline void gauge_add(WorldGauge *gauge, const Constants *constants, cons
             m * c * c * constants->method->energy(constants->negative_pressure ? compression : pressed);
 }
 
-/* The same for EnergySums; `turning`: with what a box that turns asks. */
+/* The same for EnergySums; `turning`: with the sums for a turning box. */
 static inline void energy_add(EnergySums *sums, const Constants *constants, int fluid, double compression,
                               const float at[3], const float velocity[3], bool turning)
 {

@@ -2,12 +2,12 @@
 
 #include <math.h>
 
-/* Where conjugate gradients stand. */
+/* State of conjugate gradients. */
 typedef struct Conjugate {
     double power, go, turn;
 } Conjugate;
 
-/* The next step along the next direction: Chronopoulos and Gear 1989, eq. 2.2. */
+/* The next step and direction: Chronopoulos and Gear 1989, eq. 2.2. */
 static void conjugate(const Substep *step, const Iteration *iteration, Conjugate *now)
 {
     if (!iteration->power)
@@ -28,14 +28,14 @@ static void measure(const Substep *step, const Iteration *iteration, double scal
     solve->most = scale * left.greatest;
 }
 
-/* 1 over what the residual counts in; of all 0, which leaves 0, 1. */
+/* 1 / (unit of the residual); 1 if the mean is 0, with residual 0. */
 static double scale_of(const Substep *step, const Iteration *iteration)
 {
     const double mean = iteration->scale ? step->backend->excess(step->state, iteration->scale).mean : 1;
     return mean == 0 ? 1 : 1 / mean;
 }
 
-/* decide.comp of shaders/sim/compute says the same. */
+/* Same rule as decide.comp in shaders/sim/compute. */
 static bool goes_on(const Iteration *iteration, const StepSolve *solve)
 {
     return solve->iterations < iteration->most &&
@@ -43,7 +43,7 @@ static bool goes_on(const Iteration *iteration, const StepSolve *solve)
             (solve->most > iteration->worst && solve->iterations < iteration->few));
 }
 
-/* As often as it takes, with the excess asked for after each. */
+/* Iterates with a query of the excess after each iteration. */
 static void iterate_here(const Substep *step, const Iteration *iteration, StepSolve *solve, double dt)
 {
     const double scale = scale_of(step, iteration);
@@ -76,7 +76,7 @@ void substep_iterate(const Substep *step, const Iteration *iteration, int which,
     solve->failed = !(solve->mean <= STEP_SOLVE_STANDS * solve->tolerance);
 }
 
-/* Of so many iterations; what is beyond all classes is in the last one. */
+/* Class of a number of iterations; the last class takes all larger numbers. */
 static int class_of(uint64_t iterations)
 {
     int shift = 0;
@@ -87,7 +87,7 @@ static int class_of(uint64_t iterations)
     return at < SOLVE_CLASSES ? at : SOLVE_CLASSES - 1;
 }
 
-/* The most iterations that are of a class. */
+/* The largest number of iterations in a class. */
 static uint64_t class_end(int at)
 {
     const int octave = (at - SOLVE_EXACT) / SOLVE_OCTAVE, within = (at - SOLVE_EXACT) % SOLVE_OCTAVE;

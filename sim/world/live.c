@@ -10,7 +10,7 @@
 extern const Key box_keys[], solver_keys[], step_keys[], fluid_keys[]; /* sim/matter */
 extern const Key hand_keys[];                                          /* sim/box */
 
-/* Whose rows, and where the struct that they fill stands in a WorldDef. The saved state keeps this order. */
+/* Key rows and the offset of their struct in a WorldDef. The saved state keeps this order. */
 static const struct {
     const Key *rows;
     size_t at;
@@ -20,12 +20,12 @@ static const struct {
 
 enum { MEMBERS_MAX = 64 };
 
-/* A member of the def, which a row fills: numbers one behind the other. */
+/* A member of the def, filled by a row: contiguous numbers. */
 typedef struct Member {
-    const Key *key, *list; /* the row; the list in whose elements the member stands, or NULL */
+    const Key *key, *list; /* the row; the list with the member in its elements, or NULL */
     KeyType type;
     int numbers;
-    size_t at; /* in a WorldDef; of a list, in its first element */
+    size_t at; /* offset in a WorldDef; for a list, of the first element */
 } Member;
 
 typedef struct Members {
@@ -39,7 +39,7 @@ static void add(Members *members, const Member *member)
     members->of[members->count++] = *member;
 }
 
-/* A row with a table is two members: the number, and the table. */
+/* A row with a table gives two members: the number and the table. */
 static void add_row(Members *members, const Key *key, const Key *list, size_t at)
 {
     Member member = {.key = key, .list = list, .type = key->type, .numbers = key->type == KEY_VEC3 ? 3 : 1};

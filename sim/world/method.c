@@ -1,5 +1,5 @@
-/* The lists of methods and of terms that they share, which alone name them outside their folders, and what is
- * asked of them all. */
+/* Lists of the methods and of the shared terms, and queries over these lists. Outside of their folders,
+   methods and terms are named only here. */
 #include "sim/world/method.h"
 
 #include <assert.h>

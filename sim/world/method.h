@@ -1,4 +1,4 @@
-/* A method: its own settings, columns and passes, what it makes of a def, and the order of its substep. */
+/* A method: settings, columns, passes, constants from a def, and the order of its substep. */
 #ifndef SLOSH_METHOD_H
 #define SLOSH_METHOD_H
 
@@ -16,54 +16,54 @@ struct Constants;       /* sim/world/constants.h */
 struct CpuPass;         /* sim/cpu/pass.h */
 struct Substep;         /* sim/world/substep.h */
 
-/* One sweep over all particles: what a backend runs for a method. */
+/* A sweep over all particles, run by a backend for a method. */
 typedef struct Pass {
     const char *name;
     Stage stage;
     const struct CpuPass *cpu;
-    const char *shader; /* shaders/sim/SHADER.comp; NULL: backends that need one have no such method */
-    const char *reads, *writes; /* names of columns, blanks between them */
-    bool felt;    /* solids feel what it does: CpuPass.solid, and what its shader is with FELT_SOLIDS */
-    bool mirrors; /* meanwhile the particles of solids stand for fluid */
-    bool (*needed)(const struct Constants *constants); /* whether the pass is run; NULL: always */
+    const char *shader;         /* shaders/sim/SHADER.comp; NULL: shader backends lack the method */
+    const char *reads, *writes; /* names of columns, separated by blanks */
+    bool felt;    /* the pass exerts forces on solids: CpuPass.solid, and the shader with FELT_SOLIDS */
+    bool mirrors; /* during the pass, boundary particles stand for fluid */
+    bool (*needed)(const struct Constants *constants); /* true if the pass runs; NULL: always */
 } Pass;
 
-/* What a pass may want to know of the step. */
+/* Data of the step for passes. */
 typedef struct PassInput {
     float dt;                               /* s */
     const struct ApparentGravity *apparent; /* NULL outside of a step */
-    float gravity[3];                       /* that the kick of the step adds, m/s2; 0 outside of a step */
-    float go, turn; /* of conjugate gradients: how far along a direction, how much of the last one is in it */
+    float gravity[3];                       /* added by the kick of the step, m/s2; 0 outside of a step */
+    float go, turn; /* conjugate gradients: length along the direction; share of the last direction */
 } PassInput;
 
-/* What only some scenes name: there a line "#define NAME 1" stands before the shaders. */
+/* A term that only some scenes have: with it a line "#define NAME 1" precedes the shaders. */
 typedef struct ShaderTerm {
     const char *name;
     bool (*needed)(const struct Constants *constants);
 } ShaderTerm;
 
-/* A storage buffer of the shaders of a method or term that has several columns of scratch side by side in a
-   vec4, since pair loops read them together. Other scratch is a row with COLUMN_SHADERS. */
+/* A storage buffer for shaders of a method or term, for several scratch columns side by side in a vec4,
+   read together by pair loops. Other scratch is a row with COLUMN_SHADERS. */
 typedef struct ShaderBuffer {
-    const char *block; /* by that name they find it */
-    size_t size;       /* bytes a particle */
+    const char *block; /* name of the block in the shaders */
+    size_t size;       /* bytes per particle */
     bool (*needed)(const struct Constants *constants);
 } ShaderBuffer;
 
 enum { METHOD_BUFFERS_MAX = 4 };
 
-/* What a method's density is made with, and what its forces are the slope of. */
+/* Kernels of a method's density and of the slope in its forces. */
 typedef struct MethodKernels {
     const Kernel *density, *slope;
 } MethodKernels;
 
-/* Where a method says what of a scene will not hold or has no effect, though nothing in it is wrong. */
+/* Advice of a method on a valid scene: settings that fail in practice or have no effect. */
 typedef struct MethodAdvice {
-    const WorldDef *def; /* each viscosity the greatest that its table has */
+    const WorldDef *def; /* with each viscosity at the maximum of its table */
     const StepFriction *friction;
     void *to;
-    void (*say)(void *to, const char *key, const char *what); /* about the value of the key */
-    bool (*chosen)(void *to, const char *key); /* whether the key's value is not of solver.preset */
+    void (*say)(void *to, const char *key, const char *what); /* reports `what` about the value of `key` */
+    bool (*chosen)(void *to, const char *key); /* true if the key's value does not come from solver.preset */
 } MethodAdvice;
 
 void method_say(const MethodAdvice *advice, const char *key, const char *format, ...)
@@ -71,94 +71,93 @@ void method_say(const MethodAdvice *advice, const char *key, const char *format,
 
 typedef struct Method {
     const char *name, *help;
-    const Key *keys;      /* of its own settings, ended by a row without a path; NULL: it has none */
-    const void *def;      /* the struct of these settings with its defaults */
+    const Key *keys;      /* of the method's settings, ended by a row without a path; NULL: none */
+    const void *def;      /* struct of the settings, with defaults */
     size_t def_size;      /* bytes; at most METHOD_DEF_SIZE */
-    bool carries_density; /* its particles do; else density is summed */
-    bool curvature;       /* it has surface tension by curvature */
-    bool keeps_images;    /* no place changes while the lists of a grid are walked: so images have lists */
-    bool incompressible;  /* no sound: steps are bounded by the true greatest speed alone */
+    bool carries_density; /* particles carry density; otherwise density is summed */
+    bool curvature;       /* supports surface tension by curvature */
+    bool keeps_images;    /* positions are constant while a grid's lists are in use, so images have lists */
+    bool incompressible;  /* no sound: the greatest speed alone bounds the step */
     bool (*asks_sound)(
-        const WorldDef *def); /* whether such a one reads its speed all the same; NULL: never */
-    MethodSolver
-        solvers[SOLVES_OF_METHOD]; /* what is left of the first one's residual is the error of density */
-    bool leaps; /* its particles may move further than h in a step: no trouble, and walls fold what crosses
-                   them */
-    /* False with the reason: a setting is not in order, whichever the method. */
+        const WorldDef *def); /* true if an incompressible method still reads the sound speed; NULL: never */
+    MethodSolver solvers[SOLVES_OF_METHOD]; /* the final residual of solvers[0] is the density error */
+    bool leaps; /* particles may move further than h in a step: no trouble, and walls fold crossing
+                   particles back */
+    /* Returns false with the reason if a setting is invalid; called for every method in the list. */
     bool (*check)(const WorldDef *def, Error *error);
     MethodKernels (*kernels)(const WorldDef *def);                         /* NULL: spiky for both */
-    StepFriction (*friction)(const WorldDef *def, const Lattice *lattice); /* NULL: it has none */
-    /* Of x = rho / rho0 - 1: pressure, Pa; energy of compression over m c^2, the integral of p / rho^2. Both
-       NULL: it has none. */
+    StepFriction (*friction)(const WorldDef *def, const Lattice *lattice); /* NULL: no friction */
+    /* For x = rho / rho0 - 1: pressure, Pa; energy of compression over m c^2, the integral of p / rho^2.
+       Both NULL: none. */
     float (*pressure)(const struct Constants *constants, int fluid, float x);
     double (*energy)(double x);
     const char *energy_shader; /* shaders/sim/ENERGY_SHADER.glsl: the same for GPUs; NULL: none */
-    /* The saved column of its multipliers, and pressure over it. NULL: it has none. */
+    /* Saved column of the method's multipliers, and pressure per multiplier. NULL: none. */
     const ColumnDef *multiplier;
     double (*pressure_of_multiplier)(const struct Constants *constants);
-    /* Fills Constants.of_method, behind all others; again when what is live has changed. NULL: it has none.
-     */
+    /* Fills Constants.of_method, after the rest of Constants; called again after live changes. NULL:
+       nothing to fill. */
     void (*constants)(struct Constants *constants, const WorldDef *def);
     void (*advise)(const MethodAdvice *advice); /* NULL: never */
-    const ColumnDef *columns;                   /* of its own, ended by a NULL name; NULL: none */
-    const Pass *const *passes;                  /* all of them, ended by NULL */
+    const ColumnDef *columns;                   /* the method's columns, ended by a NULL name; NULL: none */
+    const Pass *const *passes;                  /* all passes, ended by NULL */
     const ShaderTerm *terms;                    /* ended by a NULL name; NULL: none */
-    const ShaderBuffer *buffers; /* METHOD_BUFFERS_MAX at most, ended by a NULL block; NULL: none */
-    const Pass *settle;          /* what follows from the saved columns: volume, pressure */
-    /* Behind it, once in a new world: what its first step needs of columns that are saved, ended by NULL.
-       NULL: nothing. */
+    const ShaderBuffer *buffers; /* at most METHOD_BUFFERS_MAX, ended by a NULL block; NULL: none */
+    const Pass *settle;          /* derives volume and pressure from the saved columns */
+    /* Passes after `settle`, once in a new world: fill saved columns for the first step. Ended by NULL;
+       NULL: none. */
     const Pass *const *start;
     void (*substep)(const struct Substep *step);
 } Method;
 
-/* A term of the equations that all methods share: columns, passes and a solver that iterates, beside those of
-   the method at work. One folder, and one line in a list. */
+/* A term of the equations shared by all methods: columns, passes and an iterating solver, beside those of
+   the method in use. A term is a folder and a line in a list. */
 typedef struct Term {
-    const char *name;                                  /* shaders have SCRATCH_name_column */
-    const char *words;                                 /* what a backend that lacks it has none of */
-    bool (*named)(const WorldDef *def);                /* whether the scene names it, */
-    bool (*needed)(const struct Constants *constants); /* and some fluid has it */
-    /* At COLUMN_TERM; those that are saved and sorted, on which the next step begins, at COLUMN_KEPT, needed
-       wherever the scene names the term. Ended by a NULL name. */
+    const char *name;                                  /* shaders use SCRATCH_name_column */
+    const char *words;                                 /* names the term for a backend without the term */
+    bool (*named)(const WorldDef *def);                /* true if the scene names the term */
+    bool (*needed)(const struct Constants *constants); /* true if also some fluid has the term */
+    /* At COLUMN_TERM. Saved and sorted columns, from which the next step starts, are at COLUMN_KEPT and
+       needed if the scene names the term. Ended by a NULL name. */
     const ColumnDef *columns;
-    const Pass *const *passes;  /* all of them, ended by NULL */
+    const Pass *const *passes;  /* all passes, ended by NULL */
     const ShaderTerm *terms;    /* ended by a NULL name; NULL: none */
-    const ShaderBuffer *buffer; /* one; NULL: none */
-    int solve; /* its number among the solvers of a step, from SOLVES_OF_METHOD on; -1: it has none */
+    const ShaderBuffer *buffer; /* a single buffer; NULL: none */
+    int solve; /* number among the solvers of a step, from SOLVES_OF_METHOD on; -1: no solver */
     MethodSolver solver;
-    /* Before the kick: the accelerations of all else become those of the step. NULL: nothing. */
+    /* Before the kick: adds the term to the summed accelerations. NULL: nothing. */
     void (*substep)(const struct Substep *step);
-    /* Before and behind all of a step. NULL: nothing. */
+    /* Before and after a whole step. NULL: nothing. */
     void (*begin)(const struct Substep *step);
     void (*end)(const struct Substep *step);
-    /* Where no step has filled the columns that are saved: in a new world, and in one that goes on from a
-       state without them. NULL: 0 is right. */
+    /* Fills saved columns that no step has filled: in a new world, or after a state without these columns.
+       NULL: 0 is right. */
     const Pass *unknown;
 } Term;
 
-/* All of them, ended by NULL. */
+/* All terms, ended by NULL. */
 extern const Term *const shared_terms[];
 
-/* The columns of a def's saved state: every method's, its method's, and those of the terms that it names. */
+/* Columns of a def's saved state: common columns, columns of the method and of the terms that the def
+   names. */
 ColumnRows columns_saved(const WorldDef *def);
 
-/* Of all solvers of a step, the method's first, by number. */
+/* A solver of a step by number, the method's solvers first; NULL if the number has no solver. */
 const MethodSolver *solver_of(const Method *method, int solve);
 
-/* All methods, ended by NULL; those of the program, and what was added. */
+/* All methods, ended by NULL: built-in methods, then added methods. */
 const Method *const *method_list(void);
 
-/* Adds one behind the others, unless it is there: before the first scene is read. */
+/* Appends a method to the list, unless present. Call before the first scene is read. */
 void method_add(const Method *method);
 
-/* NULL when there is none of that name. */
+/* NULL if no method has the name. */
 const Method *method_find(const char *name);
 
-/* Of the def's method; NULL for a kernel of an unknown name. */
+/* Kernels of the def's method; NULL for an unknown kernel name. */
 MethodKernels method_kernels(const WorldDef *def);
 
-/* The method's own settings in a def; not const, as memchr's result is not. NULL where the method is not in
- * the list. */
+/* The method's settings in a def, writable like memchr's result; NULL if the method is not in the list. */
 void *method_def(const WorldDef *def, const Method *method);
 
 /* Fills in the defaults of all methods' settings. */

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* Whether a list of words with blanks between them has that word. */
+/* True if `word` is in the blank-separated list. */
 static bool has_word(const char *list, const char *word)
 {
     const size_t size = strlen(word);
@@ -15,7 +15,7 @@ static bool has_word(const char *list, const char *word)
     return false;
 }
 
-/* Of the columns that are there: read once, written once. */
+/* Bytes per particle of the needed columns: each read once, written once. */
 static double column_bytes(const World *world, const Pass *pass)
 {
     const ColumnRows rows = column_rows(world->method->columns, 0, &world->constants);

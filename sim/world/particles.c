@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Multipliers by the pressure that the first step begins with. */
+/* Sets multipliers from the pressure of the initial state. */
 static void set_multipliers(const ParticleColumns *to, const Constants *constants,
                             const InitialState *initial)
 {
@@ -56,7 +56,7 @@ static float scalar_of(const ParticleColumns *p, const Constants *constants, Sca
     }
 }
 
-/* NULL: the state has none of that name. */
+/* NULL: the state has no such column. */
 static const float *own_of(const ParticleColumns *p, const Constants *constants, Scalar scalar)
 {
     const ColumnRows saved = column_rows(constants->method->columns, COLUMN_SAVED, constants);

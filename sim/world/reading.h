@@ -1,4 +1,4 @@
-/* What is read of a world: structs that its backends fill in. */
+/* Data read from a world: structs filled in by the backends. */
 #ifndef SLOSH_READING_H
 #define SLOSH_READING_H
 
@@ -11,73 +11,75 @@
 
 #include <stdint.h>
 
-/* The last trouble that was found. The world then went back to the begin of the frame, with half the step. */
+/* The last trouble found. The world then went back to the begin of the frame, with half the step. */
 typedef struct WorldTrouble {
-    unsigned count; /* of times that the sentinel went back, in all */
-    bool ended; /* it did not help, or there is no sentinel: the step failed. Then what, time, solver, left
-                   are of the trouble that ended it */
+    unsigned count; /* total number of times the sentinel went back */
+    bool ended;     /* halving did not help, or there is no sentinel: the step failed. Then what, time, solver
+                       and left describe the final trouble */
     StepTrouble what;
-    double time;                /* when it was found, s */
-    double back_to;             /* time of the state that the world went back to, s */
-    int tries, retries;         /* halvings in force, and how many there may be */
-    const MethodSolver *solver; /* of STEP_TROUBLE_SOLVE: which one, */
-    StepSolve left;             /* and what it came to */
+    double time;                /* time of detection, s */
+    double back_to;             /* time of the state after going back, s */
+    int tries, retries;         /* halvings in force; allowed halvings */
+    const MethodSolver *solver; /* for STEP_TROUBLE_SOLVE: the solver */
+    StepSolve left;             /* and its result */
 } WorldTrouble;
 
-/* What the solvers that iterate did in a world's steps, those apart that ended in trouble. A world counts
-   from its start, or from where it was loaded into; that is no part of the saved state. */
+/* Statistics of the iterating solvers over a world's steps, without steps that ended in trouble. Counts
+   from the start or the last load; not in the saved state. */
 typedef struct SolveFigures {
-    uint64_t steps;                         /* 0, and all else: of a method without such solvers */
-    double iterations_mean, iterations_p95; /* of a step, all its solvers together; the 95th percentile to an
-                                               eighth above 64 */
-    double density_error_mean, density_error_max; /* that the solver of density left, fractions: mean over
-                                                     steps and particles; of any particle in any step */
-    bool projects, rubs; /* there are such of the method's: all above; implicit viscosity has one: */
-    double viscosity_iterations_mean, viscosity_residual_mean; /* of a step; that was left, a fraction */
+    uint64_t steps;                         /* 0, like all below: a method without solvers */
+    double iterations_mean, iterations_p95; /* per step, all solvers together; the 95th percentile is exact
+                                               to an eighth above 64 */
+    double density_error_mean, density_error_max; /* left by the density solver, as fractions: mean over
+                                                     steps and particles; maximum over particles and steps */
+    bool projects, rubs; /* the method has such solvers: see above; implicit viscosity has a solver: see
+                            below */
+    double viscosity_iterations_mean, viscosity_residual_mean; /* per step; mean residual left, a fraction */
 } SolveFigures;
 
-/* So many layers of an emitter in a row without room for one particle: something stands in its way. Fluid
-   that leaves as it should makes room for each second one at least. */
+/* Number of consecutive layers of an emitter without room for any particle that means an obstacle. Fluid
+   that leaves as intended makes room for at least every second layer. */
 enum { BARRED_LAYERS = 20 };
 
-/* What a world is, apart from its particles. */
+/* Data of a world besides the particles. */
 typedef struct WorldInfo {
-    double time;               /* simulated, s */
-    uint64_t step;             /* substeps since the start */
-    size_t count, capacity;    /* particles; as many as emitters may fill it up to */
-    uint64_t emitted, drained; /* of them, since the start */
-    bool full;                 /* what would come waits: the world has as many particles as it may have */
-    uint64_t barred;           /* gates of emitters that found no room for BARRED_LAYERS layers in a row */
-    int threads;               /* in use by the backend */
-    const char *simd;          /* the instructions of its pair sums; NULL: it chooses none */
-    double support_radius;     /* h, m */
-    double spacing;            /* m */
-    double box_size[3];        /* m */
-    BoxState box;              /* of the state that world_read reads */
-    BoxState floating[SOLIDS_MAX];      /* of solids that float, in the box's frame; by the def's solids */
-    BoxTarget hand;                     /* the hand's part of its pose, as the filter has it */
-    double gravity[3];                  /* in the box's frame, m/s2 */
-    size_t state_bytes;                 /* memory that the backend holds for its particles and grid */
-    bool touched;                       /* a finger is in the fluid */
-    bool within_frame;                  /* steps of the frame are left */
-    double dt;                          /* of the last step, s */
-    StepLimit limit;                    /* what bounded it */
-    uint64_t limited[STEP_LIMIT_COUNT]; /* steps by what bounded them, since the start */
+    double time;                   /* simulated, s */
+    uint64_t step;                 /* substeps since the start */
+    size_t count, capacity;        /* particles; limit for emitters */
+    uint64_t emitted, drained;     /* particles since the start */
+    bool full;                     /* emitters wait: the world has its limit of particles */
+    uint64_t barred;               /* gates of emitters without room for BARRED_LAYERS consecutive layers */
+    int threads;                   /* threads of the backend */
+    const char *simd;              /* instruction set of pair sums; NULL: no choice */
+    double support_radius;         /* h, m */
+    double spacing;                /* m */
+    double box_size[3];            /* m */
+    BoxState box;                  /* at the state read by world_read */
+    BoxState floating[SOLIDS_MAX]; /* poses of floating solids in the box's frame; indexed like the
+                                      def's solids */
+    BoxTarget hand;                /* the hand's part of the pose, filtered */
+    double gravity[3];             /* in the box's frame, m/s2 */
+    size_t state_bytes;            /* bytes held by the backend for particles and grid */
+    bool touched;                  /* a finger is in the fluid */
+    bool within_frame;             /* steps of the frame are left */
+    double dt;                     /* of the last step, s */
+    StepLimit limit;               /* bound of the step */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* steps by bound, since the start */
     WorldTrouble trouble;
-    StepSolve solves[SOLVES_MAX]; /* of the last step; of a method without solvers all 0 */
+    StepSolve solves[SOLVES_MAX]; /* of the last step; 0 without solvers */
     SolveFigures solved;          /* of all steps */
-    size_t lost;     /* backend fragment: particles without a place in its grid, in the last step known */
-    size_t unlisted; /* backend compute: bytes of lists of neighbours that are more than the driver or its
-                        memory allows, so that steps take longer; 0: it has them, or is not to have them */
-    size_t guarded;  /* times that the last guard of a wall held a particle back, since the start */
-    double fastest;  /* greatest speed of a particle at the end of any step that is sound, on a GPU of any
-                        frame, since  the start or since it was loaded into, m/s */
-    double courant;  /* dt (c + greatest speed) / h of the last step, whatever bounded it; on a GPU the speed
-                        is that of the frame before */
+    size_t lost;     /* backend fragment: particles without a place in the grid, in the last known step */
+    size_t unlisted; /* backend compute: bytes of neighbour lists beyond the limit of the driver or GPU
+                        memory, so that steps take longer; 0: lists in use, or not wanted */
+    size_t guarded;  /* number of times the last wall guard held a particle back, since the start */
+    double fastest;  /* greatest particle speed at the end of any sound step, on a GPU of any frame, since
+                        the start or the last load, m/s */
+    double courant;  /* dt (c + greatest speed) / h of the last step, for any bound; on a GPU with the
+                        previous frame's speed */
 } WorldInfo;
 
-/* Reductions over all particles, in double, in an order that no thread count changes. Momenta and energies
-   are those of the motion in the box's frame; angular momentum about the box's origin. */
+/* Sums over all particles in double, in an order independent of threads. Momenta and energies refer to
+   motion in the box's frame; angular momentum is about the box's origin. */
 typedef struct WorldSums {
     double mass;                /* kg */
     double momentum[3];         /* kg m/s */
@@ -87,34 +89,33 @@ typedef struct WorldSums {
     double kinetic_energy;      /* J */
     double centre[3];           /* of mass, m */
     double max_speed;           /* m/s */
-    double neighbours_mean;     /* others with r < h, of those that the grid of the last substep shows */
+    double neighbours_mean;     /* neighbours with r < h, in the grid of the last substep */
 } WorldSums;
 
-/* What is plotted of a state while the world runs. The error of density is how far particles are pressed
-   above the rest density, rho / rho0 - 1 where that is more than 0 (Bender and Koschier 2015): what a
-   particle at a free surface lacks is no error. Energies as in WorldSums; that of compression is the integral
-   of p / rho^2 dm. */
+/* Plotted quantities of a state. The density error is compression above rest density, max(rho / rho0 - 1,
+   0) (Bender and Koschier 2015): missing density at a free surface is no error. Energies as in WorldSums;
+   the compression energy is the integral of p / rho^2 dm. */
 typedef struct WorldGauge {
-    double time;                                  /* of that state, s */
+    double time;                                  /* time of the state, s */
     double density_error_mean, density_error_max; /* fractions of the rest density */
     double kinetic_energy;                        /* J */
     double potential_energy;                      /* in gravity, over the box's origin, J */
     double compression_energy;                    /* J */
-    bool total_known; /* their sum is all of the energy; false with surface tension, whose is not known */
+    bool total_known; /* the sum is the total energy; false with surface tension, whose energy is unknown */
 } WorldGauge;
 
-/* Where world_read writes; NULL where something is not wanted. All arrays hold `count` particles in one
-   common order, which changes from step to step; `id` tells who is who. Density (calibrated, so that
-   p = c^2 (rho - rho0)), pressure and volume are those that the last substep used, at the middle of it (at
-   time 0: those of the initial state); those that the particles carry, where they do, at its end. */
+/* Output arrays of world_read; NULL if not wanted. All arrays hold `count` particles in a common order,
+   which changes between steps; `id` identifies particles. Density (calibrated to p = c^2 (rho - rho0)),
+   pressure and volume are those used by the last substep, at its middle (at time 0: of the initial state).
+   Values carried by particles are at the end of the substep. */
 typedef struct ParticleArrays {
-    float *position; /* 4 a particle: x y z (box frame, m), volume 1 / number density (m3) */
-    float *velocity; /* 4 a particle: x y z (box frame, m/s), 0 */
-    float *scalar[SCALAR_STATE_COUNT]; /* 1 a particle; NaN: a column that the state has not */
+    float *position; /* 4 per particle: x y z (box frame, m), volume 1 / number density (m3) */
+    float *velocity; /* 4 per particle: x y z (box frame, m/s), 0 */
+    float *scalar[SCALAR_STATE_COUNT]; /* 1 per particle; NaN: the state lacks the column */
     uint32_t *fluid;                   /* index into WorldDef.fluids */
-    ParticleId *whole_id;              /* who it is */
-    uint32_t *id;                      /* the last 32 bits of it, for views */
-    float *own[COLUMNS_OWN]; /* 1 a particle: the method's own columns; on a GPU those that are kept */
+    ParticleId *whole_id;              /* particle id */
+    uint32_t *id;                      /* the low 32 bits of the id, for views */
+    float *own[COLUMNS_OWN];           /* 1 per particle: the method's columns; on a GPU only kept columns */
 } ParticleArrays;
 
 #endif

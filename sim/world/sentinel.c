@@ -23,7 +23,7 @@ bool sentinel_mark(World *world, Error *error)
     return backend->mark(world->state, error);
 }
 
-/* The first solver that is in trouble. */
+/* Finds the first solver in trouble. */
 static void look_at_solves(World *world)
 {
     for (int k = 0; k < SOLVES_MAX && !world->seen && world->def.retries > 0; k++)
@@ -43,7 +43,7 @@ void sentinel_note_solves(World *world)
         look_at_solves(world);
 }
 
-/* They bound the next step as particles do. */
+/* Floating bodies bound the next step like particles. */
 static void look_at_bodies(World *world)
 {
     StepState *s = &world->stepping;
@@ -74,7 +74,7 @@ bool world_sound(World *world)
     return world->seen == STEP_TROUBLE_NONE;
 }
 
-/* Steps of twice the length would boil by friction: the same trouble again. */
+/* True if steps of twice the length would boil by friction, with the same trouble again. */
 static bool friction_forbids(const World *world)
 {
     const StepState *s = &world->stepping;
@@ -101,9 +101,9 @@ static void restore(World *world)
     world->since_time = numbers->since_time + (numbers->step - numbers->since_step) * numbers->stepping.dt;
     world->filter = numbers->filter;
     world->box = numbers->box;
-    if (finger_on(&numbers->finger) && finger_on(&world->finger)) /* what is asked for stays */
+    if (finger_on(&numbers->finger) && finger_on(&world->finger)) /* the requested finger stays */
         memcpy(world->finger.point, numbers->finger.point, sizeof world->finger.point);
-    if (world->energy.until > 0) /* 0: forgotten since then, by a change that going back does not undo */
+    if (world->energy.until > 0) /* 0: forgotten since then, by a change that stays after going back */
         world->energy = numbers->energy;
     if (world->bodies)
         bodies_load(world->bodies, &numbers->bodies);
@@ -131,7 +131,7 @@ void world_trouble_words(const WorldTrouble *trouble, char words[160])
         snprintf(words, 160, "%s", step_trouble_words(trouble->what));
 }
 
-/* What to change, of the solver in trouble or of the step. */
+/* Advice on the solver in trouble or on the step. */
 static void advise(const World *world, StepTrouble trouble, double dt, char words[200])
 {
     const WorldDef *def = &world->def;
@@ -161,7 +161,7 @@ static bool give_up(World *world, StepTrouble trouble, double time, Error *error
                      trouble == STEP_TROUBLE_SOLVE ? "stopped" : "blew up", time, words, also, advice);
 }
 
-/* A smaller step does not mend it: no retry. */
+/* A smaller step does not help: no retry. */
 static bool give_up_lost(World *world, Error *error)
 {
     WorldInfo info = {0};

@@ -52,7 +52,7 @@ StepFriction step_friction(const WorldDef *def)
     return method->friction ? method->friction(def, &lattice) : (StepFriction){0};
 }
 
-/* A particle between those of the most viscous fluid. */
+/* Half the pair viscosity with the most viscous fluid, over the density: the maximum over fluids. */
 static double greatest_kinematic_viscosity(const WorldDef *def, const StepFriction *friction)
 {
     double greatest = 0, most = 0;
@@ -108,7 +108,7 @@ double step_alpha(const WorldDef *def, double alpha, int f)
     return stands_for > 0 ? alpha * fmax(0, 1 - fluid_viscosity_least(fluid) / stands_for) : 0;
 }
 
-/* The most artificial viscosity that some fluid has. */
+/* The greatest remaining artificial viscosity of a fluid. */
 static double greatest_alpha(const WorldDef *def, double alpha)
 {
     double greatest = 0;
@@ -149,8 +149,8 @@ void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble 
         snprintf(words, 200, "use %s", shorter);
 }
 
-/* The rate at which implicit friction damps what boils, 1/s: of the least viscous fluid, over the heaviest's
-   density. In a column that boils it is 62 to 83 nu / h^2 (docs/failures.md). */
+/* Damping rate of boiling by implicit friction, 1/s: of the least viscous fluid, over the heaviest fluid's
+   density. Measured in a boiling column: 62 to 83 nu / h^2 (docs/failures.md). */
 static double boiling_damped(const WorldDef *def)
 {
     static const double DAMPED = 40;
@@ -165,8 +165,8 @@ static double boiling_damped(const WorldDef *def)
                : 0;
 }
 
-/* With v' = (v - dt w^2 x) / (1 + dt r), x' = x + dt v', nothing grows up to (dt w)^2 = 4 + 2 r dt; without
-   damping w dt = 2, at `still`. */
+/* With v' = (v - dt w^2 x) / (1 + dt r), x' = x + dt v', the scheme is stable up to (dt w)^2 = 4 + 2 r dt.
+   Without damping the bound is w dt = 2, at `still`. */
 double step_pressure(const WorldDef *def)
 {
     const Method *method = method_find(def->method);
@@ -193,12 +193,11 @@ double step_cfl(const WorldDef *def, const StepFriction *friction, double max_sp
 {
     const double h = def->support * def->spacing, number = def->cfl_number;
     const double courant = number * h / (step_sound(def) + max_speed);
-    /* Without sound a blow is over within its step: what remains of `a` is a move, not a wave to be followed.
-     */
+    /* Without sound, a blow ends within its step: the remaining `a` is a move and not a wave to follow. */
     const double follows = step_sound(def) > 0 ? number : sqrt(number);
     const double most[STEP_LIMIT_COUNT] = {
         [STEP_LIMIT_DT] = INFINITY,
-        [STEP_LIMIT_COURANT] = courant, /* INFINITY of what rests and has no sound */
+        [STEP_LIMIT_COURANT] = courant, /* INFINITY at rest without sound */
         [STEP_LIMIT_FORCE] = max_acceleration > 0 ? follows * sqrt(h / max_acceleration) : INFINITY,
         [STEP_LIMIT_VISCOUS] = fmin(2 * number, STEP_VISCOUS_STANDS) * step_viscous(def, friction),
         [STEP_LIMIT_MAX_DT] = def->max_dt,

@@ -1,4 +1,4 @@
-/* How large a step may be, and what to do when it was too large. Pure: numbers in, numbers out. */
+/* Bounds of the step size, and causes of trouble after too large a step. Pure functions. */
 #ifndef SLOSH_STEP_CONTROL_H
 #define SLOSH_STEP_CONTROL_H
 
@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-/* X(ENUM, name, help): what bounds a step */
+/* X(ENUM, name, help): bounds of a step */
 #define STEP_LIMITS(X)                                                                                       \
     X(DT, "dt", "the scene's fixed step")                                                                    \
     X(COURANT, "courant", "number h / (c + greatest speed)")                                                 \
@@ -27,43 +27,42 @@ typedef enum StepLimit {
 
 const char *step_limit_name(StepLimit limit);
 
-/* How a world steps. Doubles only: part of its saved state. */
+/* Step state of a world. Doubles only: part of the saved state. */
 typedef struct StepState {
-    double dt;               /* of the step in hand or the last one, s */
-    double wanted;           /* dt before refine divides it and the end of a frame fits it, s */
-    double limit;            /* a StepLimit: what bounds it */
+    double dt;               /* of the current or last step, s */
+    double wanted;           /* dt before division by `refine` and before fitting to a frame's end, s */
+    double limit;            /* a StepLimit: the bound of the step */
     double max_speed;        /* m/s, after the last step */
     double max_acceleration; /* m/s2, in the last step */
-    double frame_left;       /* steps until the frame ends; -1: it is to be begun again */
-    double refine;           /* 1, 2, 4, ...: the step is divided by that after trouble */
-    double tries;            /* halvings that have not been taken back */
+    double frame_left;       /* steps to the end of the frame; -1: the frame begins again */
+    double refine;           /* 1, 2, 4, ...: divisor of the step after trouble */
+    double tries;            /* halvings not yet taken back */
     double calm;             /* steps since the last trouble or relief */
 } StepState;
 
-/* What a solver that iterates did in a step. */
+/* Result of an iterating solver in a step. */
 typedef struct StepSolve {
-    double iterations; /* 0: it did not run */
-    double mean,
-        most; /* what is left of the residual, as the solver measures it: over all particles, at worst */
-    double tolerance; /* of the mean */
-    bool failed;      /* ended far from what it was asked for */
+    double iterations; /* 0: did not run */
+    double mean, most; /* residual left, as measured by the solver: mean over all particles, maximum */
+    double tolerance;  /* for the mean */
+    bool failed;       /* ended far above the tolerance */
 } StepSolve;
 
-/* A solver is in trouble where its iterations end with so many times the residual that it may leave. */
+/* A solver is in trouble if its final residual exceeds the tolerance by this factor. */
 #define STEP_SOLVE_STANDS 10
 
-/* What a substep found, over all particles. */
+/* Findings of a substep, over all particles. */
 typedef struct StepWatch {
-    bool bounded;            /* no particle moves further than the support radius in the step, none is NaN */
-    bool memory;             /* was short: some neighbours were not seen */
+    bool bounded;            /* no particle moves further than the support radius in the step, and none is
+                                NaN */
+    bool memory;             /* memory was short: some neighbours are missing */
     float max_speed;         /* m/s */
-    float max_acceleration;  /* m/s2, gravity included */
-    float max_density_ratio; /* of number density over that at rest */
-    size_t lost,
-        lost_limit; /* particles without a place in the grid, at most in one step, and how many may be */
+    float max_acceleration;  /* m/s2, with gravity */
+    float max_density_ratio; /* number density over rest number density */
+    size_t lost, lost_limit; /* particles without a place in the grid, most in a step; limit for trouble */
 } StepWatch;
 
-/* X(ENUM, words): trouble that the sentinel finds */
+/* X(ENUM, words): trouble found by the sentinel */
 #define STEP_TROUBLES(X)                                                                                     \
     X(NONE, "")                                                                                              \
     X(SPEED, "a particle moves further than the support radius in one step")                                 \
@@ -82,73 +81,74 @@ typedef enum StepTrouble {
 } StepTrouble;
 
 const char *step_trouble_words(StepTrouble trouble);
-/* Without a `sentinel` only what no step can go on from. */
+/* Without a `sentinel`, only trouble that prevents further steps. */
 StepTrouble step_trouble_of(const StepWatch *watch, bool sentinel);
 
-/* Of a def's method. Takes some milliseconds: once a world. */
+/* Friction of a def's method. Takes some milliseconds: call once per world. */
 StepFriction step_friction(const WorldDef *def);
 
-/* The greatest density of a def's fluids over the least. */
+/* Greatest over least density of a def's fluids. */
 double density_ratio(const WorldDef *def);
 
-/* The speed of sound that bounds a step, m/s; 0 without sound. */
+/* The sound speed that bounds a step, m/s; 0 without sound. */
 double step_sound(const WorldDef *def);
 
-/* The viscosity that an artificial one stands for, alpha c h / 4, m2/s. */
+/* Kinematic viscosity equivalent to an artificial viscosity, alpha c h / 4, m2/s. */
 double artificial_kinematic(const WorldDef *def, double alpha);
 
-/* The same as a laminar one, whose work in a shear it does: alpha c h / (4 (d + 2)), m2/s (Monaghan 2005). */
+/* The laminar viscosity with the same work in a shear: alpha c h / (4 (d + 2)), m2/s (Monaghan 2005). */
 double numerical_kinematic(const WorldDef *def, double alpha);
 
-/* What of alpha remains for fluid f: all without a viscosity, none from the viscosity on that alpha stands
-   for. */
+/* The remaining alpha for fluid f: all of alpha without a viscosity, 0 from the equivalent viscosity of
+   alpha on. */
 double step_alpha(const WorldDef *def, double alpha, int f);
 
-/* What pairs of fluid f rub by, Pa s: its viscosity now, or the method's numerical one where that is more. */
+/* Viscosity between pairs of fluid f, Pa s: the present viscosity, or the method's numerical viscosity if
+   greater. */
 double step_viscosity(const WorldDef *def, const StepFriction *friction, int f);
 
-/* The longest step that friction stands on the lattice at rest, s: what is longer makes differences of
-   velocity grow. With the def's present viscosities; of a pair of fluids half of pair_viscosity counts, over
-   the lighter one's density. INFINITY without friction. */
+/* The longest stable step for friction on the lattice at rest, s: longer steps amplify velocity
+   differences. Uses the def's present viscosities; a pair of fluids counts with half of pair_viscosity,
+   over the lighter fluid's density. INFINITY without friction. */
 double step_viscous(const WorldDef *def, const StepFriction *friction);
 
-/* The longest step that sound stands, in h / c: 2 / omega of its stiffest wave on the lattice, 2.0 to 2.6 c /
-   h by kernel and support. Of summed density, which damps nothing, longer ones than STEP_SOUND_CALM heat
-   fluid that has no friction: docs/failures.md. */
+/* The longest stable step for sound, in h / c: 2 / omega of the stiffest wave on the lattice; omega is 2.0
+   to 2.6 c / h by kernel and support. With summed density, which has no damping, steps above
+   STEP_SOUND_CALM heat fluid without friction: docs/failures.md. */
 #define STEP_SOUND_STANDS 0.9
 #define STEP_SOUND_CALM   0.5
 
-/* The longest step that the pressure of fluid at rest stands, s, of a method without sound that does not
-   leap: multipliers are those of the step's middle, and with p / rho = g times depth behind them places boil
-   from 0.3 h / sqrt(g depth) in 3D on (0.43 in 2D), at any tolerance; later where implicit friction damps it.
-   Depth is the greatest fall. INFINITY of other methods. */
+/* The longest stable step for the pressure of fluid at rest, s, for a method without sound that does not
+   leap; INFINITY for other methods. Multipliers belong to the middle of a step. At p / rho = g times depth,
+   positions boil from 0.3 h / sqrt(g depth) on in 3D (0.43 in 2D), at any tolerance; later with implicit
+   friction as damping. Depth is the greatest fall. */
 double step_pressure(const WorldDef *def);
 #define STEP_PRESSURE_STANDS 0.25
 
-/* The longest step that follows surface tension, s: J. U. Brackbill, D. B. Kothe, C. Zemach, "A continuum
-   method for modeling surface tension", 1992, eq. 61, of the fluid that binds it most; a wave of two spacings
-   stands 1.8 times as much, and a drop with cohesion without sound 1.3 to 2.7. INFINITY without tension. */
+/* The longest step to resolve surface tension, s: J. U. Brackbill, D. B. Kothe, C. Zemach, "A continuum
+   method for modeling surface tension", 1992, eq. 61, for the fluid with the tightest bound. A wave of two
+   spacings is stable up to 1.8 times this step, and a drop with cohesion and without sound up to 1.3 to 2.7
+   times. INFINITY without tension. */
 double step_tension(const WorldDef *def);
 #define STEP_TENSION_STANDS 0.5
 
-/* So much of it stands a fluid that is out of order; measured: 0.8 to 1.1, with density carried in 3D at
-   supports below 3, stirred hard, 0.6 (docs/failures.md). */
+/* Share of step_viscous at which disordered fluid is stable. Measured: 0.8 to 1.1; with carried density in
+   3D at supports below 3, stirred hard: 0.6 (docs/failures.md). */
 #define STEP_VISCOUS_STANDS 0.7
 
-/* What binds a step of `dt` s in which a world blew up, at the greatest speed before (m/s), and what to
-   change: words for an error. */
+/* Describes the bound of a step of `dt` s in which a world blew up, at the greatest speed before (m/s), and
+   the change to make: words for an error. */
 void step_advice(const WorldDef *def, const StepFriction *friction, StepTrouble trouble, double dt,
                  double max_speed, char words[200]);
 
-/* The adaptive step (mode cfl; Monaghan, "Smoothed particle hydrodynamics", 1992, eq. 10.1 f.): the least of
-   its limits at the speed and acceleration of the step before, never much longer than that one (`before`, s;
-   0: there was none), so that what a blow frees has time to show. */
+/* The adaptive step (mode cfl; Monaghan, "Smoothed particle hydrodynamics", 1992, eq. 10.1 f.): the least
+   limit at the speed and acceleration of the last step. Never much longer than the last step (`before`, s;
+   0: none), so that the effects of a blow have time to show. */
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,
                 double before, StepLimit *binding);
 
-/* The step of at most `dt` that reaches what is `left` (s) in whole steps, once it is four or fewer: all of
-   one length, so that the last one is no sliver after which steps would have to grow again. `dt` where it is
-   further or behind. */
+/* The step of at most `dt` that reaches `left` (s) in an integer number of equal steps, if four or fewer
+   suffice: no tiny last step, after which steps would have to grow again. Otherwise `dt`. */
 double step_towards(double dt, double left);
 
 #endif

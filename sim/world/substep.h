@@ -1,4 +1,4 @@
-/* What the substep of a method works on. */
+/* Data of a method's substep. */
 #ifndef SLOSH_SUBSTEP_H
 #define SLOSH_SUBSTEP_H
 
@@ -7,27 +7,27 @@
 #include "sim/touch/finger.h"
 #include "sim/world/backend.h"
 
-/* What a substep works on: the poses of the box at its begin, middle and end among it. */
+/* Data of a substep, with the poses of the box at begin, middle and end. */
 typedef struct Substep {
     const Backend *backend;
     void *state;
     const Constants *constants;
     StageClock *clock; /* may be NULL */
     double dt;         /* s */
-    double speed;      /* greatest of the step before, m/s; on a GPU of the frame before */
-    StepSolve *solves; /* by number, SOLVES_MAX of them: what the solvers of the step did */
+    double speed;      /* greatest in the last step, m/s; on a GPU in the last frame */
+    StepSolve *solves; /* by number, SOLVES_MAX entries: results of the step's solvers */
     BoxStep first_half, second_half;
-    double *driven;  /* J: where the work of emitters adds up */
-    int guide_count; /* of those at work */
+    double *driven;  /* J: sum of the emitters' work */
+    int guide_count; /* of active emitters */
     Guide guides[GUIDES_MAX];
-    FingerStep finger;               /* of who touches the fluid */
-    SolidStep solids[2][SOLIDS_MAX]; /* in the two halves: what these point to */
-    Bodies *bodies;                  /* solids that float; NULL: none */
-    ApparentGravity apparent;        /* in the middle */
-    float gravity[3];                /* in the box's axes in the middle, m/s2 */
+    FingerStep finger;               /* the finger in the fluid */
+    SolidStep solids[2][SOLIDS_MAX]; /* for both halves; first_half and second_half point here */
+    Bodies *bodies;                  /* floating solids; NULL: none */
+    ApparentGravity apparent;        /* at the middle */
+    float gravity[3];                /* in the box's axes at the middle, m/s2 */
 } Substep;
 
-/* What passes over `dt` (s) may want to know. */
+/* Input of passes over `dt` (s). */
 static inline PassInput substep_input(const Substep *step, double dt)
 {
     PassInput input = {.dt = (float)dt, .apparent = &step->apparent};
@@ -36,15 +36,14 @@ static inline PassInput substep_input(const Substep *step, double dt)
     return input;
 }
 
-/* A pass of the method over `dt` (s). */
+/* Runs a pass of the method over `dt` (s). */
 static inline void substep_run(const Substep *step, const Pass *pass, double dt)
 {
     const PassInput input = substep_input(step, dt);
     step->backend->run(step->state, pass, &input);
 }
 
-/* What the scene names of terms that methods share, before the kick: by the velocities and accelerations that
-   are there. */
+/* Runs the scene's shared terms before the kick, from the present velocities and accelerations. */
 static inline void substep_terms(const Substep *step)
 {
     for (const Term *const *term = shared_terms; *term; term++)
@@ -53,7 +52,7 @@ static inline void substep_terms(const Substep *step)
                 (*term)->substep(step);
 }
 
-/* A step of the method, with what stands before and behind it. */
+/* A step of the method, with the terms' begin and end. */
 static inline void substep_whole(const Substep *step, void (*method)(const Substep *step))
 {
     for (const Term *const *term = shared_terms; *term; term++)
@@ -65,7 +64,7 @@ static inline void substep_whole(const Substep *step, void (*method)(const Subst
             (*term)->end(step);
 }
 
-/* The kick of a step, and what a finger and emitters make of it. */
+/* The kick of a step, then the effects of finger, emitters and floating bodies. */
 static inline void substep_kick(const Substep *step)
 {
     step->backend->kick(step->state, step->gravity, (float)step->dt);

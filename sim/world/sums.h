@@ -1,4 +1,4 @@
-/* What each particle adds to a world's sums: for the backends. */
+/* Contribution of a particle to a world's sums, for the backends. */
 #ifndef SLOSH_SUMS_H
 #define SLOSH_SUMS_H
 
@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* A particle of mass m (kg) at x (m) with the velocity v (m/s). `centre` is not divided by the mass yet. */
+/* Adds a particle of mass m (kg) at x (m) with velocity v (m/s). `centre` is not yet divided by the mass. */
 static inline void sums_add(WorldSums *sums, double m, const double x[3], const double v[3])
 {
     double speed2 = 0, l2 = 0;

@@ -1,7 +1,6 @@
-/* A world: the state of a fluid in its box, and the step that carries it on.
-
-   The backend and the method are named in the WorldDef; both stand in one list each, which `slosh info`
-   prints. All functions of one world belong to one thread at a time. */
+/* A world: the state of a fluid in its box, and the time step. The WorldDef names backend and method; both
+   come from lists printed by `slosh info`. All functions of a world must be called from a single thread at
+   a time. */
 #ifndef SLOSH_WORLD_H
 #define SLOSH_WORLD_H
 
@@ -20,125 +19,124 @@
 
 typedef struct World World;
 
-/* A world at time 0, its densities and pressures evaluated, or NULL with the reason in `error`: an unknown
-   method or backend, a def out of range, too many particles or cells for the memory. */
+/* Creates a world at time 0 with densities and pressures evaluated. Returns NULL with the reason in
+   `error`: unknown method or backend, def out of range, or too many particles or cells for the memory. */
 World *world_create(const WorldDef *def, Error *error);
 void world_destroy(World *world); /* NULL is allowed */
 
-/* Whether backend and method are there and have all that the def names; needs no context. World_create asks
-   too. */
+/* True if backend and method exist and support everything that the def names; needs no context.
+   world_create also checks. */
 bool world_can(const WorldDef *def, Error *error);
 
-/* Whether a world of the def could be made here: shaders and buffers are tried, and nothing is computed. */
+/* True if a world of the def can be made here: allocates buffers and compiles shaders, without computing. */
 bool world_fits(const WorldDef *def, Error *error);
 
-/* Whether the def's backend works on a GPU: a GL context must then be current wherever a world of it is used,
-   the same one, from before world_create until after world_destroy. */
+/* True if the def's backend runs on a GPU. A GL context must then be current for every use of a world of
+   the def: the same context from before world_create until after world_destroy. */
 bool world_on_gpu(const WorldDef *def);
 
-/* Carries the world one frame on (mode fixed: dt, in `substeps` steps; cfl: one step), or what is left of it;
-   stage times go into `clock` (NULL: not measured). On trouble the sentinel goes back and halves the step:
-   WorldInfo.trouble. False with a message when that did not help, `retries` times: the world then holds the
-   last good state; without retries what it holds is of no use. */
+/* Advances the world to the end of the frame (mode fixed: dt, in `substeps` steps; cfl: a single step).
+   Adds stage times to `clock` (NULL: not measured). On trouble the sentinel goes back and halves the step:
+   WorldInfo.trouble. Returns false with a message if `retries` halvings did not help: the world then holds
+   the last good state, but without retries an invalid state. */
 bool world_step(World *world, StageClock *clock, Error *error);
 
-/* The same for one step of the frame's `substeps`: for who wants a say in between. */
+/* The same for a single step of the frame's `substeps`, for callers that act in between. */
 bool world_substep(World *world, StageClock *clock, Error *error);
 
-/* In mode cfl the steps before `time` (s) are shortened so that a state falls on it; other modes take no
-   notice. No part of the saved state: whoever goes on from one asks again. */
+/* In mode cfl, steps before `time` (s) are shortened so that a state falls on `time`; other modes ignore
+   the call. Not in the saved state: call again after a resume. */
 void world_stop_at(World *world, double time);
 
-/* Whether no trouble is known of the present state. A backend on a GPU is else asked at the begin of the next
-   frame only, which then goes back: who keeps a state asks before. Waits for its steps. */
+/* True if the present state has no known trouble. A GPU backend otherwise checks only at the begin of the
+   next frame, which then goes back: call before keeping a state. Waits for the GPU's steps. */
 bool world_sound(World *world);
 
-/* Where the hand wants the box from the next step on: the box follows through the filter, on top of the
-   prescribed motion (sim/box/box_filter.h). The orientation is normalised; one that is not finite is not
-   taken.
- */
+/* Sets the hand's target for the box from the next step on. The box follows through the filter, on top of
+   the prescribed motion (sim/box/box_filter.h). The orientation is normalised; a non-finite target is
+   ignored. */
 void world_set_target(World *world, const BoxTarget *target);
 
-/* Puts the box there at once and at rest; the fluid comes along as it is and feels no force. */
+/* Puts the box at the target at once, at rest; the fluid comes along unchanged and feels no force. */
 void world_carry(World *world, const BoxTarget *target);
 
-/* Room for what a finger pours, up to WorldDef.most; nothing where it is there. It takes as long as making
-   the world does, and *world is then another one. False with the reason: the backend takes no new particles,
-   or memory is short. */
+/* Makes room for fluid poured by a finger, up to WorldDef.most; nothing to do if the room exists. Takes as
+   long as making the world, and replaces *world. Returns false with the reason: the backend cannot add
+   particles, or memory is short. */
 bool world_make_room(World **world, Error *error);
 
-/* A finger in the fluid from the next step on, or none; what is no finger is not taken, nor one that pours
-   where there is no room. What is poured is held to 0.3 of sound and a quarter of the support radius a step.
- */
+/* Sets a finger in the fluid from the next step on, or none. Ignores an invalid finger, and a pouring
+   finger without room for particles. Poured fluid is limited to 0.3 of the sound speed and to a quarter of
+   the support radius per step. */
 void world_touch(World *world, const Finger *finger);
 
-/* Which gates of emitters and drains are shut from the next step on: bits of sim/matter/flow.h; what has no
-   gate is left out. An open emitter sends out the layers that its time has, as if it had never been shut. */
+/* Sets the shut gates of emitters and drains from the next step on: bits of sim/matter/flow.h; unknown
+   gates are ignored. An open emitter emits the layers due at its time, as if it had never been shut. */
 void world_shut(World *world, uint64_t gates);
 uint64_t world_gates_shut(const World *world);
 
-/* Takes from `def` what may change while a world lives: gravity, viscosities, sound speed, negative pressure,
-   dt, substeps, number and max_dt of mode cfl, the hand's limits, live keys of methods; all else must be as
-   it was. It holds from the next step on, and is as much a part of the world's history as a target is. False
-   with the reason: nothing has changed. */
+/* Takes the live settings from `def`: gravity, viscosities, sound speed, negative pressure, dt, substeps,
+   number and max_dt of mode cfl, the hand's limits, live keys of methods. The rest of `def` must be
+   unchanged. Takes effect with the next step and belongs to the world's history like a target. Returns
+   false with the reason, with nothing changed. */
 bool world_change(World *world, const WorldDef *def, Error *error);
 
-/* Reads the shaders of a backend on a GPU again; false with the reason where one is wrong: those before stay.
- */
+/* Reloads the shaders of a GPU backend. Returns false with the reason if a shader is wrong: the old shaders
+   stay. */
 bool world_reload(World *world, Error *error);
 
-/* What the sentinel found, for a line. */
+/* Describes the sentinel's finding in a line. */
 void world_trouble_words(const WorldTrouble *trouble, char words[160]);
 
-/* WorldInfo.solved counts from here on. */
+/* Restarts the counts of WorldInfo.solved. */
 void world_tally_anew(World *world);
 
 void world_info(const World *world, WorldInfo *info);
 
 void world_sums(World *world, WorldSums *sums);
 
-/* Begins to gather the gauge of the present state: behind the steps in a GPU's queue, without waiting.
-   Nothing while an earlier one is on its way. A world that is never asked has no pass and no buffer for it.
- */
+/* Starts to gather the gauge of the present state: queued after a GPU's steps, without waiting. No effect
+   while an earlier gauge is under way. A world that is never asked has no pass and no buffer for the
+   gauge. */
 void world_gauge_ask(World *world);
 
-/* True once for each question, as soon as its answer has come; never waits. On the CPU it comes at once. */
+/* True once per question, as soon as the answer is ready; never waits. On the CPU the answer is ready at
+   once. */
 bool world_gauge(World *world, WorldGauge *gauge);
 
-/* From now on steps sum what the fluid does to box and solids; a world that is never asked pays nothing.
-   False with the reason: the backend has no such sums, or memory is short. */
+/* From now on, steps sum the fluid's forces on box and solids; without this call there is no cost. Returns
+   false with the reason: the backend cannot sum forces, or memory is short. */
 bool world_feel(World *world, Error *error);
 
-/* From now on the world keeps the acceleration of its particles, as if WorldDef.acceleration had been set; it
-   is not known before the next step. Nothing where it does already. False with the reason: the backend
-   cannot, or memory is short. */
+/* From now on, the world keeps the particles' acceleration, as with WorldDef.acceleration; unknown before
+   the next step. No effect if already kept. Returns false with the reason: the backend cannot, or memory is
+   short. */
 bool world_keep_acceleration(World *world, Error *error);
 
-/* The means since the last call, or since world_feel; `seconds` is 0 where there was no step. Steps that the
-   sentinel took back do not count. */
+/* Mean forces since the last call or since world_feel; `seconds` is 0 if there was no step. Steps taken
+   back by the sentinel do not count. */
 void world_forces(World *world, Forces *forces);
 
-/* False, and nothing of use in the arrays, when memory is short. */
+/* Returns false, with unusable arrays, if memory is short. */
 bool world_read(World *world, const ParticleArrays *out);
 
-/* A hash of id, position and velocity of every particle in the order of their ids, and of where solids that
-   float are and go: equal for equal bits; 0
-   when memory is short. */
+/* A hash of id, position and velocity of every particle in the order of ids, and of pose and motion of
+   floating solids: equal for equal bits; 0 if memory is short. */
 uint64_t world_hash(World *world);
 
-/* The lists of what there is, ended by a NULL name. */
+/* Lists of names, ended by a NULL name. */
 typedef struct Named {
     const char *name, *help;
 } Named;
 
-/* The defaults of every field but the box, the spacing, the fluids: what a scene that says nothing gets. The
-   reason for each number stands beside it in world_default.c. */
+/* Defaults of every field except the box, the spacing and the fluids, for scenes without a value. The
+   reason for each number is in world_default.c. */
 WorldDef world_def_default(void);
 
 const Named *world_methods(void);
 const Named *world_backends(void);
 
-/* The def's threads of the backend on the CPU, to be read and set; 0: one a processor. */
+/* The def's number of threads for backend cpu, to read and set; 0: a thread per processor. */
 int *world_threads(const WorldDef *def);
 
 /* Processors of this machine. */

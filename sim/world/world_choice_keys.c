@@ -1,4 +1,4 @@
-/* Keys that choose a method and a backend. */
+/* Keys for the choice of method and backend. */
 #include "sim/base/key_rows.h"
 #include "sim/world/method.h"
 #include "sim/world/world.h"

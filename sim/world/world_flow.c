@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to look through: ids are read back from a GPU */
+enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to check: the check reads ids back from a GPU */
 
-/* Along gravity as the box feels it; without gravity, down in the box. */
+/* Direction of gravity in the box; without gravity, down. */
 static void falls(const World *world, double direction[3])
 {
     quat_rotate_inverse(world->box.orientation, world->def.gravity, direction);
@@ -28,7 +28,7 @@ bool world_pours(const World *world, Emit *emit, int *fluid)
     return true;
 }
 
-/* Room for a layer of the emitter; false when memory is short. */
+/* Makes room for a layer of the emitter; false if memory is short. */
 static bool layer_reserve(World *world, const Emit *emit)
 {
     const size_t most = emit_most(emit, world->def.dimensions, world->def.spacing);
@@ -40,7 +40,8 @@ static bool layer_reserve(World *world, const Emit *emit)
     return more;
 }
 
-/* Counts layers without room for any particle; an emitter that waits for the world's particles is no such. */
+/* Counts consecutive layers without room for any particle. An emitter that waits for the world's particle
+   limit does not count. */
 static void look_for_room(unsigned short *barred, size_t came, bool full)
 {
     if (came > 0 || full)
@@ -57,7 +58,7 @@ uint64_t world_barred(const World *world)
     return gates;
 }
 
-/* `barred`: of the emitter; NULL: what is poured. */
+/* `barred`: the emitter's counter; NULL for poured fluid. */
 static void let_in(World *world, int fluid, const Emit *emit, unsigned short *barred, double begin,
                    double end)
 {
@@ -68,7 +69,7 @@ static void let_in(World *world, int fluid, const Emit *emit, unsigned short *ba
         const uint64_t born = world->initial + world->emitted;
         EmitLayer layer = {.position = world->layer, .fluid = fluid, .first_id = born};
         if (k == first)
-            world->backend->grid(world->state); /* who is where now */
+            world->backend->grid(world->state); /* present positions */
         emit_place(emit, def->dimensions, def->spacing, k, end, &layer);
         for (size_t i = 0; i < layer.count; i++)
             periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
@@ -83,7 +84,7 @@ static void let_in(World *world, int fluid, const Emit *emit, unsigned short *ba
     }
 }
 
-/* So that a layer is either in with the time of its birth, or the step is not begun. */
+/* Reserves memory in advance, so that a layer is emitted with its birth time or the step does not begin. */
 static bool reserve(World *world, double begin, double end)
 {
     const WorldDef *def = &world->def;
@@ -175,7 +176,7 @@ bool world_flow(World *world, Error *error)
 void world_thin_births(World *world)
 {
     Births *births = &world->births;
-    const bool all_here = !world->backend->held; /* a rank would forget those of the others */
+    const bool all_here = !world->backend->held; /* a rank would drop births of foreign particles */
     ParticleId *id = all_here && births->count > BIRTHS_FEW ? malloc((world->count + 1) * sizeof *id) : NULL;
     if (id && world_read(world, &(ParticleArrays){.whole_id = id}))
         births_keep(births, id, world->count);

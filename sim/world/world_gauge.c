@@ -1,5 +1,5 @@
-/* What is plotted of a world while it runs: asked for now, answered when it is there; and what box and solids
-   feel, asked for once. */
+/* Plotted quantities of a running world: asked for first, answered when ready. Also forces on box and
+   solids, requested once. */
 #include "sim/body/bodies.h"
 #include "sim/world/world_struct.h"
 
@@ -50,7 +50,7 @@ bool world_sum_forces(World *world, Error *error)
     if (!world->backend->feel)
         return error_set(error, "backend %s sums no forces; use backend cpu or compute",
                          world->backend->name);
-    if (world->bodies) /* they have summed them since the start */
+    if (world->bodies) /* floating bodies have summed forces since the start */
         bodies_tell(world->bodies, to);
     world->sums_forces = world->bodies || world->backend->feel(world->state, to, error);
     return world->sums_forces;
@@ -67,7 +67,7 @@ void world_forces(World *world, Forces *forces)
 {
     const Backend *backend = world->backend;
     *forces = (Forces){0};
-    /* Where steps run behind the caller's back: the next one takes these back. */
+    /* For asynchronous steps: the next step takes these forces back. */
     if (backend->felt && (!world_sound(world) || !backend->felt(world->state)))
         return;
     *forces = world->felt;

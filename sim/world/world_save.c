@@ -69,7 +69,7 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
 
 static bool not_sound(const World *world, Error *error)
 {
-    WorldTrouble seen = world->trouble; /* has the solver, where one is it */
+    WorldTrouble seen = world->trouble; /* with the solver, if a solver is in trouble */
     char words[160];
     seen.what = world->seen;
     world_trouble_words(&seen, words);
@@ -110,7 +110,7 @@ static bool numbers_check(const WorldNumbers *numbers, Error *error)
     return true;
 }
 
-/* Whether numbers that a method keeps of particle i are any. */
+/* True if the method's kept columns of particle i are finite. */
 static bool own_finite(const ParticleColumns *p, size_t i)
 {
     bool finite = true;
@@ -125,7 +125,7 @@ static int ascending(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-/* Whether each of the ids is there once and before `end`; *known: false when memory is short. */
+/* True if each id occurs once and is below `end`; *known: false if memory is short. */
 static bool ids_differ(const ParticleId *id, size_t count, double end, bool *known)
 {
     ParticleId *sorted = malloc((count + 1) * sizeof *sorted);
@@ -141,7 +141,7 @@ static bool ids_differ(const ParticleId *id, size_t count, double end, bool *kno
     return differ;
 }
 
-/* The same with less time where nearly all that were born are there. */
+/* The same, faster if nearly all particles ever born are present. */
 static bool ids_are_dense(const ParticleId *id, size_t count, double end, bool *known)
 {
     bool *seen = calloc((size_t)end + 1, sizeof *seen), differ = *known = seen != NULL;
@@ -154,7 +154,7 @@ static bool ids_are_dense(const ParticleId *id, size_t count, double end, bool *
     return differ;
 }
 
-/* Every id once, every number finite. */
+/* Checks for unique ids and finite numbers. */
 static bool particles_check(const World *world, const WorldState *state, Error *error)
 {
     const WorldNumbers *numbers = &state->numbers;
@@ -191,7 +191,7 @@ void world_put_back(World *world, const WorldNumbers *numbers, size_t count)
     world_settle(world);
 }
 
-/* Of a state that does not say when particles were born, those of emitters are of no known time. */
+/* For a state without births, emitted particles have an unknown birth time. */
 static bool take_births(World *world, const WorldState *state, Births *births)
 {
     if (!births_copy(&state->births, births) || !births_reserve(births, 1))
@@ -249,7 +249,7 @@ bool world_move(World **world, const char *backend, Error *error)
     return world_rebuild(world, &def, error);
 }
 
-/* The particles of a state as those that a world begins with; false when memory is short. */
+/* The particles of a state as an initial state; false if memory is short. */
 static bool as_initial(const WorldState *state, InitialState *initial)
 {
     const ParticleColumns *p = &state->particles;
@@ -263,9 +263,8 @@ static bool as_initial(const WorldState *state, InitialState *initial)
     return position;
 }
 
-/* Cells that are too many change no bit: particles are found and summed by cells of one lattice. Columns
- * would.
- */
+/* True if the world's cells and columns fit the new box. Surplus cells change no bit: particles are found
+   and summed by cells of a global lattice. Different columns would. */
 static bool cells_hold(const Constants *constants, const WorldDef *def)
 {
     const CellGrid *cells = &constants->cells;
@@ -279,7 +278,7 @@ static bool cells_hold(const Constants *constants, const WorldDef *def)
     return hold;
 }
 
-/* But for where a hand has it. */
+/* True if equal except for the hand's pose. */
 static bool same_solid(const SolidDef *a, const SolidDef *b)
 {
     bool same = a->kind == b->kind && a->radius == b->radius && a->height == b->height &&
@@ -293,8 +292,7 @@ static bool same_solid(const SolidDef *a, const SolidDef *b)
     return same;
 }
 
-/* Whether solids that stand are in the box, whole: of one that is not, more or less is a boundary in another
- * box. */
+/* True if all resting solids are wholly in the box: otherwise a different box changes a solid's boundary. */
 static bool is_around_solids(const WorldDef *def)
 {
     bool around = true;
@@ -315,7 +313,7 @@ bool world_resizes(const World *world, const WorldDef *def)
            cells_hold(&world->constants, def);
 }
 
-/* Into a box that has become smaller along an axis. */
+/* Moves particles into a box that became smaller along an axis. */
 static void bring_in(WorldState *state, const WorldDef *def, int axis)
 {
     const ParticleColumns *p = &state->particles;
@@ -347,7 +345,7 @@ static void set_solids(World *world, const SolidDef solids[SOLIDS_MAX])
     memcpy(world->constants.solids, solids, sizeof world->constants.solids);
 }
 
-/* From the next step on; particles that a smaller box leaves outside come to its walls. */
+/* Takes effect with the next step; particles outside of a smaller box move to the walls. */
 static bool world_resize(World *world, const WorldDef *def, Error *error)
 {
     WorldState state = {.count = 0};
@@ -361,7 +359,7 @@ static bool world_resize(World *world, const WorldDef *def, Error *error)
     set_solids(world, def->solids);
     const bool loaded = world_load(world, &state, error);
     if (loaded)
-        world_pose(world); /* it turns about half its height */
+        world_pose(world); /* the box turns about half its height */
     else {
         place(world, before.box_size);
         set_solids(world, before.solids);
@@ -370,13 +368,13 @@ static bool world_resize(World *world, const WorldDef *def, Error *error)
     return loaded && sentinel_mark(world, error);
 }
 
-/* What is in no state. */
+/* Copies data that no state holds. */
 static bool inherit(World *to, const World *from, Error *error)
 {
     if (from->feels && !world_feel(to, error))
         return false;
     to->felt = from->felt;
-    to->felt_before = from->felt; /* the present state is the one to go back to */
+    to->felt_before = from->felt; /* going back leads to the present state */
     to->trouble = from->trouble;
     to->tally = from->tally;
     to->stop = from->stop;
@@ -384,7 +382,7 @@ static bool inherit(World *to, const World *from, Error *error)
     return true;
 }
 
-/* Another world of that def in that state, which goes on from `from`. NULL with the reason. */
+/* Makes a world of `def` in `state` that continues `from`. NULL with the reason. */
 static World *made_with(const World *from, const WorldDef *def, const WorldState *state, Error *error)
 {
     InitialState initial;
@@ -417,7 +415,7 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
             bring_in(&state, def, k);
     World *to = saved ? made_with(from, def, &state, error) : NULL;
     world_state_free(&state);
-    if (to && def->box_size[1] != from->def.box_size[1]) { /* about whose half it turns */
+    if (to && def->box_size[1] != from->def.box_size[1]) { /* the box turns about half its height */
         world_pose(to);
         if (!sentinel_mark(to, error)) {
             world_destroy(to);
@@ -431,8 +429,8 @@ bool world_rebuild(World **world, const WorldDef *def, Error *error)
     return true;
 }
 
-/* The world's def with the box and the solids of `from`; false: it has others, but for where a hand has them.
- */
+/* The world's def with box and solids of `from`. Returns true if box and solids were the same, except for
+   the hand's poses. */
 static bool with_shapes(const World *world, const WorldDef *from, WorldDef *def)
 {
     *def = world->def;
@@ -448,7 +446,7 @@ static bool with_shapes(const World *world, const WorldDef *from, WorldDef *def)
     return same;
 }
 
-/* The solid of `before` that `after` lacks, the others being the same; -1: it is otherwise. */
+/* The index of the only solid of `before` missing in `after`; -1: any other change. */
 static int taken_out(const WorldDef *before, const WorldDef *after)
 {
     int k = 0;
@@ -460,7 +458,7 @@ static int taken_out(const WorldDef *before, const WorldDef *after)
     return same ? k : -1;
 }
 
-/* What the solids behind it felt goes by their new numbers. */
+/* Renumbers the forces on solids after the removed solid. */
 static void close_gap(Forces *felt, int taken)
 {
     Push *at = felt->solid + taken;
@@ -489,7 +487,7 @@ bool world_load_shapes(World **world, const WorldDef *from, const WorldState *st
 {
     WorldDef def;
     SolidDef before[SOLIDS_MAX];
-    if (!with_shapes(*world, from, &def)) { /* the present state, which may not be sound, is not asked for */
+    if (!with_shapes(*world, from, &def)) { /* the present state is not needed and may be unsound */
         World *to = made_with(*world, &def, state, error);
         if (!to)
             return false;

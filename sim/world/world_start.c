@@ -1,4 +1,4 @@
-/* How a world begins: its particles, from the fills or as they are given. */
+/* Start of a world: particles from fills or from a given initial state. */
 #include "sim/body/bodies.h"
 #include "sim/matter/balance.h"
 #include "sim/matter/fill.h"
@@ -28,7 +28,7 @@ static void seeds_free(Seeds *seeds)
     free(seeds->pressure);
 }
 
-/* Moved points stay within the walls, and come in across periodic sides. */
+/* Keeps moved points within the walls and wraps them over periodic sides. */
 static void hold(const Constants *constants, const Seeds *seeds, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -38,7 +38,7 @@ static void hold(const Constants *constants, const Seeds *seeds, size_t count)
     }
 }
 
-/* The height by formula at which a fluid's fills end. */
+/* Height of a fluid's surface by formula. */
 static bool height_of(const void *context, int fluid, double x, double z, double *y)
 {
     const FluidDef *def = &((const WorldDef *)context)->fluids[fluid];
@@ -57,7 +57,7 @@ static bool any_height(const WorldDef *def)
     return false;
 }
 
-/* Surfaces that formulas give. */
+/* Moves seeds to surfaces given by formulas. */
 static bool raise_seeds(const Constants *constants, const WorldDef *def, const Seeds *seeds, size_t count)
 {
     Balance balance;
@@ -71,8 +71,8 @@ static bool raise_seeds(const Constants *constants, const WorldDef *def, const S
     return ok;
 }
 
-/* A packing around solids without gaps; of particles that carry their density, in the order that they keep.
- */
+/* Packs seeds around solids without gaps; for methods that carry density, settles the seeds into an
+   arrangement that stays. */
 static bool fit_seeds(const Constants *constants, const WorldDef *def, const bool take[FLUIDS_MAX],
                       const Seeds *seeds, size_t count)
 {
@@ -89,7 +89,7 @@ static bool fit_seeds(const Constants *constants, const WorldDef *def, const boo
     return ok;
 }
 
-/* One component of a fluid's velocity; false where it has no value. */
+/* Adds a component of a fluid's velocity; false if the formula has no value at some particle. */
 static bool add_component(const Seeds *seeds, size_t count, int fluid, int axis, const char *text,
                           Error *error)
 {
@@ -110,7 +110,7 @@ static bool add_component(const Seeds *seeds, size_t count, int fluid, int axis,
     return true;
 }
 
-/* Of a table that has such a column. */
+/* Adds a component from a velocity table. */
 static void add_table(const Seeds *seeds, size_t count, int fluid, int axis, const FieldTable *table)
 {
     for (size_t i = 0; i < count; i++) {
@@ -121,7 +121,7 @@ static void add_table(const Seeds *seeds, size_t count, int fluid, int axis, con
     }
 }
 
-/* Velocities by formula and by table. */
+/* Adds velocities by formula and by table. */
 static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
 {
     bool ok = true;
@@ -137,7 +137,7 @@ static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Erro
     return ok;
 }
 
-/* With the pressure that holds them, where particles carry their density: p = c^2 (rho - rho0). */
+/* Adds vortices, and for methods that carry density the balancing pressure: p = c^2 (rho - rho0). */
 static void add_vortices(const WorldDef *def, const Seeds *seeds, size_t count)
 {
     for (size_t i = 0; i < count; i++) {
@@ -148,7 +148,7 @@ static void add_vortices(const WorldDef *def, const Seeds *seeds, size_t count)
     }
 }
 
-/* rho / rho0 - 1 at which the method has that pressure: Newton's steps over a slope by differences. */
+/* rho / rho0 - 1 at the given pressure of the method: Newton steps with a slope by differences. */
 static double compression_of(const Constants *constants, int fluid, double pressure)
 {
     const double c = (double)constants->sound_speed, rest = (double)constants->density[fluid];
@@ -162,7 +162,7 @@ static double compression_of(const Constants *constants, int fluid, double press
     return x;
 }
 
-/* Which fluids start in balance; false: none, too many particles, or there is no gravity. */
+/* Finds the fluids that start in balance; false if none, too many particles, or no gravity. */
 static bool balances(const WorldDef *def, size_t count, bool take[FLUIDS_MAX])
 {
     const double *g = def->gravity;
@@ -176,7 +176,7 @@ static bool balances(const WorldDef *def, size_t count, bool take[FLUIDS_MAX])
     return any && (g[0] != 0 || g[1] != 0 || g[2] != 0);
 }
 
-/* Densities by the method's equation of state, and places that go with them. */
+/* Sets densities by the method's equation of state and moves positions to match. */
 static bool press_seeds(const Constants *constants, Balance *balance, const double gravity[3],
                         const Seeds *seeds, size_t count)
 {
@@ -193,7 +193,7 @@ static bool press_seeds(const Constants *constants, Balance *balance, const doub
     return true;
 }
 
-/* A start in balance, under the gravity that the box feels in its first pose. */
+/* Starts in balance, under the gravity in the box's first pose. */
 static bool balance_seeds(const Constants *constants, const WorldDef *def, const bool take[FLUIDS_MAX],
                           const Seeds *seeds, size_t count)
 {
@@ -214,7 +214,7 @@ static bool balance_seeds(const Constants *constants, const WorldDef *def, const
     return ok;
 }
 
-/* Room for `count` particles, with the columns that are wanted. */
+/* Allocates for `count` particles, with optional density and pressure. */
 static bool seeds_create(Seeds *seeds, size_t count, bool dense, bool pressed)
 {
     seeds->position = malloc((count + 1) * 3 * sizeof *seeds->position);
@@ -226,7 +226,7 @@ static bool seeds_create(Seeds *seeds, size_t count, bool dense, bool pressed)
            (seeds->pressure || !pressed);
 }
 
-/* The lattice, as jitter, surfaces and, for what takes part in a balance (NULL: nothing), solids leave it. */
+/* Seeds on the lattice, then jitter, surfaces, and solids for fluids in balance (`take` NULL: none). */
 static bool place_seeds(const Constants *constants, const WorldDef *def, const bool *take, const Seeds *seeds,
                         size_t count)
 {
@@ -293,7 +293,7 @@ static bool initial_check(const WorldDef *def, const InitialState *initial, Erro
     return true;
 }
 
-/* Solids that float, with the forces that move them. */
+/* Creates floating solids and requests the forces that move them. */
 static bool start_bodies(World *world, Error *error)
 {
     const BodiesIn in = {.def = &world->def,

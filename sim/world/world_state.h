@@ -1,5 +1,5 @@
-/* The one saved state of a world (DESIGN 2): all that its next step reads. Snapshots, resume, going back
-   after trouble and a change of backend use it and nothing else: save, load, step is step, to the bit. */
+/* The single saved state of a world (DESIGN 2): all data read by the next step. Used alone by snapshots,
+   resume, going back after trouble and a change of backend: save, load, step equals step, to the bit. */
 #ifndef SLOSH_WORLD_STATE_H
 #define SLOSH_WORLD_STATE_H
 
@@ -15,43 +15,42 @@
 
 struct Method; /* sim/world/method.h */
 
-/* What sim/world/energy_watch.h compares with; zero: nothing yet. */
+/* Reference of sim/world/energy_watch.h; zero: none yet. */
 typedef struct EnergyMark {
-    double least;   /* energy of motion and compression less the work done since the first look, J */
-    double until;   /* the step after which another takes its place */
-    double next;    /* the step that looks again, sooner if a particle is much faster than */
-    double speed;   /* at the last look, m/s */
-    double work;    /* since the first look, of gravity and of what the box's motion is for the fluid, J */
-    double stirred; /* its amount since `least`, whatever its sign, J */
-    double surface; /* what tension might set free then, J */
-    double most;    /* how much more energy than `least` was trouble at the last look, J */
-    double jolted;  /* not 0: the box's velocity jumps in the step in hand */
-    double turning; /* not 0: the sums have what a box that turns asks */
-    double gauged;  /* not 0: they are of the gauge of a GPU */
-    double time;    /* of the last look, s; what was found there: */
+    double least;   /* energy of motion and compression minus work since the first look, J */
+    double until;   /* step after which a new reference is taken */
+    double next;    /* step of the next look; earlier if particles are much faster than */
+    double speed;   /* the greatest speed at the last look, m/s */
+    double work;    /* work of gravity and of the box's motion since the first look, J */
+    double stirred; /* absolute work since `least`, J */
+    double surface; /* surface energy that might come free, at `least`, J */
+    double most;    /* allowed gain over `least` at the last look, J */
+    double jolted;  /* not 0: the box's velocity jumps in the current step */
+    double turning; /* not 0: the sums include those for a turning box */
+    double gauged;  /* not 0: the sums are from a GPU's gauge */
+    double time;    /* of the last look, s; sums and box at that time: */
     EnergySums sums;
     BoxState box;
 } EnergyMark;
 
-/* What is not of a particle. Doubles only, so that it is also an array of WORLD_NUMBERS of them: files keep
-   it as that. */
+/* The state besides the particles. Doubles only: also an array of WORLD_NUMBERS doubles, stored as such in
+   files. */
 typedef struct WorldNumbers {
     double version;            /* WORLD_STATE_VERSION */
-    double step, since_step;   /* substeps; where the present dt began */
-    double since_time;         /* s, then */
-    double guarded;            /* as WorldInfo has it */
-    double emitted, drained;   /* the same */
-    StepState stepping;        /* how it steps */
+    double step, since_step;   /* substeps; first step with the present dt */
+    double since_time;         /* time of since_step, s */
+    double guarded;            /* as WorldInfo.guarded */
+    double emitted, drained;   /* as in WorldInfo */
+    StepState stepping;        /* step sizes */
     BoxTarget target;          /* of the hand */
-    BoxFilter filter;          /* where its part of the pose is */
+    BoxFilter filter;          /* the hand's part of the pose */
     BoxState box;              /* the pose, in the world's frame */
-    double live[LIVE_NUMBERS]; /* of the def, what may change while a world lives */
-    EnergyMark energy;         /* these stand last: files may end before them */
+    double live[LIVE_NUMBERS]; /* live settings of the def */
+    EnergyMark energy;         /* last members from here on: files may end before them */
     FingerState finger;
-    double
-        shut; /* which gates of emitters and drains are, as the bits of a whole number: sim/matter/flow.h */
-    double pours;      /* s: since when the finger does so */
-    BodyStates bodies; /* solids that float */
+    double shut;       /* shut gates of emitters and drains, bits as an integer: sim/matter/flow.h */
+    double pours;      /* s: begin of the finger's pouring */
+    BodyStates bodies; /* floating solids */
 } WorldNumbers;
 
 enum {
@@ -60,56 +59,55 @@ enum {
     WORLD_NUMBERS_LEAST = offsetof(WorldNumbers, energy) / sizeof(double)
 };
 
-/* Zero-initialise it; owns its columns. Particles stand in any order, `id` tells who is who. */
+/* Zero-initialise; owns its columns. Particles are in any order, identified by `id`. */
 typedef struct WorldState {
     WorldNumbers numbers;
-    size_t count, capacity;      /* particles; room for them */
-    const struct Method *method; /* whose columns these are, beside those of terms that its def names */
-    ParticleColumns particles;   /* those that are saved */
-    Births births;               /* none, where emitters sent some out: not known */
+    size_t count, capacity;      /* particles; capacity of the columns */
+    const struct Method *method; /* owner of the columns, together with terms named by its def */
+    ParticleColumns particles;   /* saved columns */
+    Births births;               /* empty although particles were emitted: unknown */
 } WorldState;
 
-/* Of what world_save copies beside the particles. */
+/* Bytes copied by world_save besides the particles. */
 size_t world_births_bytes(const World *world);
 
-/* Room for so many particles of a def; what was in it is lost. False when memory is short: then it is
- * empty. */
+/* Makes room for `count` particles of a def; old contents are lost. Returns false if memory is short, with
+   an empty state. */
 bool world_state_reserve(WorldState *state, const WorldDef *def, size_t count);
-void world_state_free(WorldState *state); /* a zeroed one is allowed */
+void world_state_free(WorldState *state); /* a zeroed state is allowed */
 
-/* The numbers alone, for who has the particles from world_read. */
+/* Saves the numbers alone, for callers with particles from world_read. */
 void world_save_numbers(World *world, WorldNumbers *numbers);
 
-/* Copies the world's state. False with the reason: memory is short, or it is not sound (world_sound). */
+/* Copies the world's state. Returns false with the reason: memory is short, or the state is unsound
+   (world_sound). */
 bool world_save(World *world, WorldState *state, Error *error);
 
-/* Puts a world that was made from the same def, but for what may change while it lives, into that state.
-   False with the reason: another version, other particles, numbers that are none; the world is as it was. */
+/* Loads a state into a world made from the same def, except for live settings. Returns false with the
+   reason: a different version, different particles or non-finite numbers; the world is unchanged. */
 bool world_load(World *world, const WorldState *state, Error *error);
 
-/* Carries the world over to another backend, where it goes on from the same state; *world is then another
-   one. A context must be current as world_on_gpu says, for either. False with the reason: nothing has
+/* Moves the world to a different backend, which continues from the same state; replaces *world. A context
+   must be current as for world_on_gpu, for either backend. Returns false with the reason, with nothing
    changed. */
 bool world_move(World **world, const char *backend, Error *error);
 
-/* Makes the world anew from a def that differs in its backend, its solids, its box or in whether somebody
-   pours; it goes on from the same state, as another *world. Takes about as long as making it did, and for
-   that time twice the memory. False with the reason: nothing has changed. */
+/* Rebuilds the world from a def with a different backend, solids, box or pouring; continues from the same
+   state and replaces *world. Takes about as long as world_create, with twice the memory in the meantime.
+   Returns false with the reason, with nothing changed. */
 bool world_rebuild(World **world, const WorldDef *def, Error *error);
 
-/* Whether the box may become that of `def` where the world stands: with the same solids, of which those that
-   stand are wholly in it before and after, and inside the cells that were made for it. Else the world is to
-   be made anew. */
+/* True if the box can be resized to that of `def` in place: same solids, with resting solids wholly inside
+   before and after, and the new box inside the existing cells. Otherwise rebuild the world. */
 bool world_resizes(const World *world, const WorldDef *def);
 
-/* From the next step on its box is as large as that of the def, and its solids are those of the def, where
-   the hand has them: at once, where only that differs; else as world_rebuild does. Particles that a smaller
-   box leaves outside come to its walls. */
+/* From the next step on, takes box size and solids from `def`, with the hand's poses. Works in place if
+   only those differ or if world_resizes; otherwise like world_rebuild. Particles outside of a smaller box
+   move to its walls. */
 bool world_set_shapes(World **world, const WorldDef *def, Error *error);
 
-/* Puts it into a state in which it had the box and the solids of that def; where it has others now, *world is
-   another one then, and its present state may be one that is not sound. False with the reason: nothing has
-   changed. */
+/* Loads a state saved with the box and solids of `def`. Replaces *world if its box or solids differ; the
+   present state may be unsound. Returns false with the reason, with nothing changed. */
 bool world_load_shapes(World **world, const WorldDef *def, const WorldState *state, Error *error);
 
 #endif

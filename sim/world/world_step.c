@@ -35,7 +35,7 @@ int world_processors(void)
     return parallel_processors();
 }
 
-/* The pose at `time` with the hand's part as `filter` has it. */
+/* The pose at `time`, with the hand's part from `filter`. */
 static void box_at(const World *world, const BoxFilter *filter, double time, BoxState *box)
 {
     box_state_at(world->def.motions, world->def.motion_count, world->def.box_size[1], time, box);
@@ -106,7 +106,7 @@ void world_stop_at(World *world, double time)
     world->stop = time;
 }
 
-/* Its particles are in their places, and nothing of them is known. */
+/* A world with particles in place, before any density or pressure. */
 static World *world_unsettled(const WorldDef *def, Error *error)
 {
     World *world = calloc(1, sizeof *world);
@@ -150,7 +150,7 @@ World *world_create(const WorldDef *def, Error *error)
     start_method(world);
     world_forget(world, NULL);
     energy_sound(world);
-    if (sentinel_mark(world, error)) /* what it needs is there before the first step */
+    if (sentinel_mark(world, error)) /* allocates before the first step */
         return world;
     world_destroy(world);
     return NULL;
@@ -170,14 +170,14 @@ void world_destroy(World *world)
     free(world);
 }
 
-/* Multiplied, not added up: as long as dt is the same, the time of a step depends on its number alone. */
+/* By multiplication, not by summing: for a constant dt, a step's time depends on its number alone. */
 double world_time_at(const World *world, double step)
 {
     return world->since_time + (step - (double)world->since_step) * world->stepping.dt;
 }
 
-/* Parts of what the sentinel bears: a particle may cross a support radius in a step, and what moves as fast
-   as sound is no fluid. */
+/* Shares of the sentinel's bounds: a particle may cross a support radius per step, and fluid stays well
+   below the speed of sound. */
 static FingerLimits finger_limits(const World *world)
 {
     static const double OF_BOUND = 0.25, OF_SOUND = 0.3, OF_GAIN = 0.1;
@@ -186,7 +186,7 @@ static FingerLimits finger_limits(const World *world)
     return (FingerLimits){fmin(OF_BOUND * bound, OF_SOUND * sound), OF_GAIN * fmin(bound, sound)};
 }
 
-/* Carries box, filter and finger to the end of the substep. */
+/* Moves box, filter and finger to the end of the substep. */
 static void substep_prepare(World *world, StageClock *clock, Substep *step)
 {
     const double at = (double)world->step, dt = world->stepping.dt;
@@ -238,7 +238,7 @@ static void substep_prepare(World *world, StageClock *clock, Substep *step)
                                                   .solids = step->solids});
 }
 
-/* The size of the next step. Where it differs from the last step's, time counts on from here. */
+/* The size of the next step. On a change, time counts from here. */
 static void choose_step(World *world)
 {
     const WorldDef *def = &world->def;
@@ -260,7 +260,7 @@ static void choose_step(World *world)
     s->dt = dt;
 }
 
-/* False when memory is short. */
+/* Returns false if memory is short. */
 static bool begin_step(World *world, Error *error)
 {
     StepState *s = &world->stepping;
@@ -300,8 +300,8 @@ void world_tally_anew(World *world)
     world->tally = (SolveTally){0};
 }
 
-/* Spacings by which overlaps of bodies are moved apart in a step: less is of what rests on something, more
-   lifts bodies and presses them into fluid. */
+/* Spacings per step by which overlapping bodies are moved apart. Bodies at rest on something stay below; a
+   larger move lifts bodies or presses bodies into fluid. */
 static const double PARTED = 0.05;
 
 static void end_of_bodies(World *world)
@@ -313,7 +313,7 @@ static void end_of_bodies(World *world)
         energy_forget(world);
 }
 
-/* Behind a step: what solids and box felt in it, to the watch over energy and to who asked. */
+/* After a step: passes the forces on solids and box to the energy watch and to world_forces. */
 static void tell_forces(World *world, const Substep *step)
 {
     if (!world->sums_forces || world->backend->felt)
@@ -331,7 +331,7 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     StepState *s = &world->stepping;
     if (s->frame_left < 1 && !world_sound(world)) {
         const double time = world_time_at(world, (double)world->step);
-        count_step(world); /* so that no two states have one number */
+        count_step(world); /* no two states share a step number */
         return sentinel_back(world, time, error);
     }
     if (!begin_step(world, error))
@@ -373,7 +373,7 @@ bool world_step(World *world, StageClock *clock, Error *error)
     return good;
 }
 
-/* What of it moves within the plane: the place without z, the turn about z. */
+/* Projects the target into the plane: position without z, rotation about z. */
 static void target_into_plane(BoxTarget *target)
 {
     double *q = target->orientation;
@@ -394,7 +394,7 @@ static bool target_take(World *world, const BoxTarget *target)
         world->target.orientation[k] /= norm;
     if (world->def.dimensions == 2)
         target_into_plane(&world->target);
-    if (world->constants.periodic.any) /* such a box does not turn */
+    if (world->constants.periodic.any) /* a periodic box does not turn */
         memcpy(world->target.orientation, (double[4]){0, 0, 0, 1}, sizeof world->target.orientation);
     return true;
 }
@@ -404,7 +404,7 @@ void world_set_target(World *world, const BoxTarget *target)
     target_take(world, target);
 }
 
-/* Poured fluid is no faster than sound and the step bear. */
+/* Upper bound for poured fluid from sound and step, m/s. */
 static double pour_speed_most(const World *world)
 {
     const WorldDef *def = &world->def;
@@ -414,7 +414,7 @@ static double pour_speed_most(const World *world)
 
 void world_touch(World *world, const Finger *finger)
 {
-    static const double WIDEST = 1000; /* spacings, of what pours */
+    static const double WIDEST = 1000; /* spacings; largest radius of poured fluid */
     const Finger before = world->finger.wanted;
     const int fluid = finger_fluid(finger);
     Finger taken = *finger;
@@ -424,7 +424,7 @@ void world_touch(World *world, const Finger *finger)
         (fluid >= 0 && (!world->constants.emits || taken.radius > WIDEST * world->def.spacing)) ||
         !finger_take(&world->finger, &taken, world->def.dimensions))
         return;
-    if (before.way != finger->way || before.strength != taken.strength) /* another row of layers */
+    if (before.way != finger->way || before.strength != taken.strength) /* starts a new row of layers */
         world->pours = world_time_at(world, (double)world->step);
     energy_forget(world);
 }
@@ -473,7 +473,8 @@ bool world_keep_acceleration(World *world, Error *error)
     if (!world_adopt(world, &def, error))
         return false;
     world_forget(world, NULL);
-    return !world_sound(world) || sentinel_mark(world, error); /* from a state in trouble it is to go back */
+    return !world_sound(world) || sentinel_mark(world, error); /* on trouble, the sentinel must go back
+                                                                  first */
 }
 
 void world_info(const World *world, WorldInfo *info)
@@ -521,7 +522,7 @@ void world_sums(World *world, WorldSums *sums)
     world->backend->sums(world->state, sums);
 }
 
-/* By ids of its own: those of `out` may lie where it is slow to read. */
+/* With own ids: the ids of `out` may be in memory slow to read. */
 static bool read_born(World *world, const ParticleArrays *out)
 {
     ParticleArrays all = *out;

@@ -1,4 +1,4 @@
-/* Inside a world: for the files that make one up. */
+/* Internals of a world, for the files of sim/world. */
 #ifndef SLOSH_WORLD_STRUCT_H
 #define SLOSH_WORLD_STRUCT_H
 
@@ -9,96 +9,97 @@
 #include "sim/world/world_state.h"
 
 struct World {
-    WorldDef def; /* `initial` is not kept */
+    WorldDef def; /* without `initial` */
     Constants constants;
     const Backend *backend;
     const Method *method;
-    void *state;                     /* the backend's */
-    size_t count, initial, capacity; /* particles: now, at the start, at most */
-    uint64_t emitted, drained;       /* since the start */
-    Births births;                   /* of those that were emitted and, but for the newest, are not gone */
-    size_t births_most;              /* with more than these it is looked who is gone */
-    float *layer;                    /* room for an emitter's layer, */
-    size_t layer_room;               /* of so many particles */
-    unsigned short barred[EMITTERS_MAX]; /* by its gate: layers of an emitter in a row that found no room */
+    void *state;                         /* the backend's */
+    size_t count, initial, capacity;     /* particles: now, at the start, limit */
+    uint64_t emitted, drained;           /* since the start */
+    Births births;                       /* of emitted particles; births of drained particles are removed from
+                                            time to time */
+    size_t births_most;                  /* above this number, births of drained particles are removed */
+    float *layer;                        /* scratch for an emitter's layer */
+    size_t layer_room;                   /* size of the scratch, in particles */
+    unsigned short barred[EMITTERS_MAX]; /* by gate: consecutive layers of an emitter without room */
     uint64_t step;
-    uint64_t since_step; /* when the present step size began, */
-    double since_time;   /* at this time, s */
+    uint64_t since_step; /* first step with the present step size */
+    double since_time;   /* time of that step, s */
     StepState stepping;
-    double stop;                  /* s: a state falls on it in mode cfl; behind: none does */
+    double stop;                  /* s: in mode cfl a state falls on this time; in the past: none */
     StepSolve solves[SOLVES_MAX]; /* of the last step */
-    SolveTally tally;             /* of all of them */
+    SolveTally tally;             /* of all steps */
     double fastest;               /* as WorldInfo has it */
-    bool kicked;                  /* since the watch was last asked */
-    StepTrouble seen;             /* then, since the last good state */
-    WorldState good;              /* what the sentinel goes back to */
+    bool kicked;                  /* since the last call of watch */
+    StepTrouble seen;             /* trouble since the last good state */
+    WorldState good;              /* state for going back */
     WorldTrouble trouble;
-    uint64_t limited[STEP_LIMIT_COUNT]; /* steps since the start, by what bounded them */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* steps since the start, by bound */
     BoxTarget target;                   /* of the hand */
     BoxFilter filter;                   /* at the present time */
-    BoxState box;                       /* at the present time, the hand's part included */
+    BoxState box;                       /* at the present time, with the hand's part */
     FingerState finger;                 /* at the present time */
-    double pours;                       /* s: since when the finger does so */
-    struct Bodies *bodies;              /* sim/body/bodies.h; NULL: no solid floats */
+    double pours;                       /* s: begin of the finger's pouring */
+    struct Bodies *bodies;              /* sim/body/bodies.h; NULL: no floating solids */
     uint64_t shut;                      /* gates of emitters and drains, a bit each */
-    EnergyMark energy;                  /* of sim/world/energy_watch.h */
-    bool sums_forces;                   /* the backend does, into: */
-    Forces pushed;                      /* of the step in hand, or on a GPU at once into `felt`; */
-    bool feels;                         /* somebody asked; then: */
-    Forces felt, felt_before;           /* since it was last asked; of the good state */
-    bool gauge_asked;                   /* and not answered yet, */
-    double gauge_time;                  /* of the state at this time, s; */
-    bool gauge_kept;                    /* but the answer is here: */
+    EnergyMark energy;                  /* for sim/world/energy_watch.h */
+    bool sums_forces;                   /* the backend sums forces, into `pushed`; on a GPU into `felt` */
+    Forces pushed;                      /* forces of the current step */
+    bool feels;                         /* forces were requested (world_feel) */
+    Forces felt, felt_before;           /* sums since the last request; sums at the good state */
+    bool gauge_asked;                   /* asked and not yet answered */
+    double gauge_time;                  /* time of the gauged state, s */
+    bool gauge_kept;                    /* the answer is in `gauge` */
     WorldGauge gauge;
 };
 
-/* Makes the backend's state from the def's initial state or fills, with constants that are there. */
+/* Creates the backend's state from the def's initial state or fills; the constants must exist. */
 bool world_start(World *world, Error *error);
 
-/* What the finger pours as an emitter of that fluid; false: it does not pour. */
+/* The pouring finger as an emitter of `fluid`; false if the finger does not pour. */
 bool world_pours(const World *world, Emit *emit, int *fluid);
 
-/* Adds the fluid that emitters and the finger send out in the step ahead, and takes fluid out of the drains.
-   False, and nothing done, when memory is short. */
+/* Adds fluid from emitters and finger for the coming step, and removes fluid in drains. Returns false, with
+   nothing done, if memory is short. */
 bool world_flow(World *world, Error *error);
 
-/* As WorldInfo has it. */
+/* As WorldInfo.barred. */
 uint64_t world_barred(const World *world);
 
-/* Whether the backend has ids for so many particles that were ever born, or the reason. */
+/* True if the backend has ids for `born` particles since the start; false with the reason. */
 bool world_names(const World *world, uint64_t born, Error *error);
 
-/* The gauge of the present state; waits for it. What somebody else has asked for is kept. False when it is
-   not to be had. */
+/* The gauge of the present state; waits. A gauge already asked for is kept. Returns false if not
+   available. */
 bool world_gauge_now(World *world, WorldGauge *gauge);
 
-/* From now on the backend sums forces; false with the reason. */
+/* From now on the backend sums forces. Returns false with the reason. */
 bool world_sum_forces(World *world, Error *error);
 
-/* Leaves out the births of layers that are gone. Before a state to go back to is marked: that one may have
-   them still. */
+/* Removes births of drained layers. Call before a state is marked: an older marked state may still have
+   these particles. */
 void world_thin_births(World *world);
 
-/* The box as its motions and the hand's filter have it now. */
+/* Sets the box to its motions and the hand's filter at the present time. */
 void world_pose(World *world);
 
-/* What follows from the particles alone: the solids' places, grid, densities. */
+/* Derives solids' poses, grid and densities from the particles. */
 void world_settle(World *world);
 
-/* What terms keep of particles and `known` (NULL: nothing) has not, is not known. */
+/* Fills term columns missing in `known` (NULL: all) as unknown. */
 void world_forget(World *world, const ParticleColumns *known);
 
-/* Particles that the backend has got back or taken: how many, and all that follows from them. */
+/* Call after the backend restored or loaded particles: sets the count and all derived values. */
 void world_put_back(World *world, const WorldNumbers *numbers, size_t count);
 
-/* From here on a viscosity that is a table has its value at `time` (s). */
+/* From now on, viscosities given by a table have their value at `time` (s). */
 void world_vary(World *world, double time);
 
-/* s, of a step by its number, as far as the present step size holds. */
+/* Time of a step by number, s, for the present step size. */
 double world_time_at(const World *world, double step);
 
-/* The def, whose constant part is the world's own, becomes the world's. False with the reason: nothing has
-   changed. */
+/* Makes `def` the world's def; its constant part must equal the world's. Returns false with the reason,
+   with nothing changed. */
 bool world_adopt(World *world, const WorldDef *def, Error *error);
 
 #endif
