@@ -12,7 +12,7 @@ void bins_free(Bins *bins)
     *bins = (Bins){0};
 }
 
-/* A counting sort: `begin` first counts the members of each bin, then says where the next one goes. */
+/* Counting sort: `begin` first counts the members of each bin, then holds the next free entry per bin. */
 bool bins_fill(Bins *bins, size_t count, size_t items, BinsReached reached, const void *context)
 {
     size_t total = 0;

@@ -1,5 +1,5 @@
-/* Bins in a row, and items of which each reaches into some that lie side by side: the items of each bin, in
-   their own order, so that what threads do bin by bin has the same bits for any number of them. */
+/* Bins in a row, and items that each reach into a span of adjacent bins. Lists the items of each bin in
+   item order, so that work done bin by bin by threads has the same bits for any number of threads. */
 #ifndef SLOSH_BINS_H
 #define SLOSH_BINS_H
 
@@ -7,22 +7,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Kept from time to time so that each needs no new memory; zero-initialise it. */
+/* Reused, so that later fills need no new memory; zero-initialise. */
 typedef struct Bins {
     size_t begin_capacity, member_capacity;
-    size_t *begin;    /* bins + 1: of each bin in `member` */
+    size_t *begin;    /* bins + 1 entries: begin of each bin in `member` */
     uint32_t *member; /* items, ascending in each bin */
 } Bins;
 
-/* The bins that an item reaches into: first <= b < end, none where first is end. */
+/* Bins reached by an item: first <= b < end; none if first is end. */
 typedef struct BinSpan {
     size_t first, end;
 } BinSpan;
 
 typedef BinSpan (*BinsReached)(const void *context, size_t item);
 
-/* Sorts `items` items, fewer than 2^32, into `count` bins. False when memory is short. */
+/* Sorts `items` items, fewer than 2^32, into `count` bins. Returns false if memory is short. */
 bool bins_fill(Bins *bins, size_t count, size_t items, BinsReached reached, const void *context);
-void bins_free(Bins *bins); /* a zeroed one is allowed */
+void bins_free(Bins *bins); /* a zeroed struct is allowed */
 
 #endif

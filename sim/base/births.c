@@ -49,7 +49,7 @@ static int by_id(const void *a, const void *b)
     return (one > other) - (one < other);
 }
 
-/* What is not known is the same too. */
+/* True if equal, or both unknown (NaN). */
 static bool is_same(float time, float other)
 {
     return time == other || (isnan(time) && isnan(other));
@@ -71,7 +71,7 @@ bool births_gather(Births *births, const ParticleId *id, const float *time, size
     return true;
 }
 
-/* How many begin at the id or before. */
+/* Number of entries that begin at the id or before. */
 static size_t begun(const Births *births, ParticleId id)
 {
     size_t low = 0, high = births->count;

@@ -1,5 +1,5 @@
-/* When particles were born, without a number a particle: ids are given in the order of birth, so that the
-   first id of each emission and its time tell of all. */
+/* Birth times without a number per particle. Ids are given in the order of birth, so the first id and the
+   time of each emission suffice. */
 #ifndef SLOSH_BIRTHS_H
 #define SLOSH_BIRTHS_H
 
@@ -9,41 +9,43 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Shaders read these as they are (shaders/derived/derived_read.glsl). */
+/* Read by shaders in this layout (shaders/derived/derived_read.glsl). */
 typedef struct Birth {
     ParticleId first_id;
-    float time; /* s; NaN: not known */
+    float time; /* s; NaN: unknown */
     uint32_t nothing;
 } Birth;
 
-/* In the order of ids; who stands before the first was born at time 0. Zero-initialise it. */
+/* Sorted by id; particles before the first entry were born at time 0. Zero-initialise. */
 typedef struct Births {
     Birth *of;
     size_t count, room;
 } Births;
 
-/* Room for `more`; false when memory is short. */
+/* Makes room for `more` entries; false if memory is short. */
 bool births_reserve(Births *births, size_t more);
 
-/* From `first_id`, more than those before, on: `time`. Needs births_reserve. */
+/* Sets birth `time` from `first_id` on; `first_id` must exceed all earlier first ids. Call births_reserve
+   first. */
 void births_add(Births *births, ParticleId first_id, float time);
 
-/* Ids from `end` on are not born yet. */
+/* Removes entries of ids from `end` on, which are not born yet. */
 void births_cut(Births *births, uint64_t end);
 
-/* Leaves out those of whom none of `count` ids is left, but for the last; nothing when memory is short. */
+/* Removes entries without a particle among the `count` ids, except the last entry; does nothing if memory
+   is short. */
 void births_keep(Births *births, const ParticleId *id, size_t count);
 
-/* False, and `to` as it was, when memory is short. */
+/* Returns false, with `to` unchanged, if memory is short. */
 bool births_copy(const Births *from, Births *to);
 
-/* Those of particles in any order whose times are known: `count` ids and as many times. False when memory is
+/* Gathers births from `count` particles in any order, with ids and times. Returns false if memory is
    short. */
 bool births_gather(Births *births, const ParticleId *id, const float *time, size_t count);
 
-/* s; NaN: not known. */
+/* s; NaN: unknown. */
 float births_time(const Births *births, ParticleId id);
 
-void births_free(Births *births); /* a zeroed one is allowed */
+void births_free(Births *births); /* a zeroed struct is allowed */
 
 #endif

@@ -1,4 +1,4 @@
-/* Colours: sRGB as people write it, and the linear light that is computed with; 0 .. 1. */
+/* Colours: sRGB as written by people, and linear light for computing; 0 .. 1. */
 #ifndef SLOSH_COLOR_H
 #define SLOSH_COLOR_H
 

@@ -1,6 +1,6 @@
-/* The control points of a curve by which a scalar becomes something that is seen: a place in a colormap, an
-   opacity, a factor of a radius. Straight lines between the points, constant before the first and after the
-   last; x is where the scalar is in its range, 0 at the low end, 1 at the high one. */
+/* Control points of a curve from a scalar to a visual value: position in a colormap, opacity, factor of a
+   radius. Linear between the points, constant outside; x is the scalar's position in its range, 0 at the
+   low end, 1 at the high end. */
 #ifndef SLOSH_CONTROL_POINTS_H
 #define SLOSH_CONTROL_POINTS_H
 
@@ -18,7 +18,7 @@ typedef struct ControlPoints {
     double y[CONTROL_POINTS_MAX];
 } ControlPoints;
 
-/* Points by a name. */
+/* Named points. */
 typedef struct ControlPreset {
     const char *name;
     ControlPoints points;
@@ -32,19 +32,19 @@ ControlPoints control_points_straight(void);
 bool control_points_are_straight(const ControlPoints *points);
 bool control_points_equal(const ControlPoints *a, const ControlPoints *b);
 
-/* NaN is taken as 1: it is to be seen. */
+/* The curve's value; NaN counts as x = 1, to be visible. */
 double control_points_at(const ControlPoints *points, double x);
 
 /* The greatest and the least y. */
 double control_points_most(const ControlPoints *points);
 double control_points_least(const ControlPoints *points);
 
-/* What the panel does. Moves a point; its neighbours stop it `CONTROL_POINTS_GAP` before them. */
+/* Edits by the panel. Moves a point; its neighbours stop it at a distance of CONTROL_POINTS_GAP. */
 #define CONTROL_POINTS_GAP 0.002
 void control_points_move(ControlPoints *points, int at, double x, double y);
-/* A new point; its place among the others, -1 where there are CONTROL_POINTS_MAX or one is too near. */
+/* Adds a point and returns its index; -1 if there are CONTROL_POINTS_MAX points or a point is too near. */
 int control_points_add(ControlPoints *points, double x, double y);
-/* False where it is the only one. */
+/* False for the only point. */
 bool control_points_remove(ControlPoints *points, int at);
 
 #ifdef __cplusplus

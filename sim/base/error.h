@@ -1,4 +1,4 @@
-/* What went wrong, in words for a person: "what is wrong; what would be right". */
+/* An error in words for a person: "what is wrong; what would be right". */
 #ifndef SLOSH_ERROR_H
 #define SLOSH_ERROR_H
 
@@ -6,14 +6,14 @@
 #include <stddef.h>
 
 typedef struct Error {
-    char message[1024]; /* no newline at the end; empty while nothing is wrong */
+    char message[1024]; /* no newline at the end; empty without an error */
 } Error;
 
 /* Writes the message (cut at the buffer's size) and returns false, so that a function can `return
-   error_set(...)`. error may be NULL: then only false is returned. */
+   error_set(...)`. error may be NULL: only returns false. */
 bool error_set(Error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* What a word that is counted ends with: "%zu particle%s", count, plural(count). */
+/* Plural ending of a counted word: "%zu particle%s", count, plural(count). */
 static inline const char *plural(size_t count)
 {
     return count == 1 ? "" : "s";

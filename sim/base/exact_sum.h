@@ -1,7 +1,6 @@
-/* Sums that do not depend on the order of what is added: exact, and rounded when one asks for it. Parts of a
-   sum, of threads or of ranks, add up to the same bits however they were shared out.
-
-   After: R. Neal, "Fast exact summation using small and large superaccumulators", 2015. */
+/* Exact sums, independent of the order of terms; rounded only when read. Parts of a sum, from threads or
+   ranks, add up to the same bits for any division of the work. After: R. Neal, "Fast exact summation using
+   small and large superaccumulators", 2015. */
 #ifndef SLOSH_EXACT_SUM_H
 #define SLOSH_EXACT_SUM_H
 
@@ -9,16 +8,16 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Bin k counts multiples of 2^(32 k - EXACT_BELOW): each holds 2^42 numbers at least. */
+/* Bin k counts multiples of 2^(32 k - EXACT_BELOW): each bin holds at least 2^42 numbers. */
 enum { EXACT_BINS = 16, EXACT_BELOW = 400, EXACT_WORDS = 3 * EXACT_BINS + 1 };
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct ExactSum {
     __int128 bin[EXACT_BINS];
-    bool strange; /* a number was not finite, or 2^164 or more */
+    bool strange; /* a term was not finite, or 2^164 or more */
 } ExactSum;
 
-/* Adds a number; what of it is less than 2^-400 is left out. */
+/* Adds a number, without its part below 2^-400. */
 static inline void exact_add(ExactSum *sum, double value)
 {
     uint64_t bits;
@@ -34,13 +33,13 @@ static inline void exact_add(ExactSum *sum, double value)
     sum->bin[place >> 5] += bits >> 63 ? -whole : whole;
 }
 
-/* Adds all that another sum has. */
+/* Adds a second sum. */
 void exact_merge(ExactSum *sum, const ExactSum *part);
 
-/* The sum; NaN where a number was strange. */
+/* The rounded sum; NaN if a term was strange. */
 double exact_value(const ExactSum *sum);
 
-/* The same as whole numbers, which add up as such, of 2^31 sums at most. */
+/* The sum as integers that can be added word by word, for at most 2^31 sums. */
 void exact_to_words(const ExactSum *sum, int64_t words[EXACT_WORDS]);
 void exact_from_words(const int64_t words[EXACT_WORDS], ExactSum *sum);
 

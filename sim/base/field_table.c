@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* The plane at or below x, and how far x is on the way to the next one, 0 to 1. */
+/* The plane at or below x, and the position of x between the plane and the next, 0 to 1. */
 static int plane_below(const FieldTable *table, int axis, double x, double *way)
 {
     const double *place = table->place[axis];

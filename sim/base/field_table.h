@@ -1,18 +1,18 @@
-/* Quantities over places: linear between the places of a grid, whose planes need not be evenly spaced, and
-   constant beyond its edges. */
+/* Quantities over positions: linear between the points of a grid with arbitrary plane spacing, constant
+   outside of the grid. */
 #ifndef SLOSH_FIELD_TABLE_H
 #define SLOSH_FIELD_TABLE_H
 
 enum { FIELD_TABLE_COLUMNS = 3 };
 
-/* Whoever made it owns the arrays. */
+/* The creator owns the arrays. */
 typedef struct FieldTable {
-    int count[3];     /* of the planes across x, y, z; 1: nothing depends on that coordinate */
-    double *place[3]; /* count[k] each, where the planes stand, ascending, m; of one plane not read */
-    double *value[FIELD_TABLE_COLUMNS]; /* of a quantity at all places, x fastest, z slowest; NULL: none */
+    int count[3];     /* planes across x, y, z; 1: independent of the coordinate */
+    double *place[3]; /* count[k] positions of planes, ascending, m; not read for a single plane */
+    double *value[FIELD_TABLE_COLUMNS]; /* values at all points, x fastest, z slowest; NULL: none */
 } FieldTable;
 
-/* The quantity `column`, which must be there, at x (m). */
+/* Value of quantity `column`, which must exist, at x (m). */
 double field_table_at(const FieldTable *table, int column, const double x[3]);
 
 #endif

@@ -5,14 +5,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of parentheses within each other: deep enough for a text of FORMULA_SIZE, and the stack is bounded. */
+/* Nesting of parentheses: deep enough for a text of FORMULA_SIZE, with a bounded stack. */
 enum { DEPTH_MAX = 40, NAME_MAX_LETTERS = 8 };
 
-/* What a step of the program does: puts a number on the stack, or takes one or two and puts what they make.
- */
+/* Steps of the program: push a number, or pop operands and push the result. */
 enum { NUMBER, VARIABLE, NEGATIVE, PLUS, MINUS, TIMES, OVER, POWER, FUNCTION_OF_ONE, FUNCTION_OF_TWO };
 
-/* By recursive descent. */
+/* Recursive descent parser. */
 typedef struct Reader {
     const char *text, *at, *names;
     Formula *formula;
@@ -52,7 +51,7 @@ static void put(Reader *r, int what, size_t which, double number)
     f->step[f->count++].number = number;
 }
 
-/* Whether the next letter is that one, and then behind it. */
+/* True if the next letter is `letter`; then skips the letter. */
 static bool take(Reader *r, char letter)
 {
     while (*r->at == ' ')
@@ -158,7 +157,7 @@ static void power_of(Reader *r)
     r->depth--;
 }
 
-/* What stands between operators of one rank, from left to right. */
+/* Operators of equal rank, left to right. */
 static void chain(Reader *r, void (*part)(Reader *), const char letters[2], const int what[2])
 {
     part(r);
@@ -218,7 +217,7 @@ static double of_two(int what, size_t function, double a, double b)
 
 double formula_value(const Formula *formula, const double *values)
 {
-    double stack[FORMULA_SIZE / 2] = {0}, *top = stack; /* a letter stands between any two numbers */
+    double stack[FORMULA_SIZE / 2] = {0}, *top = stack; /* a letter separates any two numbers */
     for (int k = 0; k < formula->count; k++) {
         const int what = formula->step[k].what;
         const size_t which = formula->step[k].which;

@@ -7,24 +7,25 @@
 
 #include <stdint.h>
 
-enum { FORMULA_SIZE = 96 }; /* of its text, with the 0 at its end */
+enum { FORMULA_SIZE = 96 }; /* size of the text, with the final 0 */
 
-/* A formula as a program for a stack of numbers: no step is without a letter of its own in the text. */
+/* A formula as a program for a stack machine. Each step comes from at least a letter of the text. */
 typedef struct Formula {
     int count;
     struct {
-        uint8_t what, which; /* of the names or functions */
+        uint8_t what, which; /* index of the name or function */
         double number;
     } step[FORMULA_SIZE];
 } Formula;
 
-/* Reads a text; `names` has a letter for each variable, "xyz". False with the reason, which says where. */
+/* Parses a text; `names` has a letter per variable, such as "xyz". Returns false with the reason and its
+   position. */
 bool formula_read(const char *text, const char *names, Formula *formula, Error *error);
 
-/* Its value where the variables have these. */
+/* The value for the given values of the variables. */
 double formula_value(const Formula *formula, const double *values);
 
-/* Whether there is one: neither "" nor "none". */
+/* True if the text is neither "" nor "none". */
 bool formula_given(const char *text);
 
 #endif

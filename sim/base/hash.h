@@ -5,10 +5,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The hash of no bytes. */
+/* Hash of no bytes. */
 #define HASH_NONE 0xcbf29ce484222325ULL
 
-/* The hash of what `hash` is of, and these bytes behind it. */
+/* Extends `hash` by further bytes. */
 static inline uint64_t hash_add(uint64_t hash, const void *bytes, size_t size)
 {
     for (size_t i = 0; i < size; i++)

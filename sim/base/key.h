@@ -1,7 +1,7 @@
-/* A key of a scene: a row beside the struct that it fills, in the folder of its owner (a method, a backend, a
-   view, the box ...). The one table of all keys is these rows one after another (app/scene/keys.h); the
-   loader, `--set`, `slosh info`, the panel, the documentation and what `run --resume` compares follow from
-   it. The macros that make rows stand in sim/base/key_rows.h. */
+/* A key of a scene: a row beside the struct with its value, in the folder of its owner (a method, a
+   backend, a view, the box ...). The table of all keys is the sequence of these rows (app/scene/keys.h).
+   The loader, `--set`, `slosh info`, the panel, the documentation and the comparison in `run --resume` use
+   the table. Macros for rows are in sim/base/key_rows.h. */
 #ifndef SLOSH_KEY_H
 #define SLOSH_KEY_H
 
@@ -10,8 +10,8 @@
 
 typedef enum KeyType {
     KEY_MAPPING, /* holds keys */
-    KEY_VARIANT, /* a mapping of which its list's element has exactly one: its name is the element's kind */
-    KEY_LIST,    /* holds elements, whose keys stand under "path[]" */
+    KEY_VARIANT, /* a mapping that an element of its list has exactly once: its name is the element's kind */
+    KEY_LIST,    /* holds elements, with keys under "path[]" */
     KEY_NUMBER,  /* double */
     KEY_INTEGER, /* int */
     KEY_BOOLEAN, /* bool */
@@ -19,38 +19,40 @@ typedef enum KeyType {
     KEY_CHOICE,  /* a name of a list: char[NAME_SIZE], or an int with KEY_INDEX */
     KEY_VEC3,    /* double[3] */
     KEY_AXES,    /* some of x, y, z: bool[3] */
-    KEY_NAMES,   /* some names of a list, each once: int[max], their places in it, and their count at `aux` */
+    KEY_NAMES,   /* some names of a list, each at most once: int[max], their indices, and their count at
+                    `aux` */
     KEY_COLOR,   /* sRGB 0..1 in the file, linear in the struct: float[3] or double[3] */
     KEY_CURVE,   /* a number or rows [s, number]: double, and a TimeTable at `aux` */
     KEY_RANGE,   /* "auto", "symmetric" or [low, high]: double[2] and bool[2] */
-    KEY_POINTS,  /* rows [x, y], x 0 to 1, or the name of such: ControlPoints; `names` are of ControlPreset */
-    KEY_SETTINGS /* a mapping of paths of keys, or of mappings of such, and their values: a text, in which
-                    each setting is a line "path=value" */
+    KEY_POINTS,  /* rows [x, y], x 0 to 1, or a name of such rows: ControlPoints; `names` are of
+                    ControlPreset */
+    KEY_SETTINGS /* a mapping of paths of keys, or of mappings of such paths, to values: a text with a line
+                    "path=value" per setting */
 } KeyType;
 
 enum {
     KEY_REQUIRED = 1, /* no default */
     KEY_LIVE = 2,     /* may change while the simulation runs */
-    KEY_OPEN_LOW = 4, /* the least value itself is out of range */
-    KEY_INDEX = 8,    /* choice: stored as its place in the list (an enum), not as its name */
+    KEY_OPEN_LOW = 4, /* the least value is excluded */
+    KEY_INDEX = 8,    /* choice: stored as index in the list (an enum), not as name */
     KEY_SINGLE = 16,  /* color: stored as float[3] */
-    KEY_IDLE = 32,    /* changes no bit of a run; of a mapping: nor do the keys below it */
-    KEY_REBUILD = 64, /* a view whose key it is must be made anew when the value changes */
-    KEY_WORDS = 128   /* of a text: a list of words may stand there too, [3, 17]: stored as "3 17" */
+    KEY_IDLE = 32,    /* changes no bit of a run; for a mapping: neither do the keys below */
+    KEY_REBUILD = 64, /* changing the value requires a new view */
+    KEY_WORDS = 128   /* for a text: a list of words is also allowed, [3, 17]: stored as "3 17" */
 };
 
-/* What reads some of the keys only: a method, a mode, a part of the scene. Where it is not in use such a key
-   has no effect, and the user is told so. */
+/* The only reader of some keys: a method, a mode, a part of the scene. If the owner is not in use, a set
+   key has no effect, and the user gets a message. */
 typedef struct KeyOwner {
-    const char *name; /* what the help of its keys begins with; NULL: their path says it */
-    /* It is in use where the key at this path has this value: "solver.method" and a method's name. A value of
-       NULL stands for any name but "none", and of a list for any element. */
+    const char *name; /* begins the help of its keys; NULL: the path is clear */
+    /* The owner is in use if the key at path `key` has this value: "solver.method" and a method's name.
+       NULL `value`: any name but "none"; for a list, any element. */
     const char *key, *value;
-    const char *command; /* instead of a key: the one command that reads its keys, "chart" */
-    const char *need;    /* what a scene lacks where the owner is not in use; NULL: "key: value" */
+    const char *command; /* instead of a key: the only command that reads the keys, "chart" */
+    const char *need;    /* words for the missing part of a scene; NULL: "key: value" */
 } KeyOwner;
 
-#define KEY_NOWHERE ((size_t)-1) /* an offset: has no field */
+#define KEY_NOWHERE ((size_t)-1) /* an offset: no field */
 
 typedef struct Key {
     const char *path; /* "box.size", "fluids[].density", "motion[].shake.axis" */
@@ -58,29 +60,26 @@ typedef struct Key {
     unsigned flags;
     const char *unit; /* "" without */
     double min,
-        max; /* of each component; of a text, settings, a list or names: its length; equal: not bounded */
+        max; /* of each component; for a text, settings, a list or names: of the length; equal: unbounded */
     size_t offset; /* of the field in the owner's struct or, under "[]", in the innermost list's element */
-    size_t aux; /* offset of what goes with it: the count of a list or of names (int), a variant's kind (int),
-                   a range's bool[2]: automatic, and then symmetric; a curve's TimeTable; a mapping's bool
-                   that is false once the mapping is there */
-    size_t size; /* of a text's or settings' field, of a list's element: bytes */
-    int variant; /* value of the kind */
-    /* The names of a KEY_CHOICE or KEY_NAMES: an array of structs (or of pointers alone) that begin with the
-       name and are `stride` bytes long, ended by a NULL name; or, for a list that is put together, a
-       function. */
+    size_t aux;    /* offset of associated data: count of a list or of names (int), a variant's kind (int), a
+                      range's bool[2] (automatic, then symmetric), a curve's TimeTable, or a mapping's bool,
+                      false once the mapping is present */
+    size_t size;   /* bytes of a text's or settings' field, or of a list's element */
+    int variant;   /* value of the kind */
+    /* Names of a KEY_CHOICE or KEY_NAMES: an array of structs (or plain pointers) of `stride` bytes that
+       begin with the name, ended by a NULL name. For a computed list: a function. */
     const void *names;
     size_t stride;
-    const char *(*choice)(int index); /* NULL after the last */
-    void (*init)(void *element,
-                 int index); /* list: defaults of an element, which is zeroed; `index`: its place */
-    const char
-        *fallback;   /* the default in words where it isn't one constant; NULL: as in the struct's defaults */
-    const char *off; /* the row is a term of the model: its value in a scene that does without; NULL: none */
-    const char *help;      /* one line */
-    const KeyOwner *owner; /* of the key and of those below it; NULL: that of the mapping above, if any */
+    const char *(*choice)(int index);       /* NULL after the last */
+    void (*init)(void *element, int index); /* list: defaults of a zeroed element with index `index` */
+    const char *fallback; /* the default in words if not a constant; NULL: as in the struct's defaults */
+    const char *off;  /* for a term of the model: the value in a scene without the term; NULL: no such term */
+    const char *help; /* one line */
+    const KeyOwner *owner; /* of the key and of keys below; NULL: owner of the mapping above, if any */
 } Key;
 
-/* The name at `index` of a row's list; NULL after the last, and of a row without a list. */
+/* Name at `index` of a row's list; NULL after the last, and for a row without a list. */
 const char *key_choice(const Key *key, int index);
 
 #endif

@@ -21,10 +21,10 @@
 #define BOUNDS(lo, hi) .min = (lo), .max = (hi)
 #define NOT_STORED     .offset = KEY_NOWHERE, .aux = KEY_NOWHERE
 
-/* The flags of most rows. */
+/* Flags of most rows. */
 enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
 
-/* The rows by type. */
+/* Rows by type. */
 #define MAPPING(PATH, ...)                                                                                   \
     {                                                                                                        \
         .path = PATH, .type = KEY_MAPPING, .unit = "", NOT_STORED, .help = __VA_ARGS__                       \
@@ -78,7 +78,7 @@ enum { R = KEY_REQUIRED, L = KEY_LIVE, O = KEY_OPEN_LOW, I = KEY_IDLE };
         .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .choice = CHOICES, PLACE(AT),          \
         .help = __VA_ARGS__                                                                                  \
     }
-/* CHOICE with a function, this one with an array that begins with names. */
+/* CHOICE takes a function, CHOICE_OF an array of structs that begin with the name. */
 #define CHOICE_OF(PATH, FLAGS, LIST, AT, ...)                                                                \
     {                                                                                                        \
         .path = PATH, .type = KEY_CHOICE, .flags = FLAGS, .unit = "", .names = LIST,                         \

@@ -1,4 +1,4 @@
-/* What a key takes, in words. */
+/* The allowed values of a key, in words. */
 #ifndef SLOSH_KEY_TEXT_H
 #define SLOSH_KEY_TEXT_H
 
@@ -7,7 +7,7 @@
 /* "0.001 to 1000", "more than 0, at most 5"; "" when not bounded. */
 void key_range_text(const Key *key, char *text, size_t size);
 
-/* The same of its numbers alone, where it takes names as well. */
+/* The same for the numbers alone, if names are also allowed. */
 void key_bounds_text(const Key *key, char *text, size_t size);
 
 #endif

@@ -1,8 +1,8 @@
-/* Straight lines between points, constant before the first and after the last. */
+/* Lines between points, constant outside. */
 #ifndef SLOSH_LINES_H
 #define SLOSH_LINES_H
 
-/* The value at `at` of the lines through `count` points, 1 and more, whose places `x` ascend. */
+/* Value at `at` of the lines through `count` points, at least 1, with ascending `x`. */
 double lines_at(const double *x, const double *y, int count, double at);
 
 #endif

@@ -10,7 +10,7 @@
 
 static pthread_mutex_t merging = PTHREAD_MUTEX_INITIALIZER;
 
-/* Denormal numbers count as 0, as operands and as results, until the mode that was there is back. */
+/* Treats denormal numbers as 0, as operands and results, until the old mode is restored. */
 #if defined(__SSE2__)
 typedef unsigned Mode;
 
@@ -74,7 +74,7 @@ int parallel_processors(void)
     return omp_get_num_procs();
 }
 
-/* No OpenMP critical section: libomp with a tool reads the first thread's record there, also when that
+/* No OpenMP critical section: with a tool, libomp then reads the first thread's record, even after the
    thread has ended. */
 void parallel_lock(void)
 {

@@ -1,6 +1,6 @@
-/* Who a particle is: its place in the initial state, or behind all that were born before it. Ids are not
-   given again, so that emitters may count on beyond 2^32. GPUs have the last 32 bits of them: their backends
-   take no particle beyond (world_flow, world_load), and views tell particles apart by these. */
+/* Identity of a particle: its index in the initial state, or the number of particles born before. Ids are
+   never reused, so emitters may count beyond 2^32. GPUs have the low 32 bits only: GPU backends reject
+   particles beyond (world_flow, world_load), and views identify particles by these bits. */
 #ifndef SLOSH_PARTICLE_ID_H
 #define SLOSH_PARTICLE_ID_H
 
@@ -8,7 +8,7 @@
 
 typedef uint64_t ParticleId;
 
-/* Before these: all ids, so that numbers in double count them (WorldNumbers); those that a GPU may have. */
+/* Upper bounds of ids: so that doubles count ids exactly (WorldNumbers); for GPUs. */
 #define PARTICLE_IDS     (UINT64_C(1) << 53)
 #define PARTICLE_IDS_GPU (UINT64_C(1) << 31)
 

@@ -1,9 +1,9 @@
-/* Settings whose type only their owner knows lie in rooms of bytes: MethodDef, BackendDef, ViewOwn. */
+/* Settings with a type known only to the owner are stored in byte arrays: MethodDef, BackendDef, ViewOwn. */
 #ifndef SLOSH_ROOM_H
 #define SLOSH_ROOM_H
 
-/* For the struct of such settings: a store into it must not move behind a copy of the struct that has the
-   room, which is of another type. gcc -O3 did that. */
+/* For the struct of such settings: a store to the struct must not move past a copy of the byte array, which
+   has a different type. gcc -O3 did so. */
 #define IN_A_ROOM __attribute__((may_alias))
 
 #endif

@@ -1,9 +1,8 @@
-/* The scalars and vectors of particles that a picture can show, a slice can sum up and a snapshot can hold:
-   the one list of their names and units. */
+/* Scalars and vectors of particles for pictures, slices and snapshots: the only list of names and units. */
 #ifndef SLOSH_SCALAR_H
 #define SLOSH_SCALAR_H
 
-/* Those of a state: each backend writes them. X(ENUM, name, unit) */
+/* Scalars of a state, written by each backend. X(ENUM, name, unit) */
 #define STATE_SCALAR_LIST(X)                                                                                 \
     X(SPEED, "speed", "m/s")                                                                                 \
     X(DENSITY, "density", "kg/m3")                                                                           \
@@ -12,9 +11,9 @@
     X(FLUID, "fluid", "")                                                                                    \
     X(ID, "id", "")
 
-/* Components of columns that only some methods or terms keep of a particle, and save: NAME, or of three
-   NAME_x, NAME_y and NAME_z, which stand together. A state has those that its scene's columns have; a test
-   holds names and units to the rows of columns. X(ENUM, name, unit) */
+/* Components of saved columns of some methods or terms: NAME, or adjacent NAME_x, NAME_y and NAME_z. A
+   state has the scalars of its scene's columns; a test compares names and units with the column rows.
+   X(ENUM, name, unit) */
 #define OWN_SCALAR_LIST(X)                                                                                   \
     X(RATE, "rate", "1/s")                                                                                   \
     X(KEPT_TERM, "kept_term", "Pa")                                                                          \
@@ -30,10 +29,10 @@
     X(ACCELERATION_Y, "acceleration_y", "m/s2")                                                              \
     X(ACCELERATION_Z, "acceleration_z", "m/s2")
 
-/* Of every state, but no column of it: sim/base/births.h. X(ENUM, name, unit) */
+/* In every state, but not as a column: sim/base/births.h. X(ENUM, name, unit) */
 #define BIRTH_SCALAR_LIST(X) X(BORN, "born", "s")
 
-/* Those that pictures derive from a state, of any backend or file: render/derived has a formula for each. */
+/* Derived by pictures from a state, of any backend or file: render/derived has a formula for each. */
 #define DERIVED_SCALAR_LIST(X)                                                                               \
     X(VELOCITY_X, "velocity_x", "m/s")                                                                       \
     X(VELOCITY_Y, "velocity_y", "m/s")                                                                       \
@@ -66,8 +65,7 @@ typedef enum Scalar {
         SCALAR_COUNT
 } Scalar;
 
-/* The scalars of a state come first, so many of them, those of OWN_SCALAR_LIST behind the
-   others, and the birth last. */
+/* Order: scalars of a state, then OWN_SCALAR_LIST, then the birth time. */
 enum { SCALAR_OWN = SCALAR_ID + 1, SCALAR_STATE_COUNT = SCALAR_BORN + 1 };
 
 /* In the order of Scalar, ended by a NULL name. */
@@ -80,7 +78,7 @@ extern const ScalarRow scalar_list[];
 const char *scalar_name(Scalar scalar);
 const char *scalar_unit(Scalar scalar);
 
-/* Vectors, in the box's axes. All but the velocity are derived. X(ENUM, name, unit) */
+/* Vectors in the box's axes. All except the velocity are derived. X(ENUM, name, unit) */
 #define VECTOR_LIST(X)                                                                                       \
     X(VELOCITY, "velocity", "m/s")                                                                           \
     X(VORTICITY, "vorticity", "1/s")                                                                         \

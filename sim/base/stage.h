@@ -1,16 +1,15 @@
-/* Stages: the one list of their names, and the clock of those that run on the CPU.
+/* Stages: names, and the clock for stages on the CPU. A stage belongs to a part of the program; times are
+   summed over a frame, since a frame runs a stage once per substep. sim/gl/timer.h times GL stages, under
+   the same names.
 
-   A stage belongs to a part of the program; times are summed over a frame, since a frame runs a stage once
-   per substep. GL stages are timed by sim/gl/timer.h, under the same names.
-
-   The names are for people, in tables and JSON: methods and views share them, and a new one takes those that
-   fit. Where none fits, a row here is all that it adds. */
+   The names are for people, in tables and JSON. Methods and views share the names, and a new method or view
+   uses fitting names or adds rows here. */
 #ifndef SLOSH_STAGE_H
 #define SLOSH_STAGE_H
 
 #include <stdbool.h>
 
-/* X(ENUM, name, part): in the order in which a frame runs them */
+/* X(ENUM, name, part): in the order of a frame */
 #define STAGE_LIST(X)                                                                                        \
     X(GRID, "grid", PART_SIM)                                                                                \
     X(DENSITY, "density", PART_SIM)                                                                          \
@@ -46,18 +45,19 @@ const char *stage_name(Stage stage);
 Part stage_part(Stage stage);
 const char *part_name(Part part);
 
-/* Milliseconds of each stage in one frame; `ran` tells a stage that took no time from one that the frame has
- * not. */
+/* Milliseconds of each stage in a frame; `ran` separates a stage with zero time from a stage not in the
+   frame. */
 typedef struct StageTimes {
     double ms[STAGE_COUNT];
     bool ran[STAGE_COUNT];
 } StageTimes;
 
-/* The CPU clock; zero-initialise it. A NULL clock measures nothing and costs nothing. */
+/* The CPU clock; zero-initialise. A NULL clock measures nothing and costs nothing. */
 typedef struct StageClock {
-    StageTimes frame; /* of the frame in progress; the owner clears it between frames */
-    double began_ms;  /* of the running stage: stages do not nest */
-    void *gpu;        /* the clock of a GPU, told instead by these two where it is not NULL: sim/gl/timer.h */
+    StageTimes frame; /* of the current frame; the owner clears it between frames */
+    double began_ms;  /* begin of the running stage; stages do not nest */
+    void *gpu;        /* the clock of a GPU; if not NULL, gpu_begin and gpu_end are called instead:
+                         sim/gl/timer.h */
     void (*gpu_begin)(void *gpu);
     void (*gpu_end)(void *gpu, Stage stage);
 } StageClock;

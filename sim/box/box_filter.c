@@ -8,7 +8,7 @@ BoxLimits box_limits_default(void)
     return (BoxLimits){
         .response = 0.08,             /* a hand feels a delay from about 0.1 s on */
         .speed = 2,                   /* an arm's */
-        .acceleration = 20,           /* twice g: fluid sloshes, and hits no wall faster than it may at dt */
+        .acceleration = 20,           /* twice g: fluid sloshes, and hits walls no faster than dt allows */
         .turn_speed_deg = 180,        /* a wrist's */
         .turn_acceleration_deg = 1800 /* full turning speed within 0.1 s */
     };
@@ -31,9 +31,9 @@ static void limit(double v[3], double most)
         v[k] *= most / l;
 }
 
-/* x'' = (error - 2 response x') / response^2 by an implicit step, which is stable for every dt, with the
-   change of velocity and the velocity cut at the limits. `moved` gets the way made, with the mean of both
-   velocities: the acceleration is constant over the step. */
+/* x'' = (error - 2 response x') / response^2 by an implicit step, stable for every dt. The change of
+   velocity and the velocity are cut at the limits. `moved`: distance with the mean of both velocities,
+   since the acceleration is constant over the step. */
 static void follow(const double error[3], double response, double speed, double acceleration, double dt,
                    double velocity[3], double moved[3])
 {
@@ -51,7 +51,7 @@ static void follow(const double error[3], double response, double speed, double 
     }
 }
 
-/* The rotation vector of a * conj(b), the short way round. */
+/* Rotation vector of a * conj(b), the short way round. */
 static void rotation_between(const double a[4], const double b[4], double out[3])
 {
     const double inverse[4] = {-b[0], -b[1], -b[2], b[3]};
@@ -79,10 +79,10 @@ void box_filter_step(BoxFilter *filter, const BoxTarget *target, const BoxLimits
     quat_turn(moved, filter->orientation);
 }
 
-/* The hand moves and turns the centre's frame; the prescribed pose rides on it. */
+/* The hand moves and turns the centre's frame; the prescribed pose is relative to this frame. */
 void box_filter_apply(const BoxFilter *filter, double box_height, BoxState *state)
 {
-    const double centre[3] = {0, 0.5 * box_height, 0}; /* of the box at home: what the hand turns about */
+    const double centre[3] = {0, 0.5 * box_height, 0}; /* of the box at home: the hand's centre of rotation */
     double arm[3], arm_velocity[3], turned[3], swirl[3], angular[3];
     for (int k = 0; k < 3; k++)
         arm[k] = state->position[k] - centre[k];

@@ -127,7 +127,7 @@ static Phase motion_phase(const Motion *motion, double time)
         break;
     case MOTION_ACCELERATE:
         phase = (Phase){0.5 * motion->acceleration * t * t, motion->acceleration * t};
-        if (over) /* goes on with the velocity that it has */
+        if (over) /* continues with the reached velocity */
             return (Phase){phase.value + phase.rate * (time - motion->start - t), phase.rate};
         break;
     case MOTION_KIND_COUNT:
@@ -150,7 +150,7 @@ static void unit(const double v[3], double out[3])
         out[k] = v[k] / length;
 }
 
-/* q <- q * turn(axis, angle); the rate about the axis, seen from the world, joins the angular velocity. */
+/* q <- q * turn(axis, angle); adds the rate about the axis, in the world's frame, to the angular velocity. */
 static void turn_further(BoxState *state, const double axis[3], Phase phase)
 {
     double axis_world[3];
@@ -181,7 +181,7 @@ void box_state_at(const Motion list[], int count, double box_height, double time
         }
     }
 
-    /* The origin hangs half the height below the centre about which the box turns. */
+    /* The origin is half the height below the centre of rotation. */
     const double below[3] = {0, -0.5 * box_height, 0};
     double arm[3], swirl[3];
     quat_rotate(state->orientation, below, arm);

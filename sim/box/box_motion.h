@@ -1,8 +1,6 @@
-/* The box as a frame of reference: where it is, how it moves, and what that does to positions and velocities.
-
-   The box's frame has its origin at the centre of the box's floor, y up, the faces of the box parallel to its
-   axes. Devices and prescribed motions turn the box about its centre. World and box frame coincide while the
-   box has not moved. */
+/* The box as a frame of reference: pose, motion, and transforms of positions and velocities. The box's
+   frame has its origin at the centre of the box's floor, y up, axes parallel to the box's edges. Devices
+   and prescribed motions turn the box about its centre. World and box frame coincide until the box moves. */
 #ifndef SLOSH_BOX_MOTION_H
 #define SLOSH_BOX_MOTION_H
 
@@ -18,8 +16,8 @@ typedef struct BoxState {
     double angular_velocity[3]; /* rad/s */
 } BoxState;
 
-/* X(ENUM, name, help): one prescribed motion is one of these; the motions of a list act together, turns from
-   the first (outermost) to the last (innermost). */
+/* X(ENUM, name, help): kinds of prescribed motion. Motions of a list act together, rotations from the first
+   (outermost) to the last (innermost). */
 #define MOTION_LIST(X)                                                                                       \
     X(SHAKE, "shake", "moves to and fro along `axis`: amplitude (m) * sin(2 pi frequency (Hz) t)")           \
     X(ROCK, "rock", "turns to and fro about `axis`: angle (degrees) * sin(2 pi frequency (Hz) t)")           \
@@ -34,32 +32,32 @@ typedef enum MotionKind {
         MOTION_KIND_COUNT
 } MotionKind;
 
-/* Fields that a kind does not name above are unused. */
+/* Fields not named in a kind's help are unused. */
 typedef struct Motion {
     MotionKind kind;
-    double axis[3];   /* direction, of any length but zero; in the world's frame for translations and for the
-                         outermost turn, in the frame that the outer turns made for the others */
-    double amplitude; /* m */
-    double angle_deg; /* degrees */
-    double frequency; /* Hz */
-    double rate;      /* rad/s */
+    double axis[3];      /* direction, non-zero; in the world's frame for translations and for the outermost
+                            rotation, for inner rotations in the frame after the outer rotations */
+    double amplitude;    /* m */
+    double angle_deg;    /* degrees */
+    double frequency;    /* Hz */
+    double rate;         /* rad/s */
     double acceleration; /* m/s2 */
-    double start;        /* s; still before it */
-    double duration; /* s; 0: for ever (turn: must be > 0). After it shake and rock rest where they began if
-                        the duration is a whole number of half periods */
+    double start;        /* s; no motion before */
+    double duration;     /* s; 0: unlimited (turn: must be > 0). Afterwards shake and rock rest at their start
+                            if the duration is a whole number of half periods */
 } Motion;
 
 const char *motion_name(MotionKind kind);
 const char *motion_help(MotionKind kind);
 
-/* The box at `time` seconds under the `count` motions of the list; exact, with the exact rates. `box_height`
-   (m) places the centre about which it turns. */
+/* The box at `time` (s) under `count` motions; exact, with exact rates. `box_height` (m) gives the centre
+   of rotation. */
 void box_state_at(const Motion list[], int count, double box_height, double time, BoxState *state);
 
-/* a x b; `out` may be either. */
+/* a x b; `out` may be a or b. */
 void cross_product(const double a[3], const double b[3], double out[3]);
 
-/* a * b; `out` may be either. */
+/* a * b; `out` may be a or b. */
 void quat_multiply(const double a[4], const double b[4], double out[4]);
 
 /* Turns q further by a rotation vector (radians, along the axis, both in the world), to a unit quaternion. */
@@ -69,15 +67,14 @@ void quat_turn(const double rotation[3], double q[4]);
 void quat_rotate(const double q[4], const double v[3], double out[3]);
 void quat_rotate_inverse(const double q[4], const double v[3], double out[3]);
 
-/* Box frame to world frame, for a point and the velocity that it has in the box's frame (NULL: not wanted).
- */
+/* Box frame to world frame, for a point and its velocity in the box's frame (NULL: not wanted). */
 void box_to_world(const BoxState *box, const double x[3], const double v[3], double x_world[3],
                   double v_world[3]);
 
-/* Whether it moves without turning. */
+/* True for a motion without rotation. */
 bool motion_translates(const Motion *motion);
 
-/* Whether it keeps the plane z = 0 in itself. */
+/* True if the motion keeps the plane z = 0. */
 bool motion_in_plane(const Motion *motion);
 
 #endif

@@ -1,8 +1,6 @@
-/* From one pose of the box to the next: the map of a free particle's position and velocity in the box's
-   frame.
-
-   It is the straight flight in the world, seen from the two poses: the exact change of the box's velocity and
-   rotation, Coriolis as a rotation, no sampled acceleration, so that nothing drifts. */
+/* From a pose of the box to the next: maps a free particle's position and velocity in the box's frame. The
+   map is straight flight in the world, seen from both poses: exact changes of the box's velocity and
+   rotation, Coriolis as a rotation, no sampled acceleration. So nothing drifts. */
 #ifndef SLOSH_BOX_STEP_H
 #define SLOSH_BOX_STEP_H
 
@@ -20,13 +18,13 @@ typedef struct BoxStep {
     float omega1[3];                /* at the end, in the axes of the end */
     float shift[3];                 /* P1 - P0 - V0 dt of the box's origin, in the axes of the begin, m */
     float velocity_change[3];       /* V1 - V0 of the box's origin, in the axes of the end, m/s */
-    const struct SolidStep *solids; /* what the solids do meanwhile; NULL without solids */
+    const struct SolidStep *solids; /* steps of the solids; NULL without solids */
 } BoxStep;
 
 void box_step(const BoxState *begin, const BoxState *end, double dt, BoxStep *step);
 
-/* What a body at rest in the box feels, in the box's axes of `middle`, from the velocities at both ends of a
-   step: gravity less the acceleration of the box; at x it is origin - alpha x x - omega x (omega x x). */
+/* Apparent gravity of a body at rest in the box, in the box's axes of `middle`, from velocities at both
+   ends of a step: gravity minus the box's acceleration. At x: origin - alpha x x - omega x (omega x x). */
 typedef struct ApparentGravity {
     float origin[3]; /* m/s2 */
     float alpha[3];  /* rad/s2 */
@@ -43,7 +41,7 @@ static inline void box_cross(const float a[3], const float b[3], float out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* Applies the step to one particle. `left`: what rounding leaves of its place (sim/box/place.h), or NULL. */
+/* Applies the step to a particle. `left`: rounding remainder of the position (sim/box/place.h), or NULL. */
 static inline void box_advance(const BoxStep *step, float x[3], float left[3], float v[3])
 {
     if (step->still) {

@@ -1,4 +1,4 @@
-/* Keys of what moves the box, of a solid's motion, and of the box in the hand. */
+/* Keys for motions of the box and of solids, and for the box in the hand. */
 #include "sim/base/key_rows.h"
 #include "sim/box/box_filter.h"
 #include "sim/box/box_motion.h"
@@ -6,8 +6,7 @@
 #define AT(field)     offsetof(BoxLimits, field)
 #define MOTION(field) offsetof(Motion, field)
 
-/* What each kind of motion names in MOTION_LIST; M is its path. A kind without such a line doesn't compile.
- */
+/* Rows of each kind in MOTION_LIST; M: path of the motion. A kind without such a line does not compile. */
 #define AXIS(M) VEC3(M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
 #define AMPLITUDE(M)                                                                                         \
     NUMBER(M ".amplitude", R, "m", 0, 1e6, MOTION(amplitude), "greatest distance from the start"),

@@ -1,8 +1,8 @@
-/* Periodic sides: what leaves the box there comes in on the other side, and neighbours see each other across.
-
-   After: M. P. Allen, D. J. Tildesley, "Computer Simulation of Liquids", 1987, sec. 1.5.2. Positions stay in
-   [low, low + size], to the rounding of single precision (on cpu from the end of a step on); the box is at
-   least two support radii wide along a periodic axis, so that no particle sees another twice. */
+/* Periodic sides: particles that leave there enter on the opposite side, and neighbours see each other
+   across. After: M. P. Allen, D. J. Tildesley, "Computer Simulation of Liquids", 1987, sec. 1.5.2.
+   Positions stay in [low, low + size], up to single-precision rounding (on cpu from the end of a step on).
+   Along a periodic axis the box is at least two support radii wide, so that no particle sees a neighbour
+   twice. */
 #ifndef SLOSH_PERIODIC_H
 #define SLOSH_PERIODIC_H
 
@@ -17,7 +17,7 @@ typedef struct Periodic {
     float low[3], size[3]; /* m, of all axes */
 } Periodic;
 
-/* Puts x (m) into the box along the periodic axes. `left`: what rounding leaves of it, or NULL. */
+/* Wraps x (m) into the box along the periodic axes. `left`: rounding remainder of x, or NULL. */
 static inline void periodic_wrap(const Periodic *periodic, float x[3], float left[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -27,7 +27,7 @@ static inline void periodic_wrap(const Periodic *periodic, float x[3], float lef
     }
 }
 
-/* The shortest of the images of the difference d of two places, m. */
+/* Replaces d, a difference of two positions (m), by its shortest image. */
 static inline void periodic_nearest(const Periodic *periodic, float d[3])
 {
     for (int k = 0; k < 3; k++)

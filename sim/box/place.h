@@ -1,11 +1,13 @@
-/* Places in wide boxes. A step adds v dt to a place in single precision, and what is less than half of the
-   place's last digit is lost: 400 spacings wide, 1e-5 spacings in each half step, so that slow fluid stands.
-   There a particle keeps what rounding leaves of its place (the column `remainder`), and the next step adds
-   it again. A place within its cell would keep as many digits, but pair sums, walls, views and files would
-   all have to know the cell; so they read the rounded place, as ever, and stepping alone knows the rest.
+/* Positions in wide boxes. A step adds v dt in single precision, and increments below half of the last
+   digit are lost. In a box 400 spacings wide the loss is 1e-5 spacings per half step, so slow fluid stands
+   still. In wide boxes a particle keeps the rounding remainder of its position (column `remainder`), and
+   the next step adds the remainder.
 
-   After: W. Kahan, "Further remarks on reducing truncation errors", 1965; the sum without comparison is from
-   D. E. Knuth, "The Art of Computer Programming", vol. 2, sec. 4.2.2. */
+   A position relative to the cell would keep as many digits, but then pair sums, walls, views and files
+   would need the cell. Instead they read the rounded position, and only the stepping knows the remainder.
+
+   After: W. Kahan, "Further remarks on reducing truncation errors", 1965; the sum without comparison is
+   from D. E. Knuth, "The Art of Computer Programming", vol. 2, sec. 4.2.2. */
 #ifndef SLOSH_PLACE_H
 #define SLOSH_PLACE_H
 
@@ -15,8 +17,8 @@
 #error "what rounding leaves is 0 under -ffast-math"
 #endif
 
-/* Adds `way` to a coordinate, m; `left` is what rounding has left of it so far, at most half of its last
-   digit. NULL: what rounding leaves is lost. */
+/* Adds `way` to a coordinate, m. `left`: rounding remainder so far, at most half of the last digit; NULL:
+   remainders are lost. */
 static inline void place_move(float *x, float *left, float way)
 {
     if (!left) {
@@ -29,7 +31,7 @@ static inline void place_move(float *x, float *left, float way)
     *left = all - (*x - sum);
 }
 
-/* Of a place that was put to where it is: nothing is left where it has changed. */
+/* For a position set explicitly: clears the remainder of changed coordinates. */
 static inline void place_put(const float before[3], const float x[3], float left[3])
 {
     for (int k = 0; left && k < 3; k++)

@@ -44,7 +44,7 @@ bool walls_guard(const Walls *walls, float x[3], float v[3])
     return held;
 }
 
-/* Half of a short way, half a spacing of a long one. */
+/* Half of a short way; up to half a spacing for a long way. */
 static float folded(const Walls *walls, float way)
 {
     const float most = 0.5f * walls->spacing;

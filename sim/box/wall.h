@@ -1,5 +1,5 @@
-/* The walls of the box: where they stand, and the last guard that nothing leaves. What they push with are the
-   images of the fluid: sim/box/wall_images.h. */
+/* Walls of the box: positions, and the last guard that keeps particles inside. The pressure of the walls
+   comes from images of the fluid: sim/box/wall_images.h. */
 #ifndef SLOSH_WALL_H
 #define SLOSH_WALL_H
 
@@ -15,12 +15,12 @@ typedef struct Walls {
 
 void walls_place(Walls *walls, int dimensions, const double box_size[3], const bool open[3], double spacing);
 
-/* Where no wall is near: box's frame, m. */
+/* Region without a near wall: box's frame, m. */
 typedef struct WallsFar {
     float low[3], high[3];
 } WallsFar;
 
-/* Of walls that are farther than `range`, m; of 0: within the box. */
+/* The region further than `range` (m) from all walls; for 0, the inside of the box. */
 static inline WallsFar walls_far(const Walls *walls, float range)
 {
     WallsFar far;
@@ -33,21 +33,21 @@ static inline WallsFar walls_far(const Walls *walls, float range)
     return far;
 }
 
-/* Whether a wall is near to x: what most of the fluid is asked, and no more. */
+/* True if a wall is near x: the only wall test for most of the fluid. */
 static inline bool walls_near(const WallsFar *far, const float x[3])
 {
     return (x[0] < far->low[0]) | (x[0] > far->high[0]) | (x[1] < far->low[1]) | (x[1] > far->high[1]) |
            (x[2] < far->low[2]) | (x[2] > far->high[2]);
 }
 
-/* Whether x is in the box; false for what is not finite. */
+/* True if x is in the box; false if x is not finite. */
 bool walls_contain(const Walls *walls, const float x[3]);
 
-/* Holds x inside the box and takes the velocity into the wall away; true if it had to. */
+/* Moves x into the box and removes the velocity into the wall; true if x changed. */
 bool walls_guard(const Walls *walls, float x[3], float v[3]);
 
-/* Brings x back into the box, up to half a spacing deep by how far it went: so that what one step takes
-   through a wall does not come to lie on one plane. v gains `rate` (1/s) times the way. True if it had to. */
+/* Folds x back into the box, up to half a spacing deep depending on the overshoot: particles that cross a
+   wall in a step do not end up in a plane. v gains `rate` (1/s) times the shift. True if x changed. */
 bool walls_fold(const Walls *walls, float rate, float x[3], float v[3]);
 
 #endif

@@ -17,14 +17,14 @@ double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, dou
 }
 
 typedef struct Behind {
-    int faces; /* their normals are the first axes */
+    int faces; /* number of faces; the first axes are normals */
     double spacing, h;
     const Lattice *lattice;
     double unit_volume;
     DragWeight weight;
 } Behind;
 
-/* The term of the lattice particle with these indices behind the faces, from 0, and along them. */
+/* Term of the lattice particle with these indices: behind the faces from 0 on, and along the faces. */
 static double term(const Behind *b, const double d[3], const int index[3])
 {
     double r2 = 0, least = INFINITY, normal = 0;
@@ -73,7 +73,7 @@ static float *table_create(const Behind *b, int nodes, double step)
 bool wall_drag_create(WallDrag *drag, const double box_size[3], const bool open[3], double spacing,
                       double support_radius, const Lattice *lattice, double unit_volume, DragWeight weight)
 {
-    /* Nodes a spacing, even so that the layers of the lattice are nodes. */
+    /* Nodes per spacing; even, so that lattice layers are nodes. */
     static const int nodes_per_spacing[3] = {64, 16, 8};
     *drag = (WallDrag){.dimensions = lattice->dimensions};
     for (int k = 0; k < 3; k++) {
@@ -124,7 +124,7 @@ static int faces_near(const WallDrag *drag, const float x[3], Face faces[6])
     return count;
 }
 
-/* Linear interpolation at the distances of 1, 2 or 3 faces. */
+/* Linear interpolation at the distances to 1, 2 or 3 faces. */
 static float table_at(const WallDrag *drag, const Face *const faces[], int count)
 {
     const float *table = drag->table[count - 1];
@@ -150,7 +150,7 @@ static float table_at(const WallDrag *drag, const Face *const faces[], int count
     return sum;
 }
 
-/* Faces - edges + corners: all of them, or only those that the lid belongs to. */
+/* Faces - edges + corners: all, or only those with the lid. */
 static float drag_sum(const WallDrag *drag, const float x[3], bool lid_only)
 {
     Face face[6];

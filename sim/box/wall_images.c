@@ -4,13 +4,13 @@
 
 typedef struct Images {
     Image *image;
-    float near2[IMAGES_MAX]; /* square of each one's distance to the box, m2 */
+    float near2[IMAGES_MAX]; /* squared distance of each image to the box, m2 */
     int count;
     float h2;
 } Images;
 
-/* Mirrors the first `from` images in the wall across `axis` that stands at `wall`, d away from the point, on
- * `side`. */
+/* Mirrors the first `from` images in the wall across `axis` at `wall`, on `side`; d: distance of the point
+   to the wall. */
 static void mirror(Images *images, int from, int axis, float wall, float side, float d)
 {
     for (int k = 0; k < from; k++) {
@@ -26,7 +26,8 @@ static void mirror(Images *images, int from, int axis, float wall, float side, f
 
 int wall_images(const Walls *walls, const float x[3], float h, Image image[IMAGES_MAX])
 {
-    const float least = 1e-3f * walls->spacing; /* or the image of what touches the wall has no direction */
+    const float least = 1e-3f * walls->spacing; /* otherwise the image of a touching particle has no
+                                                   direction */
     Images images = {.image = image, .count = 1, .h2 = h * h};
     image[0] = (Image){{x[0], x[1], x[2]}, {1, 1, 1}};
     images.near2[0] = 0;

@@ -16,7 +16,7 @@ double wall_lift_brute(const Lattice *lattice, double spacing, double support_ra
     return lattice->gradient_scale * sum / lattice->number_density;
 }
 
-/* lift over that at the wall. */
+/* lift over lift at the wall. */
 static float shape(float d, float h)
 {
     const float t = fmaxf(1 - d / h, 0), t2 = t * t;

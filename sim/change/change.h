@@ -1,18 +1,17 @@
-/* The acceleration of each particle in the last step, for who looks: the change of its velocity over the time
-   of the step, both in the box's frame. All that a step does to a velocity counts, whatever the method:
-   pressure, friction, gravity, the box's own motion, walls and solids, emitters, and what a method corrects
-   velocities or places by. Not known (NaN) before the first step, and
-   in a state that was saved without it. A world keeps it where WorldDef.acceleration says so; no step reads
-   it. */
+/* The acceleration of each particle in the last step, for output: velocity change over the step's time,
+   both in the box's frame. Includes every effect of a step on velocities, for any method: pressure,
+   friction, gravity, the box's motion, walls and solids, emitters, and a method's corrections of velocities
+   or positions. Unknown (NaN) before the first step, and after loading a state without accelerations. Kept
+   if WorldDef.acceleration is set; no step reads the column. */
 #ifndef SLOSH_CHANGE_H
 #define SLOSH_CHANGE_H
 
 #include "sim/world/method.h"
 
-/* The column of three: before a step's end the velocity that the step began with, m/s. */
+/* The column with three components. Before a step's end: velocity at the step's begin, m/s. */
 extern const ColumnDef change_columns[];
 
-/* Over dt, s; 0: not known. */
+/* Passes over dt, s; dt 0: acceleration unknown. */
 extern const Pass change_begin, change_end;
 
 #endif

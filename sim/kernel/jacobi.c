@@ -6,7 +6,7 @@ typedef struct Sums {
     double sum[3], squares;
 } Sums;
 
-/* Of the wave of phases `wave` a spacing. */
+/* Sums for a wave with phase `wave` per spacing. */
 static Sums wave_sums(const Kernel *kernel, int dimensions, double spacing, double h, const double wave[3])
 {
     const int reach = (int)ceil(h / spacing), deep = dimensions == 3 ? reach : 0;

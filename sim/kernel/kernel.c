@@ -63,7 +63,7 @@ double kernel_wendland_c2_derivative(double r, double h)
     return q < 1 ? -21 / (2 * M_PI * h * h * h * h) * 20 * q * t * t * t : 0;
 }
 
-/* Its three terms: 1, -6 and 15 times the power of 3, 2 and 1 less 3 q. */
+/* The three terms of the quintic: 1, -6 and 15 times the power of 3, 2 and 1 minus 3 q. */
 static double quintic_terms(double q, double power)
 {
     const double a = 3 - 3 * q, b = 2 - 3 * q, c = 1 - 3 * q;

@@ -10,8 +10,8 @@ double kernel_spiky_derivative(double r, double h);    /* dW/dr <= 0, 1/m4 */
 double kernel_viscosity(double r, double h);           /* eq. 22; infinite at r = 0 */
 double kernel_viscosity_laplacian(double r, double h); /* >= 0, 1/m5 */
 
-/* The shapes that solver.kernel names, by q = r / h with the whole support radius h (papers have h / 2 or h /
- * 3 there). */
+/* Kernel shapes of solver.kernel, with q = r / h and the whole support radius h (papers use h / 2 or h /
+   3). */
 double kernel_cubic(double r, double h); /* cubic spline: Monaghan and Lattanzio 1985 */
 double kernel_cubic_derivative(double r, double h);
 double kernel_wendland_c2(double r, double h); /* Wendland 1995; Dehnen and Aly 2012 */
@@ -19,7 +19,7 @@ double kernel_wendland_c2_derivative(double r, double h);
 double kernel_quintic(double r, double h); /* quintic spline: Morris 1996 */
 double kernel_quintic_derivative(double r, double h);
 
-/* The kernels that can sum up a density. */
+/* A kernel that can sum up density. */
 typedef struct Kernel {
     const char *name, *help;
     double (*value)(double r, double h);
@@ -28,11 +28,11 @@ typedef struct Kernel {
 
 extern const Kernel density_kernels[]; /* ended by a NULL name */
 
-/* These, in the order of ShapeKernel. */
+/* The kernels of solver.kernel, in the order of ShapeKernel. */
 extern const Kernel shape_kernels[]; /* ended by a NULL name */
 typedef enum ShapeKernel { KERNEL_CUBIC, KERNEL_WENDLAND_C2, KERNEL_QUINTIC, SHAPE_KERNELS } ShapeKernel;
 
-/* NULL when there is none of that name. */
+/* NULL if no kernel has the name. */
 const Kernel *shape_kernel_find(const char *name);
 const Kernel *density_kernel_find(const char *name);
 

@@ -6,11 +6,11 @@ static const double PI = 3.14159265358979323846;
 
 enum { REACH = 4, SITES_MAX = (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1) / 2, WAVES = 12 };
 
-/* One of each two neighbours that lie opposite: both have the same part in a wave. */
+/* Half of the neighbours: opposite neighbours have the same part in a wave. */
 typedef struct Sites {
     int dimensions, count;
     double x[SITES_MAX][3];                   /* spacings */
-    double dense[SITES_MAX], push[SITES_MAX]; /* parts of D and P a length, 1/m2 */
+    double dense[SITES_MAX], push[SITES_MAX]; /* parts of D and P per length, 1/m2 */
 } Sites;
 
 static bool is_first_of_two(int i, int j, int k)
@@ -42,7 +42,7 @@ static void fill(Sites *sites, const Lattice *lattice, double spacing, double h,
             }
 }
 
-/* (omega / c)^2 of the wave whose phase goes on by so much from one site to the next along each axis. */
+/* (omega / c)^2 of the wave with `phase` per spacing along each axis. */
 static double stiffness(const Sites *sites, const double phase[3])
 {
     double d[3] = {0}, p[3] = {0};
@@ -64,7 +64,7 @@ double sound_wave(const Lattice *lattice, double spacing, double support_radius,
     return sqrt(fmax(0, stiffness(&sites, (double[3]){k[0] * spacing, k[1] * spacing, k[2] * spacing})));
 }
 
-/* The best of the steps by `way` along the axes, as long as there is a better one. */
+/* Steps by `way` along the axes to better values until no step improves. */
 static double climb(const Sites *sites, double phase[3], double way, double greatest)
 {
     for (int a = 0; a < 2 * sites->dimensions; a++) {
@@ -86,7 +86,7 @@ double sound_stiffest(const Lattice *lattice, double spacing, double support_rad
     Sites sites;
     double greatest = 0, best[3] = {0};
     fill(&sites, lattice, spacing, support_radius, density_kernel, carried);
-    for (int i = 0; i <= WAVES; i++) /* one corner of the zone: the others are its images */
+    for (int i = 0; i <= WAVES; i++) /* a corner of the zone; the rest are mirror images */
         for (int j = 0; j <= i; j++)
             for (int k = 0; k <= (sites.dimensions == 3 ? j : 0); k++) {
                 const double phase[3] = {PI * i / WAVES, PI * j / WAVES, PI * k / WAVES},

@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-/* s: a mouse tells places in jumps of some 10 ms, and the fluid is to feel none of them. */
+/* s: a mouse reports positions in jumps of some 10 ms, which the fluid must not feel. */
 static const double RESPONSE = 0.03;
 
-/* Of w q: at q^2 = 1/5. */
+/* Maximum of w q, at q^2 = 1/5. */
 static const double PEAK = 0.28621670111997307;
 
 bool finger_take(FingerState *state, const Finger *wanted, int dimensions)
@@ -44,7 +44,7 @@ double finger_acceleration(const FingerState *state)
                : 0;
 }
 
-/* By an implicit step, which is stable for every dt and needs no library. */
+/* Follows by an implicit step: stable for every dt, no library function. */
 static void follow(FingerState *state, double dt, double moved[3])
 {
     const double u = dt / RESPONSE;

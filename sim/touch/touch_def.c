@@ -7,12 +7,12 @@
 
 #define AT(field) offsetof(TouchDef, field)
 
-/* Of strength 1: fluid takes the pointer's speed within some pictures; a pull lifts water against gravity and
-   holds a handful. */
+/* Values at strength 1: stirred fluid takes the pointer's speed within some pictures; a pull lifts water
+   against gravity and holds a handful. */
 static const double STIR_RATE = 40, ACCELERATION = 40; /* 1/s; m/s2 */
 
-/* What is poured is as fast as what has fallen over so many spacings, and half as wide as the ball: some 20
-   particles a layer. */
+/* Poured fluid has the speed after a fall of FALL spacings, and half the ball's width: some 20 particles
+   per layer. */
 static const double FALL = 4, WIDTH = 0.5, G = 9.81;
 
 const TouchWay touch_ways[] = {

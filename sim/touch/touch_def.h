@@ -1,4 +1,4 @@
-/* How a user touches: what the pointer does, how large it is, how strong. The scene's keys `touch.*`. */
+/* A user's touch: effect, size and strength at the pointer. The scene's keys `touch.*`. */
 #ifndef SLOSH_TOUCH_DEF_H
 #define SLOSH_TOUCH_DEF_H
 
@@ -8,26 +8,26 @@ typedef struct TouchWay {
     const char *name, *help;
 } TouchWay;
 
-/* By FingerWay less one; ended by a NULL name. */
+/* Indexed by FingerWay - 1; ended by a NULL name. */
 extern const TouchWay touch_ways[];
 
 typedef struct TouchDef {
     int way;         /* of touch_ways */
-    int fluid;       /* that is poured */
+    int fluid;       /* for pouring */
     double radius;   /* spacings */
-    double strength; /* 1: as a rule */
+    double strength; /* 1: default */
 } TouchDef;
 
 TouchDef touch_def_default(void);
 
-/* How large that is, m: of the ball, or of the disk from which fluid is poured. */
+/* Radius, m: of the ball, or of the disk for pouring. */
 double touch_radius(const TouchDef *def, FingerWay way, double spacing);
 
-/* A finger that does it at a place (box's frame, m) of a scene with that spacing (m). */
+/* A finger of the def at a position (box's frame, m) in a scene with the given spacing (m). */
 Finger touch_finger(const TouchDef *def, FingerWay way, const double at[3], double spacing);
 
-/* "none", or a name of touch_ways, that of pouring for each fluid; FINGER_WAYS where there is none of that
-   name. */
+/* "none" or a name of touch_ways; pouring has the same name for each fluid. finger_way_find returns
+   FINGER_WAYS for an unknown name. */
 const char *finger_way_name(FingerWay way);
 FingerWay finger_way_find(const char *name);
 
