@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static const double finest = 1.0 / 32; /* of a width: how finely lines look for what is analytic */
+static const double finest = 1.0 / 32; /* of a width: the march of analytic fields */
 static const double paper = 1e-2;      /* of a width: sqrt(2 dt), Tanaka et al. 2012, section 4 */
 
 LANES_INLINE Lanes number(const LevelField *field, int k)
@@ -68,7 +68,7 @@ LEVEL_KIND(gyroid)
 LEVEL_KIND(wave)
 LEVEL_KIND(plane)
 
-/* A width, and what follows from it. */
+/* A field of a given width, with derived steps. */
 static LevelField field_of(const LevelKind *kind, const double low[3], const double high[3], double length)
 {
     LevelField field = {.kind = kind, .length = length, .number = {0}};

@@ -9,11 +9,11 @@
 
 enum { CANDIDATES = COUNTING_CANDIDATES, ENOUGH = 40, KNOWN_MOST = 16384, ATTEMPTS = 8, A_RANGE = 16384 };
 
-static const double widest = 0.05;   /* radius, of the surface's extent */
-static const double parallel = 0.8;  /* the least cosine between normals in a sphere */
-static const double flattest = 0.35; /* of the radius: how far from the tangent plane */
+static const double widest = 0.05;   /* radius, as a share of the surface's extent */
+static const double parallel = 0.8;  /* least cosine between normals in a sphere */
+static const double flattest = 0.35; /* of the radius: greatest distance from the tangent plane */
 
-/* What is known of the surface: places and unit normals. */
+/* Known points of the surface: positions and unit normals. */
 typedef struct Known {
     size_t count;
     const float (*place)[3];
@@ -34,7 +34,7 @@ static float dot(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Whether what is known of the surface in the sphere about c is one flat piece. */
+/* True if the known points in the sphere about c form a flat piece. */
 static bool fair(const LineSearch *search, const Known *known, const float c[3], double radius)
 {
     float normal[3];
@@ -65,7 +65,7 @@ static void choose(Counting *counting, const LineSearch *search, const Crossings
                  among = crossings->count - first;
     double radius = widest * extent;
     for (int attempt = 0; attempt <= ATTEMPTS; attempt++, radius /= 1.5) {
-        const bool any = attempt == ATTEMPTS; /* no flat piece anywhere: as the paper does it */
+        const bool any = attempt == ATTEMPTS; /* no flat piece anywhere: as in the paper */
         counting->count = 0;
         counting->radius = (float)radius;
         for (uint32_t k = 0; k < CANDIDATES && counting->count < COUNTING_SPHERES; k++) {
@@ -78,7 +78,7 @@ static void choose(Counting *counting, const LineSearch *search, const Crossings
     }
 }
 
-/* ---- which spheres may hold a point ---- */
+/* ---- spheres by cell ---- */
 
 static int cell_along(const Counting *counting, int axis, double x)
 {
@@ -86,7 +86,7 @@ static int cell_along(const Counting *counting, int axis, double x)
     return at > 0 ? at < COUNTING_CELLS ? (int)at : COUNTING_CELLS - 1 : 0;
 }
 
-/* Calls for each cell that a sphere reaches into: counts there, or writes the sphere down. */
+/* Visits each cell touched by a sphere: counts there, or with `write` stores the sphere. */
 static void reach(Counting *counting, int sphere, bool write)
 {
     int from[3], to[3];
@@ -172,7 +172,7 @@ static void count_range(void *context, size_t begin, size_t end)
             inside[counting->member[m]] += dot(d, d) < square;
         }
     }
-    for (int k = 0; k < counting->count; k++) /* whole numbers: their order is of no account */
+    for (int k = 0; k < counting->count; k++) /* integers: independent of order */
         __atomic_fetch_add(&counting->inside[k], inside[k], __ATOMIC_RELAXED);
 }
 

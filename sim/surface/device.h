@@ -1,5 +1,5 @@
-/* Who takes a walk's steps and colours its points in the place of this machine's threads: sim/gl/surface. The
-   seeds, the counting spheres and when there are enough points stay with sampling.h. */
+/* A device that runs a walk's steps and colours its points instead of the CPU's threads: sim/gl/surface.
+   Seeds, counting spheres and the end of sampling stay with sampling.h. */
 #ifndef SLOSH_SURFACE_DEVICE_H
 #define SLOSH_SURFACE_DEVICE_H
 
@@ -9,19 +9,19 @@
 typedef struct Walk Walk;         /* sim/surface/walk.h */
 typedef struct Counting Counting; /* sim/surface/counting.h */
 
-/* Each is false with an error where the field or the memory is not for this device; `end` follows in any
+/* Functions return false with an error if the device cannot take the field or the memory; call `end` in any
    case. */
 struct SurfaceDevice {
     void *own;
-    /* Takes field, walkers and spheres for about so many points. */
+    /* Takes field, walkers and spheres for about `points` points. */
     bool (*begin)(void *own, const Walk *walk, const Counting *counting, size_t points, Error *error);
-    /* The walk's next steps; their points behind those that there are, in the order of Walk.out, and in the
-       counting spheres' `inside` with them. Without `keep` nothing is left of them. */
+    /* Runs the walk's next steps. Appends the points in the order of Walk.out and adds to the counting
+       spheres' `inside`. Without `keep` the points are dropped. */
     bool (*steps)(void *own, const Walk *walk, bool keep, Counting *counting, Error *error);
     bool (*colour)(void *own, const LevelField *field, Error *error);
-    /* The first `count` points: to `out`, or, NULL, they stay with the device. */
+    /* Copies the first `count` points to `out`; if `out` is NULL the points stay on the device. */
     bool (*points)(void *own, size_t count, SurfacePoint *out, Error *error);
-    size_t (*taken)(void *own); /* steps that walkers took */
+    size_t (*taken)(void *own); /* accepted steps of all walkers */
     void (*end)(void *own);
 };
 

@@ -1,6 +1,6 @@
-/* Eight floats at once, by the vector extension of GCC and clang: inlined into a function for each
-   instruction set. Lanes are independent and nothing is contracted, so the bits are the same whatever the
-   machine has. */
+/* Eight floats at once, by the vector extension of GCC and clang; inlined into a function for each
+   instruction set. Lanes are independent and nothing is contracted, so the bits are the same on any
+   machine. */
 #ifndef SLOSH_SURFACE_LANES_H
 #define SLOSH_SURFACE_LANES_H
 
@@ -19,8 +19,7 @@ typedef int32_t LaneMask __attribute__((vector_size(4 * LANES))); /* -1 where tr
 
 #define LANES_INLINE static inline __attribute__((always_inline))
 
-/* A function for the wider instruction set, into which the lanes are inlined; called where lanes_wide() says
- * so. */
+/* For a function compiled for the wider instruction set, with lanes inlined; call if lanes_wide() is true. */
 #if defined(__x86_64__)
 #define LANES_WIDE __attribute__((target("avx2")))
 #else
@@ -58,7 +57,7 @@ LANES_INLINE Lanes lanes_signed(Lanes a, Lanes b)
     return (Lanes)(((LaneMask)a & 0x7fffffff) | ((LaneMask)b & INT32_MIN));
 }
 
-/* The lesser, the greater; b where one of them is no number. */
+/* Minimum and maximum; b if a or b is NaN. */
 LANES_INLINE Lanes lanes_least(Lanes a, Lanes b)
 {
     return lanes_select(a < b, a, b);
@@ -69,7 +68,7 @@ LANES_INLINE Lanes lanes_most(Lanes a, Lanes b)
     return lanes_select(a > b, a, b);
 }
 
-/* To the nearest whole number, of |a| < 2^22. */
+/* Rounds to the nearest integer, for |a| < 2^22. */
 LANES_INLINE Lanes lanes_round(Lanes a)
 {
     const Lanes large = lanes(0x1.8p23F);
@@ -86,7 +85,7 @@ LANES_INLINE Lanes lanes_number(LaneMask a)
     return __builtin_convertvector(a, Lanes);
 }
 
-LANES_INLINE int lanes_bits(LaneMask mask) /* one bit a lane */
+LANES_INLINE int lanes_bits(LaneMask mask) /* a bit per lane */
 {
 #if defined(__SSE2__)
     union {
@@ -140,7 +139,8 @@ LANES_INLINE Lanes lanes_log(Lanes a)
     return m + (p * m * square - lanes(0.5F) * square) + lanes_number(exponent) * lanes(0.69314718F);
 }
 
-/* Sine and cosine of so many turns, |turns| < 2^20; error 1e-7. After: S. Moshier, Cephes, sinf and cosf. */
+/* Sine and cosine of an angle in turns, |turns| < 2^20; error 1e-7. After: S. Moshier, Cephes, sinf and
+   cosf. */
 LANES_INLINE void lanes_turn(Lanes turns, Lanes *sine, Lanes *cosine)
 {
     const Lanes quarters = lanes_round(lanes(4) * turns);

@@ -1,4 +1,4 @@
-/* What a kind of field is: for the samplers, and for who adds a kind (README.md). */
+/* A kind of field: for the samplers, and for adding kinds (README.md). */
 #ifndef SLOSH_LEVEL_KIND_H
 #define SLOSH_LEVEL_KIND_H
 
@@ -15,14 +15,13 @@ typedef struct LaneSample { /* as LevelSample */
     Lanes value, x, y, z, bend;
 } LaneSample;
 
-/* The field at eight places. Beyond the field's bounds any finite number will do: it goes on there in some
- * way. */
+/* The field at eight positions. Beyond the field's bounds any finite continuation will do. */
 typedef void (*LaneField)(const LevelField *field, const LanePlace *place, LaneSample *out);
 
 typedef struct Walk Walk;
 typedef void (*WalkLanes)(const Walk *walk, size_t begin, size_t end);
 
-/* What shaders/surface/NAME.glsl reads of a field besides the place. */
+/* Data of a field for shaders/surface/NAME.glsl besides the position. */
 typedef struct LevelParts {
     float number[16];
     struct {
@@ -31,7 +30,8 @@ typedef struct LevelParts {
     } array[2];
 } LevelParts;
 
-/* The field, and walk_lanes (walk.h) with it inlined: for any processor, and in LANES_WIDE functions. */
+/* The field's function, and walk_lanes (walk.h) with the function inlined: for any processor, and in
+   LANES_WIDE functions. */
 struct LevelKind {
     const char *name;
     LaneField at[2];

@@ -9,21 +9,21 @@
 
 enum { FIRST_LINES = 4096, MOST_LINES = 1 << 21, SOME_LINES = 1024, A_RANGE = 64, NINTHS = 6 };
 
-static const size_t enough = (size_t)1 << 21; /* crossings: no walk has so many walkers */
+static const size_t enough = (size_t)1 << 21; /* crossings: more than any number of walkers */
 static const double pieces_most = 1e5;        /* along an axis: a thousand lines take a second or two */
 
-/* What the lines of one range found. */
+/* Results of the lines of a range. */
 typedef struct Found {
     size_t count, capacity, flat; /* flat: crossings without a gradient */
     float (*place)[3];
     double least, most; /* of the field */
     bool no_memory, no_number;
-    float bad[3]; /* where it is no number */
+    float bad[3]; /* a position where the field is not finite */
 } Found;
 
 typedef struct Lines {
     const LineSearch *search;
-    double shift[4], face[3]; /* m2: of a face across each axis */
+    double shift[4], face[3]; /* m2: face across each axis */
     size_t first;             /* line of the first range */
     Found *found;
 } Lines;
@@ -37,7 +37,7 @@ static double part(double a)
     return a - floor(a);
 }
 
-/* The i-th line: it enters the box anywhere on its faces, under an angle by the cosine law. */
+/* The i-th line: enters the box at a uniform point on its faces, at an angle by the cosine law. */
 static Line line_of(const Lines *lines, size_t i)
 {
     const LineSearch *search = lines->search;
@@ -58,7 +58,7 @@ static Line line_of(const Lines *lines, size_t i)
     const double *low = search->low, *high = search->high, tilt = sqrt(u[2]);
     Line line = {.length = HUGE_VAL};
     Lanes sine, cosine;
-    lanes_turn(lanes((float)u[3]), &sine, &cosine); /* the C library's have other bits on other processors */
+    lanes_turn(lanes((float)u[3]), &sine, &cosine); /* the C library's functions differ between processors */
     line.from[axis] = side ? high[axis] : low[axis];
     line.from[v] = low[v] + (high[v] - low[v]) * fmin(left / lines->face[axis], 1);
     line.from[w] = low[w] + (high[w] - low[w]) * u[1];
@@ -72,7 +72,7 @@ static Line line_of(const Lines *lines, size_t i)
     return line;
 }
 
-/* Eight places of a line, `apart` from each other. */
+/* Samples eight positions of a line, `apart` from each other. */
 static void look(const LineSearch *search, const Line *line, double from, double apart, LanePlace *p,
                  LaneSample *s)
 {
@@ -102,7 +102,7 @@ static void add(Found *found, const LanePlace *p, int lane)
     place[2] = p->z[lane];
 }
 
-/* A crossing lies between `from` and `from` + apart: a ninth of it in each round. */
+/* Refines a crossing between `from` and `from` + apart: by a factor of nine per round. */
 static void refine(const LineSearch *search, const Line *line, double from, double apart, bool inside,
                    Found *found)
 {
@@ -136,10 +136,10 @@ static bool note_value(Found *found, const LanePlace *p, const LaneSample *s, in
     return true;
 }
 
-/* What a line saw last. */
+/* The last sample of a line. */
 typedef struct Seen {
     bool inside;
-    double value, slope; /* 1/m of the value, along the line */
+    double value, slope; /* value's unit per m, along the line */
 } Seen;
 
 static Seen seen(const LineSearch *search, const Line *line, const LaneSample *s, int lane)
@@ -149,8 +149,8 @@ static Seen seen(const LineSearch *search, const Line *line, const LaneSample *s
                       (double)s->z[lane] * line->along[2]};
 }
 
-/* Whether the line may have gone to the other side and back: as its slopes go on, both ends come to the
- * level. */
+/* True if the line may have crossed the level and come back: extrapolated by their slopes, both ends reach
+   the level. */
 static bool may_graze(const LineSearch *search, const Seen *a, const Seen *b, double apart)
 {
     const double side = a->inside ? -1 : 1, level = side * search->level;
@@ -174,7 +174,7 @@ static void look_closer(const LineSearch *search, const Line *line, double from,
     }
 }
 
-/* How many of the field's steps a line is long, each axis with its own. */
+/* Length of a line in steps of the field, with each axis's own step. */
 static double steps_along(const LineSearch *search, const Line *line)
 {
     double square = 0;
@@ -219,7 +219,7 @@ static void follow_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* Appends what the ranges found, in their order, and sums it up. */
+/* Appends the results of the ranges, in order, and sums up the figures. */
 static bool gather(const Found *found, size_t ranges, Crossings *crossings, Found *all, Error *error)
 {
     size_t count = crossings->count;
@@ -265,7 +265,7 @@ static bool more_lines(Lines *lines, size_t count, Crossings *crossings, Found *
     return ok;
 }
 
-/* Why there is nothing. */
+/* The reason for an empty result. */
 static bool none(const LineSearch *search, const Found *all, size_t lines, Error *error)
 {
     const double level = search->level, slack = 1e-3 * (all->most - all->least);
@@ -316,7 +316,7 @@ static Lines lines_of(const LineSearch *search)
     return lines;
 }
 
-/* So that a line's places are not too many; no number of them where a field has no march is too many too. */
+/* Rejects fields whose lines would have too many positions; a march of 0 is rejected too. */
 static bool can_be_followed(const LineSearch *search, Error *error)
 {
     for (int k = 0; k < 3; k++) {
@@ -330,7 +330,7 @@ static bool can_be_followed(const LineSearch *search, Error *error)
     return true;
 }
 
-/* Some at a time: what is finely folded has enough crossings after a few. */
+/* In batches: a finely folded surface has enough crossings after a few lines. */
 static bool first_lines(Lines *lines, Crossings *crossings, Found *all, Error *error)
 {
     bool ok = true;
@@ -347,7 +347,7 @@ bool lines_cross(const LineSearch *search, Crossings *crossings, Error *error)
     if (!can_be_followed(search, error))
         return false;
     bool ok = first_lines(&lines, crossings, &all, error);
-    if (ok && crossings->count == 0 && all.flat == 0) /* a small thing in a large box */
+    if (ok && crossings->count == 0 && all.flat == 0) /* a small surface in a large box */
         ok = more_lines(&lines, 15 * FIRST_LINES, crossings, &all, error);
     if (ok && crossings->count > all.flat) {
         measure(&lines, crossings);

@@ -16,12 +16,12 @@ typedef struct NearWalk {
     Walkers walkers;
     Walk walk;
     int threads;
-    size_t steps; /* of each walker; its consecutive points are in different sets */
+    size_t steps; /* per walker; consecutive points belong to different sets */
 } NearWalk;
 
-/* ---- where walkers begin ---- */
+/* ---- starts of walkers ---- */
 
-/* Newton's method from a place near the level; a walker that finds none begins nowhere. */
+/* Moves eight walkers to the level by Newton's method; a walker without success gets NaN as position. */
 LANES_INLINE void seat_eight(const NearWalk *near, size_t w)
 {
     float *const *column = near->walkers.place;
@@ -60,7 +60,7 @@ static bool place_walkers(NearWalk *near, const SurfacePoint *seed, size_t seeds
     return true;
 }
 
-/* Points by area on the triangles, of a set of their own. */
+/* Places walkers at random points by area on the triangles. */
 static bool begin(NearWalk *near, const Polygons *polygons, size_t walkers, double area, Error *error)
 {
     SurfaceRequest request = *near->request;
@@ -111,9 +111,8 @@ static void walk_range(void *context, size_t begin_at, size_t end)
     near->request->field->kind->walk[lanes_wide()](&near->walk, begin_at * LANES, end * LANES);
 }
 
-/* Drops the points of walkers that began nowhere, and what rounding has made too many; how many walkers
- * began.
- */
+/* Drops points of walkers without a start, and surplus points from rounding up. Returns the number of
+   walkers with a start. */
 static size_t drop_points(const NearWalk *near, size_t seeds, size_t wanted, SurfacePoints *points)
 {
     SurfacePoint *point = points->point + points->count;
@@ -153,7 +152,8 @@ static bool walk_on(NearWalk *near, const Polygons *polygons, double area, Surfa
            error_set(error, "none of the field has the level %.6g near its triangles", request->level);
 }
 
-/* Fewer where steps are so short that points of one walker share a pixel of several sets: as sampling.c. */
+/* Number of steps per walker: fewer if steps are so short that points of a walker in several sets share a
+   pixel, as in sampling.c. */
 static size_t steps_of(const SurfaceRequest *request)
 {
     const double steps = fmin(fmax(request->sets, STEPS_LEAST), STEPS_MOST), apart = 3;

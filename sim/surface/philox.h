@@ -1,6 +1,6 @@
-/* Random numbers that are a function of a counter: no state, so threads and lanes need not agree on an order.
-   Philox 4x32 with ten rounds. After: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel random numbers: as
-   easy as 1, 2, 3", 2011. */
+/* Counter-based random numbers: no state, so threads and lanes need no common order. Philox 4x32 with ten
+   rounds. After: J. Salmon, M. Moraes, R. Dror, D. Shaw, "Parallel random numbers: as easy as 1, 2, 3",
+   2011. */
 #ifndef SLOSH_PHILOX_H
 #define SLOSH_PHILOX_H
 
@@ -8,7 +8,7 @@
 
 typedef uint32_t LaneWords __attribute__((vector_size(4 * LANES)));
 
-/* What a stream of counters is for: the fourth word of its counters, so that no two share numbers. */
+/* The use of a stream: fourth word of the counters, so that streams do not overlap. */
 typedef enum PhiloxUse { PHILOX_WALK, PHILOX_LINES, PHILOX_SPHERES, PHILOX_TRIANGLES } PhiloxUse;
 
 typedef struct PhiloxKey {
@@ -20,7 +20,7 @@ static inline PhiloxKey philox_key(uint64_t seed)
     return (PhiloxKey){{(uint32_t)seed, (uint32_t)(seed >> 32)}};
 }
 
-/* The four words of a counter; in place. */
+/* Replaces a counter by its four random words. */
 static inline void philox(PhiloxKey key, uint32_t word[4])
 {
     for (int round = 0; round < 10; round++) {
@@ -58,7 +58,7 @@ LANES_INLINE void philox_lanes(PhiloxKey key, LaneWords word[4])
     }
 }
 
-/* Uniform in 0 .. 1, neither of them a result: the upper 23 bits. */
+/* Uniform in 0 .. 1, both ends excluded: the upper 23 bits. */
 static inline float philox_uniform(uint32_t word)
 {
     return ((float)(word >> 9) + 0.5F) * 0x1p-23F;
@@ -69,8 +69,8 @@ LANES_INLINE Lanes philox_uniform_lanes(LaneWords word)
     return (lanes_number((LaneMask)(word >> 9)) + lanes(0.5F)) * lanes(0x1p-23F);
 }
 
-/* Three normal numbers of mean 0 and variance 1 a lane, of four words. After: G. Box, M. Muller, "A note on
-   the generation of random normal deviates", 1958. */
+/* Three normal numbers of mean 0 and variance 1 per lane, from four words. After: G. Box, M. Muller, "A
+   note on the generation of random normal deviates", 1958. */
 LANES_INLINE void philox_normal_lanes(const LaneWords word[4], Lanes normal[3])
 {
     Lanes sine, cosine;

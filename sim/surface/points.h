@@ -1,11 +1,11 @@
-/* Points on surfaces, as a sampler makes them and as a renderer draws them: an array of SurfacePoint goes
-   into a GL buffer as it is. In std430 it is struct SurfacePoint { float x, y, z; uint normal; uint surface;
-   float value; }; with a stride of 24 bytes (six scalars, no vec3: that would be padded to 32); as vertex
-   attributes 3 floats at 0, 2 normalised shorts (GL_SHORT) at 12, 1 unsigned integer at 16, 1 float at 20.
+/* Points on surfaces, from samplers to renderers: an array of SurfacePoint is copied to a GL buffer
+   unchanged. In std430 it is struct SurfacePoint { float x, y, z; uint normal; uint surface; float value;
+   }; with a stride of 24 bytes (six scalars, no vec3, which would be padded to 32). As vertex attributes: 3
+   floats at 0, 2 normalised shorts (GL_SHORT) at 12, 1 unsigned integer at 16, 1 float at 20.
 
-   Sets (L_R of Tanaka et al. 2012): point i belongs to set i mod sets. So any number of sets can be taken
-   from one array, neighbours in the array are in different sets, and a walk's consecutive points, which are
-   close to each other, stand next to each other in the array. */
+   Sets (L_R of Tanaka et al. 2012): point i belongs to set i mod sets. So an array can be split into any
+   number of sets, adjacent points are in different sets, and a walk's consecutive points, which are close
+   in space, are adjacent in the array. */
 #ifndef SLOSH_SURFACE_POINTS_H
 #define SLOSH_SURFACE_POINTS_H
 
@@ -18,22 +18,23 @@
 typedef struct SurfacePoint {
     float position[3]; /* m, the box's frame */
     uint32_t normal;   /* unit, packed by surface_normal_pack; towards greater values of the field */
-    uint32_t surface;  /* its index, as the caller of the sampler gave it */
-    float value; /* for colour by scalar, in the scalar's unit; the level where nothing else was asked for */
+    uint32_t surface;  /* index given by the sampler's caller */
+    float value;       /* scalar for colouring, in the scalar's unit; the level if no scalar is given */
 } SurfacePoint;
 
 _Static_assert(sizeof(SurfacePoint) == 24, "a SurfacePoint goes to a GL buffer as it is");
 
-/* Owns its memory. Zero-initialise it. */
+/* Owns its memory. Zero-initialise. */
 typedef struct SurfacePoints {
     size_t count, capacity;
     SurfacePoint *point; /* count */
 } SurfacePoints;
 
-/* Room for that many in all; what is there stays. False when memory is short: then nothing has changed. */
+/* Makes room for `capacity` points in total; keeps the contents. Returns false, with nothing changed, if
+   memory is short. */
 bool surface_points_reserve(SurfacePoints *points, size_t capacity, Error *error);
 
-void surface_points_free(SurfacePoints *points); /* a zeroed one is allowed */
+void surface_points_free(SurfacePoints *points); /* a zeroed struct is allowed */
 
 /* The unit vector on an octahedron, x / (|x| + |y| + |z|) with the lower half folded outwards, as two 16-bit
    signed normalised integers, x in the low half: GLSL's unpackSnorm2x16. After: Meyer et al., "On

@@ -1,13 +1,13 @@
-/* Volume data with the range of their values: what who reads a file hands over. */
+/* Volume data with the range of the values, as handed over by file readers. */
 #ifndef SLOSH_RANGED_VOLUME_H
 #define SLOSH_RANGED_VOLUME_H
 
 #include "sim/surface/volume_field.h"
 
-/* Constant; outlives all that reads it. */
+/* Constant; must outlive all readers. */
 typedef struct RangedVolume {
     VolumeData volume;
-    float low, high; /* the least and the greatest value that is a number; both 0: there is none */
+    float low, high; /* least and greatest finite value; both 0: none */
 } RangedVolume;
 
 #endif

@@ -15,11 +15,13 @@
 
 enum { ROUND = 16, A_RANGE = 256, WALKERS_LEAST = 4096, WALKERS_MOST = 1 << 20, STEPS_EACH = 16 };
 
-static const double closest = 1e-5;  /* of the surface's extent: what counts as on it */
-static const double rounding = 4e-7; /* of the coordinates: what floats can hold */
-static const double widest = 0.05;   /* of the extent: a step of what is small in its field */
-static const double differs = 0.05;  /* of n: then the area is nearer the truth than the spheres */
-static const double doubted = 0.1;   /* and this is no chance: it is said */
+static const double closest = 1e-5;  /* of the surface's extent: tolerance for points on the surface */
+static const double rounding = 4e-7; /* of the coordinates: precision of floats */
+static const double widest = 0.05;   /* of the extent: longest step for a surface that is small in its
+                                        field */
+static const double differs = 0.05;  /* of n: beyond this difference, the area is more accurate than the
+                                        spheres */
+static const double doubted = 0.1;   /* and beyond this difference, not by chance: the result notes it */
 
 /* ---- the walk ---- */
 
@@ -27,7 +29,7 @@ typedef struct Sampling {
     const SurfaceRequest *request;
     LineSearch search;
     Crossings crossings;
-    double expected; /* points, by the area */
+    double expected; /* points, from the area */
     Walkers walkers;
     Walk walk;
     Counting counting;
@@ -44,7 +46,7 @@ static double step_of(const Sampling *sampling)
     return request->step > 0 ? request->step : fmin(request->field->step, widest * extent);
 }
 
-/* A walker comes back to a pixel after k steps, s pixels each, with the chance 1 / (2 pi k s^2). */
+/* A walker returns to a pixel after k steps, s pixels each, with probability 1 / (2 pi k s^2). */
 static double steps_each(const SurfaceRequest *request, double step)
 {
     static const double FREE = 3;
@@ -62,8 +64,8 @@ static size_t walkers_for(const SurfaceRequest *request, double expected, double
     return ((size_t)wanted + LANES - 1) / LANES * LANES;
 }
 
-/* Each begins where a line crosses the surface; where there are too few such places, several on one of them.
- */
+/* Starts walkers at crossings of lines with the surface; with too few crossings, several walkers per
+   crossing. */
 static bool place_walkers(Walkers *walkers, const Crossings *crossings, size_t count, Error *error)
 {
     float *column = malloc(3 * count * sizeof *column);
@@ -120,7 +122,7 @@ static void run_steps(Sampling *sampling, size_t steps, SurfacePoint *out)
     sampling->walk.first += (uint32_t)steps;
 }
 
-/* The next steps, their points behind the `made` ones of this call, and in the counting spheres. */
+/* Runs the next steps; appends the points after the `made` points of the call and counts in the spheres. */
 static bool walk_some(Sampling *sampling, size_t steps, SurfacePoints *points, size_t made, Error *error)
 {
     const SurfaceDevice *device = sampling->request->device;
@@ -152,7 +154,8 @@ static bool burn_in(Sampling *sampling, Error *error)
     return ok;
 }
 
-/* How many steps of all walkers are still needed, at most a round; before there is a count, by the area. */
+/* Estimated number of steps still needed by all walkers, at most a round; from the area before the first
+   count. */
 static size_t steps_left(const Sampling *sampling, double wanted, double so_far, size_t done)
 {
     const double left = done == 0     ? sampling->expected / (double)sampling->walkers.count
@@ -170,7 +173,7 @@ static size_t taken(const Sampling *sampling)
     return sum;
 }
 
-/* The first `kept` of the walk's points, where the request wants them. */
+/* Keeps the first `kept` points of the walk at the request's destination. */
 static bool keep_points(const SurfaceRequest *request, size_t kept, SurfacePoints *points, Error *error)
 {
     const SurfaceDevice *device = request->device;
@@ -187,10 +190,10 @@ static bool keep_points(const SurfaceRequest *request, size_t kept, SurfacePoint
     return true;
 }
 
-/* n of `made` points. The spheres are wrong by factors where a surface is folded so finely that several
-   sheets are in one, or that those drawn are the ones with few points; and where walkers begin at the
-   spheres' own middles, since there are no more crossings. The area of the lines knows none of that, and is
-   right within some hundredths. */
+/* n of `made` points. The spheres are wrong by factors if a surface is folded so finely that a sphere holds
+   several sheets, or if the chosen spheres are those with few points, or if walkers begin at the centres of
+   spheres for lack of further crossings. The area from lines is independent of these errors, and accurate
+   to some hundredths. */
 static double count_in_circle(const Sampling *sampling, double great_circle, size_t made)
 {
     const double n = counting_mean(&sampling->counting);
@@ -214,7 +217,7 @@ static void note_walk(const Sampling *sampling, double great_circle, size_t made
                     100 * (double)result->stayed / (double)steps);
 }
 
-/* Rounds of steps, until the counting spheres hold enough or there are as many points as may be. */
+/* Rounds of steps, until the counting spheres hold enough points or the limit is reached. */
 static bool walk_on(Sampling *sampling, SurfacePoints *points, SurfaceResult *result, Error *error)
 {
     const SurfaceRequest *request = sampling->request;
@@ -307,7 +310,7 @@ static void colour_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* ---- all of it ---- */
+/* ---- sampling ---- */
 
 static const char *const names[] = {"walk", "triangles", NULL};
 

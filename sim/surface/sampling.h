@@ -1,23 +1,25 @@
 /* Points of uniform density on a level of a field, as many as an opacity needs.
 
-   SURFACE_WALK: many walkers in Brownian motion on the surface by a stochastic differential equation. After:
-   S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces and its application to fused
-   visualization", 2012, eq. 2, 3. They begin where straight lines of all directions cross the surface, so
-   they are uniform from the start and reach every part of it that such lines find. Counting spheres end it.
-   SURFACE_TRIANGLES: points on triangles by marching cubes, each triangle drawn by chance, by its area:
-   faster and less exact.
+   SURFACE_WALK: many walkers in Brownian motion on the surface by a stochastic differential equation.
+   After: S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces and its application
+   to fused visualization", 2012, eq. 2, 3. Walkers begin at crossings of the surface with straight lines of
+   all directions, so starts are uniform and on every part of the surface found by such lines. Counting
+   spheres determine the end.
 
-   The points depend on the request alone: not on the number of threads, nor on the processor. */
+   SURFACE_TRIANGLES: points on triangles from marching cubes, with a random triangle by area for each
+   point: faster and less exact.
+
+   The points depend on the request alone, neither on the number of threads nor on the processor. */
 #ifndef SLOSH_SURFACE_SAMPLING_H
 #define SLOSH_SURFACE_SAMPLING_H
 
 #include "sim/surface/points.h"
 #include "sim/surface/request.h"
 
-/* Appends to `points`, which keep their capacity from call to call. False, with the points as they were, when
-   the level is empty, out of the field's range, touched but never crossed, without a gradient, or the field
-   is no number; when the request makes no sense; or when memory is short. A density that was not reached is
-   no error: `result` has it, and `lack` says why. */
+/* Appends to `points`, whose capacity is kept between calls. Returns false, with the points unchanged, if
+   the level is empty, out of the field's range, touched but never crossed or without a gradient; if the
+   field is not finite, the request invalid, or memory short. A density not reached is no error: see
+   `result` and `lack`. */
 bool surface_sample(const SurfaceRequest *request, SurfacePoints *points, SurfaceResult *result,
                     Error *error);
 

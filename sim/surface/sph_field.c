@@ -7,24 +7,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double cells_most = 0x1p24; /* larger cells where particles are spread wider */
-static const double step = 0.15;         /* of h: 30 % of the particles' spacing, h / 2 */
+static const double cells_most = 0x1p24; /* larger cells for widely spread particles */
+static const double step = 0.15;         /* of h: 30 % of the particle spacing, h / 2 */
 
 static const float FLUID_LEAST = 0.5F; /* F at the fluid's surface */
 
 struct SphField {
     size_t count, room;
-    float *column[5]; /* x, y, z (m), V (m3), V s, by cell, `room` apart; readable for LANES - 1 entries past
-                         the last */
-    double low[3], high[3], cell, support; /* m: of the particles; at least the support */
+    float *column[5]; /* x, y, z (m), V (m3), V s, by cell, with stride `room`; readable for LANES - 1
+                         entries past the last */
+    double low[3], high[3], cell, support; /* m: bounds of the particles; cell size, at least the support */
     int size[3];                           /* cells, from low on */
-    uint32_t *begin;                       /* of each cell among the particles; and their end */
+    uint32_t *begin;                       /* first particle of each cell; the last entry is the end */
 };
 
-/* ---- sums about one place ---- */
+/* ---- sums about a position ---- */
 
-/* Of V W with W = C t^3, t = 1 - r^2 / h^2, lane by lane; powers of t with the factors that derivatives have
-   in common left out: grad = -6 C / h^2 t^2 x, H = -6 C / h^2 (t^2 - 4 t x x / h^2). */
+/* Sums of V W with W = C t^3, t = 1 - r^2 / h^2, per lane. Powers of t, without the common factors of
+   derivatives: grad = -6 C / h^2 t^2 x, H = -6 C / h^2 (t^2 - 4 t x x / h^2). */
 typedef struct SphSum {
     Lanes value, squares, slope[3], straight[3], across[3]; /* t^3; t^2; t^2 x; t x x; t x y, t y z, t z x */
 } SphSum;
@@ -60,7 +60,7 @@ static int cell_along(const SphField *sph, int axis, double x)
     return at > -1 ? at < sph->size[axis] + 1 ? (int)floor(at) : sph->size[axis] + 1 : -2;
 }
 
-/* The particles in up to three cells side by side along x, which stand in a row. */
+/* The particles in up to three adjacent cells along x, which are contiguous. */
 LANES_INLINE void add_row(const SphField *sph, const float *weight, const int from[3], const int to[3], int y,
                           int z, const float p[3], SphSum *sum)
 {
@@ -91,7 +91,7 @@ LANES_INLINE float total(Lanes a)
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
 
-/* Sums at eight places, with the factors: value, slope, and of the matrix of second derivatives. */
+/* Sums at eight positions, with factors: value, slope, second derivatives. */
 typedef struct SphLanes {
     LaneSample s;
     Lanes straight[3], across[3];
@@ -163,7 +163,7 @@ LANES_INLINE void sph_inside_at(const LevelField *field, const LanePlace *p, Lan
     out->z = lanes_select(inside, out->z, none);
 }
 
-/* For shaders/surface/sph_sum.glsl. */
+/* Data for shaders/surface/sph_sum.glsl. */
 static void sph_parts(const LevelField *field, LevelParts *out)
 {
     const SphField *sph = field->own;
@@ -188,7 +188,7 @@ LEVEL_KIND_OF(sph, sph_parts)
 LEVEL_KIND_OF(sph_scalar, sph_parts)
 LEVEL_KIND(sph_inside)
 
-/* ---- the particles by cell ---- */
+/* ---- particles by cell ---- */
 
 static bool counts(const FieldParticles *particles, size_t i)
 {
@@ -222,7 +222,7 @@ static size_t set_cells(SphField *sph)
     return (size_t)cells;
 }
 
-/* A counting sort, in the particles' order within a cell. */
+/* Counting sort that keeps the particles' order within a cell. */
 static void sort(SphField *sph, size_t cells, const FieldParticles *particles)
 {
     size_t total_so_far = 0;

@@ -14,17 +14,16 @@
 enum { A_RANGE = 4096 };
 
 static const double values_most = 0x1p28;   /* 1 GB */
-static const double enlarged_most = 8;      /* a formula still has four cells in its width */
-static const double vertices_most = 0x1p24; /* 3 GB, with their triangles */
+static const double enlarged_most = 8;      /* a formula still has four cells per width */
+static const double vertices_most = 0x1p24; /* 3 GB, with triangles */
 
-/* The field at points of a grid: one layer more on each side than the bounds need, since the mesh is closed
- * there. */
+/* The field on a grid with an extra layer beyond the bounds on each side, since the mesh is closed there. */
 typedef struct Grid {
     const LineSearch *search;
     int size[3];     /* points */
     double cell[3];  /* m: point i at low + (i - 1) cell */
-    double enlarged; /* so many times the cells that the field asks for */
-    size_t vertices; /* of its mesh, but for what closes it */
+    double enlarged; /* factor on the cells requested by the field */
+    size_t vertices; /* of the mesh, without the closing part */
     float *value;
 } Grid;
 
@@ -34,7 +33,7 @@ typedef struct Triangles {
     uint32_t (*corner)[3];
     float (*place)[3], (*normal)[3]; /* m; unit, of the vertices */
     double *area;                    /* m2 */
-    float *own; /* how probable a triangle is where it was drawn; else its other is meant */
+    float *own; /* alias table: probability to keep the drawn triangle; otherwise take `other` */
     uint32_t *other;
 } Triangles;
 
@@ -62,7 +61,7 @@ static void fill_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* Cells of about so many times what was asked for, or of the field's march; how many values they have. */
+/* A grid with about `times` the requested cells or the field's march. Returns the number of values. */
 static double size_grid(const SurfaceRequest *request, double times, int size[3], double cell[3])
 {
     double low[3], high[3], values = 1;
@@ -84,7 +83,7 @@ double triangles_grid(const SurfaceRequest *request, double times, int size[3], 
     return times;
 }
 
-/* Cells at least as large as they are said to be. */
+/* Fills the grid, with cells at least `enlarged` times as large. */
 static bool fill_grid(Grid *grid, const SurfaceRequest *request, Error *error)
 {
     grid->enlarged = triangles_grid(request, grid->enlarged, grid->size, grid->cell);
@@ -106,7 +105,7 @@ static bool fill_grid(Grid *grid, const SurfaceRequest *request, Error *error)
     return true;
 }
 
-/* Edges from the values of some rows that cross the level: each is a vertex. */
+/* Counts edges of the grid across the level from values of some rows: each is a vertex. */
 static void count_rows(void *context, size_t begin, size_t end)
 {
     Grid *grid = context;
@@ -123,10 +122,11 @@ static void count_rows(void *context, size_t begin, size_t end)
             found += next_z && (v[i + width * height] >= level) != inside;
         }
     }
-    __atomic_fetch_add(&grid->vertices, found, __ATOMIC_RELAXED); /* whole numbers: in any order */
+    __atomic_fetch_add(&grid->vertices, found, __ATOMIC_RELAXED); /* integers: independent of order */
 }
 
-/* Until the mesh fits too: its vertices are as many as cells that the surface goes through. */
+/* Enlarges cells until the mesh fits too: the number of vertices follows the number of cells on the
+   surface. */
 static bool grid_fill(Grid *grid, const SurfaceRequest *request, Error *error)
 {
     grid->enlarged = 1;
@@ -182,7 +182,7 @@ static double area_of(const Triangles *t, const uint32_t corner[3])
     return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
 }
 
-/* Places and normals; whether a vertex is inside the bounds and not on what closes the mesh there. */
+/* Sets positions and normals; inside[i]: 1 if vertex i is within the bounds and not on the closing part. */
 static void set_vertices(const Grid *grid, const IsoMesh *mesh, Triangles *t, uint8_t *inside)
 {
     for (size_t i = 0; i < mesh->vertex_count; i++) {
@@ -236,14 +236,14 @@ static void triangles_free(Triangles *t)
     free(t->other);
 }
 
-/* ---- which triangle ---- */
+/* ---- drawing a triangle ---- */
 
-/* So that one number and one comparison draw a triangle in proportion to its area. After: M. Vose, "A linear
-   algorithm for generating random numbers with a given distribution", 1991. Uses `area` up. */
+/* Builds an alias table to draw triangles by area with a number and a comparison. After: M. Vose, "A linear
+   algorithm for generating random numbers with a given distribution", 1991. Destroys `area`. */
 static bool make_alias(Triangles *t, double sum, Error *error)
 {
     uint32_t *stack = malloc((t->count + 1) * sizeof *stack);
-    size_t small = 0, large = t->count; /* the small from below, the large from above */
+    size_t small = 0, large = t->count; /* small entries from below, large entries from above */
     if (!stack)
         return error_set(error, "no memory for points on %zu triangles", t->count);
     for (size_t i = 0; i < t->count; i++) {
@@ -277,7 +277,8 @@ typedef struct Scatter {
     SurfacePoint *point;
 } Scatter;
 
-/* Anywhere on a triangle. After: G. Turk, "Generating random points in triangles", Graphics Gems, 1990. */
+/* A uniform point on a triangle. After: G. Turk, "Generating random points in triangles", Graphics Gems,
+   1990. */
 static SurfacePoint point_on(const Scatter *scatter, uint32_t triangle, float u, float v)
 {
     const Triangles *t = scatter->triangles;
@@ -294,7 +295,7 @@ static SurfacePoint point_on(const Scatter *scatter, uint32_t triangle, float u,
     return point;
 }
 
-/* The i-th point; its numbers are those of counter {i, i / 2^32, 0, PHILOX_TRIANGLES}. */
+/* The i-th point; its random numbers have the counter {i, i / 2^32, 0, PHILOX_TRIANGLES}. */
 static void scatter_range(void *context, size_t begin, size_t end)
 {
     const Scatter *scatter = context;
@@ -315,7 +316,7 @@ static bool scatter_points(const SurfaceRequest *request, const LineSearch *sear
     const double wanted = rint(request->density * request->sets * area);
     const size_t count = (size_t)fmin(wanted, (double)request_points_most(request));
     *result = (SurfaceResult){.area = area};
-    if (count == 0) /* so thin that chance gives none */
+    if (count == 0) /* so thin that rounding gives none */
         return true;
     if (!surface_points_reserve(points, points->count + count, error))
         return false;
@@ -366,9 +367,9 @@ bool triangles_sample(const SurfaceRequest *request, const LineSearch *search, S
     return ok;
 }
 
-/* ---- a mesh that is there ---- */
+/* ---- an existing mesh ---- */
 
-/* The triangles of a mesh; what they have in common with those of a field is lent, not copied. */
+/* Borrows the arrays of a mesh and computes the areas. Returns the total area, m2. */
 static double take_polygons(Triangles *t, const Polygons *polygons)
 {
     double sum = 0;

@@ -6,7 +6,7 @@
 
 static const double paper = 0.3; /* of a cell: sqrt(2 dt), Tanaka et al. 2012, section 4 */
 
-/* Where a place is along an axis: the value before it, and how far it is beyond that, in cells. */
+/* A position along an axis: index of the value before, and distance beyond, in cells. */
 typedef struct Between {
     LaneMask first; /* 0 .. size - 2 */
     Lanes part, inverse;
@@ -32,7 +32,7 @@ LANES_INLINE Lanes mixed(Lanes a, Lanes b, Lanes part)
     return a + part * (b - a);
 }
 
-/* The eight values round each place: [x + 2 y + 4 z]. */
+/* The eight values around each position: [x + 2 y + 4 z]. */
 LANES_INLINE void corners(const VolumeData *volume, const Between at[3], Lanes value[8])
 {
     const size_t row = (size_t)volume->size[0], slice = row * (size_t)volume->size[1];
@@ -73,7 +73,7 @@ LANES_INLINE void trilinear_at(const LevelField *field, const LanePlace *p, Lane
     out->bend = lane_bend(out, straight, across);
 }
 
-/* Weights of the four values about a place, of their slope and of the slope's, per cell. */
+/* Weights of the four values around a position, for value, slope and second derivative, per cell. */
 typedef struct Spline {
     Lanes value[4], slope[4], bend[4];
 } Spline;
@@ -95,7 +95,7 @@ LANES_INLINE int held(int i, int size)
     return i < 0 ? 0 : i < size ? i : size - 1;
 }
 
-/* Four values along x, of each lane in a row of its own; y and z from the value before the one before. */
+/* Four values along x per lane; y and z count from two values before. */
 LANES_INLINE void row_of(const VolumeData *volume, const Between at[3], int y, int z, Lanes value[4])
 {
     for (int lane = 0; lane < LANES; lane++) {
@@ -114,7 +114,7 @@ LANES_INLINE Lanes weighed(const Lanes weight[4], const Lanes value[4])
     return (weight[0] * value[0] + weight[1] * value[1]) + (weight[2] * value[2] + weight[3] * value[3]);
 }
 
-/* What a slice's rows add up to: letters say along which axes it is a slope. */
+/* Sums over a slice's rows: letters name the axes of derivatives. */
 typedef struct Slice {
     Lanes none, x, y, xx, xy, yy;
 } Slice;
@@ -159,7 +159,7 @@ LANES_INLINE void catmull_rom_at(const LevelField *field, const LanePlace *p, La
     out->bend = lane_bend(out, straight, across);
 }
 
-/* For shaders/surface/grid.glsl. */
+/* Data for shaders/surface/grid.glsl. */
 static void grid_parts(const LevelField *field, LevelParts *out)
 {
     const VolumeData *volume = field->own;

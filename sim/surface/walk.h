@@ -1,11 +1,10 @@
-/* Walkers on a surface, eight at a time, for fields to be inlined into. After: S. Tanaka et al.,
-   "Particle-based transparent rendering of implicit surfaces and its application to fused visualization",
-   2012, section 4.
+/* Walkers on a surface, eight at a time; fields are inlined. After: S. Tanaka et al., "Particle-based
+   transparent rendering of implicit surfaces and its application to fused visualization", 2012, section 4.
 
-   A step: tangential noise and curvature drift (eq. 3), Newton's correction back to the level, bisection
-   along the normal where that fails. A step that finds no way back, or ends beyond the bounds or farther than
-   `reach`, is not taken: the walker stays for that step, and its place counts once more. Since a step there
-   is as probable as the step back, what stays uniform inside does so up to the edge. */
+   A step: tangential noise and curvature drift (eq. 3), Newton's correction back to the level, and
+   bisection along the normal if Newton fails. A step without a way back, beyond the bounds or further than
+   `reach` is rejected: the walker stays, and its position counts again. A step and its reverse are equally
+   probable, so the density stays uniform up to the edge. */
 #ifndef SLOSH_SURFACE_WALK_H
 #define SLOSH_SURFACE_WALK_H
 
@@ -15,26 +14,26 @@
 
 #include <stdbool.h>
 
-/* Many of them, as columns: walkers w of a multiple of LANES. */
+/* Walkers as columns; their number is a multiple of LANES. */
 typedef struct Walkers {
     size_t count;
-    float *place[3]; /* m: each on the surface */
-    uint32_t *taken; /* steps that a walker took */
+    float *place[3]; /* m: on the surface */
+    uint32_t *taken; /* accepted steps per walker */
 } Walkers;
 
-/* The same steps of all walkers. */
+/* The same steps for all walkers. */
 struct Walk {
     const LevelField *field;
     const Walkers *walkers;
     float level;
-    float low[3], high[3]; /* m: no step leaves these */
+    float low[3], high[3]; /* m: bounds of all steps */
     float step;            /* sqrt(2 dt), m */
-    float close;           /* m: what counts as on the surface */
-    float reach;           /* m: the farthest that one step may lead */
-    bool no_bisection; /* a step that Newton's method brings nowhere is not taken: for fields that are dear */
+    float close;           /* m: tolerance for points on the surface */
+    float reach;           /* m: greatest length of a step */
+    bool no_bisection;     /* rejects a step if Newton's method fails: for costly fields */
     PhiloxKey key;
-    uint32_t first, count; /* steps, counted from the walk's beginning */
-    SurfacePoint *out;     /* walker w after its k-th step: [w count + k]; NULL: nothing is written */
+    uint32_t first, count; /* steps, counted from the start of the walk */
+    SurfacePoint *out;     /* walker w after its k-th step: [w count + k]; NULL: no output */
     uint32_t surface;      /* for `out` */
 };
 
@@ -54,8 +53,8 @@ LANES_INLINE Lanes lane_bend(const LaneSample *s, const Lanes straight[3], const
     return straight[0] + straight[1] + straight[2] - along / lane_square(s);
 }
 
-/* Lanes whose place is on the level: |f - c| <= close |grad f|, to first order the distance. A zero gradient
-   or what is no number is not. */
+/* Lanes with a position on the level: |f - c| <= close |grad f|, to first order the distance. False for a
+   zero gradient or NaN. */
 LANES_INLINE LaneMask lane_on_level(const Walk *walk, const LaneSample *s)
 {
     const Lanes miss = s->value - lanes(walk->level), square = lane_square(s);
@@ -67,7 +66,7 @@ LANES_INLINE LanePlace lane_along(const LanePlace *from, const LaneSample *s, La
     return (LanePlace){from->x + by * s->x, from->y + by * s->y, from->z + by * s->z};
 }
 
-/* Newton's method along the gradient; the lanes that are on the level in the end. */
+/* Newton's method along the gradient. Returns the lanes that reached the level. */
 LANES_INLINE LaneMask lane_newton(const Walk *walk, LaneField at, LanePlace *place, LaneSample *s)
 {
     at(walk->field, place, s);
@@ -81,8 +80,8 @@ LANES_INLINE LaneMask lane_newton(const Walk *walk, LaneField at, LanePlace *pla
     return done;
 }
 
-/* The level on the normal of `from` through `place`, between -reach and reach; lanes without one are not on
- * it. */
+/* Finds the level on the normal of `from` through `place`, between -reach and reach; lanes without the
+   level end off the level. */
 LANES_INLINE void lane_bisect(const Walk *walk, LaneField at, const LaneSample *from, const LanePlace *place,
                               LanePlace *found, LaneSample *s)
 {
@@ -138,7 +137,7 @@ LANES_INLINE void lane_keep(LaneMask taken, const LanePlace *to, const LaneSampl
     s->bend = lanes_select(taken, there->bend, s->bend);
 }
 
-/* One step of eight walkers; the lanes that took it. */
+/* A step of eight walkers. Returns the lanes with an accepted step. */
 LANES_INLINE LaneMask lane_step(const Walk *walk, LaneField at, const Lanes normal[3], LanePlace *p,
                                 LaneSample *s)
 {
@@ -159,7 +158,7 @@ LANES_INLINE LaneMask lane_step(const Walk *walk, LaneField at, const Lanes norm
     return taken | found;
 }
 
-/* As surface_normal_pack. */
+/* Same packing as surface_normal_pack. */
 LANES_INLINE LaneMask lane_pack(const LaneSample *s)
 {
     const Lanes one = lanes(1), scale = one / (lanes_abs(s->x) + lanes_abs(s->y) + lanes_abs(s->z));
@@ -194,7 +193,7 @@ LANES_INLINE void lanes_to(float *p, Lanes a)
     __builtin_memcpy(p, &a, sizeof a);
 }
 
-/* The steps of eight walkers; their numbers are those of counter {walker, step, 0, PHILOX_WALK}. */
+/* Steps of eight walkers, with random numbers of counter {walker, step, 0, PHILOX_WALK}. */
 LANES_INLINE void walk_eight(const Walk *walk, size_t w, LaneField at)
 {
     const Walkers *all = walk->walkers;
@@ -223,14 +222,14 @@ LANES_INLINE void walk_eight(const Walk *walk, size_t w, LaneField at)
         all->taken[w + (size_t)lane] += (uint32_t)taken[lane];
 }
 
-/* For walkers begin .. end, multiples of LANES. */
+/* Walkers begin .. end - 1; begin and end are multiples of LANES. */
 LANES_INLINE void walk_lanes(const Walk *walk, size_t begin, size_t end, LaneField at)
 {
     for (size_t w = begin; w < end; w += LANES)
         walk_eight(walk, w, at);
 }
 
-/* NAME_kind, of a field NAME_at, which is LANES_INLINE; of which a shader reads what PARTS says. */
+/* Defines NAME_kind from the field NAME_at, a LANES_INLINE function; PARTS gives the data for its shader. */
 #define LEVEL_KIND(NAME) LEVEL_KIND_OF(NAME, NULL)
 #define LEVEL_KIND_OF(NAME, PARTS)                                                                           \
     static void NAME##_narrow(const LevelField *field, const LanePlace *place, LaneSample *out)              \
