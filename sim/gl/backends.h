@@ -1,4 +1,4 @@
-/* The backends that need GL. */
+/* Backends that need GL. */
 #ifndef SLOSH_BACKENDS_H
 #define SLOSH_BACKENDS_H
 
@@ -9,19 +9,19 @@ struct Backend; /* sim/world/backend.h */
 
 extern const struct Backend backend_compute, backend_fragment;
 
-/* The settings of fragment's grid, whose layers hold four particles a cell each. */
+/* Settings of fragment's grid, whose layers hold four particles per cell. */
 typedef struct IN_A_ROOM FragmentDef {
     int grid_layers; /* 0: as many as a lattice needs */
-    int lost_limit;  /* so many particles may find no place in the grid in a step */
+    int lost_limit;  /* most particles without a place in the grid, per step */
 } FragmentDef;
 
-/* Of fragment's grid, for a world of this def. */
+/* Layers of fragment's grid for a world of the def. */
 int fragment_layers(const WorldDef *def);
 
-/* Its own settings in a def. */
+/* The settings of backend fragment in a def. */
 FragmentDef *fragment_def(const WorldDef *def);
 
-/* Adds them to the list of sim/world/backend.h; before any scene is read. */
+/* Adds the GL backends to the list of sim/world/backend.h; call before any scene is read. */
 void backends_add(void);
 
 #endif

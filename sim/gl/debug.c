@@ -5,18 +5,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The driver calls back from threads of its own. */
+/* The driver calls back from its threads. */
 static atomic_int error_count;
 static atomic_bool asks_for_memory;
-static int forgotten; /* counted before the last gl_debug_install */
+static int forgotten; /* errors before the last gl_debug_install */
 
-enum { MESSAGES = 8 }; /* of the same kind in each picture, mostly */
+enum { MESSAGES = 8 }; /* printed messages; each picture mostly repeats the same kind */
 
 static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                        const GLchar *message, const void *user)
 {
     (void)id, (void)severity, (void)length, (void)user;
-    /* program_create reports what the shader compiler says */
+    /* program_create reports messages of the shader compiler */
     if (type != GL_DEBUG_TYPE_ERROR || source == GL_DEBUG_SOURCE_SHADER_COMPILER)
         return;
     if (atomic_load(&asks_for_memory) && strstr(message, "OUT_OF_MEMORY"))
@@ -25,7 +25,7 @@ static void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, G
         fprintf(stderr, "GL error: %s\n", message);
 }
 
-/* Where the driver sends no messages the codes still tell. Returns what is counted now. */
+/* Raises the count to at least `codes`, for drivers without messages. Returns the new count. */
 static int count_at_least(int codes)
 {
     const int messages = atomic_load(&error_count);
@@ -36,7 +36,7 @@ static int count_at_least(int codes)
 
 int gl_errors_take(unsigned code)
 {
-    enum { MOST = 32 }; /* without a context, or with one that was lost, there is always another */
+    enum { MOST = 32 }; /* without a context, or with a lost context, glGetError never ends */
     int found = 0, others = 0;
     for (int k = 0; k < MOST; k++) {
         const GLenum next = glGetError();

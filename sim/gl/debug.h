@@ -1,5 +1,5 @@
-/* What the GL driver complains about: errors are counted and printed, so that tests can ask for none.
-   Messages of the shader compiler do not count: program_create hands them to its caller. */
+/* Errors of the GL driver: counted and printed, so that tests can require zero errors. Messages of the
+   shader compiler do not count: program_create returns them to its caller. */
 #ifndef SLOSH_GL_DEBUG_H
 #define SLOSH_GL_DEBUG_H
 
@@ -8,17 +8,17 @@
 /* Listens to the current context from now on. */
 void gl_debug_install(void);
 
-/* Takes what is pending of glGetError's codes; returns how many were `code`, or of any kind for 0: the caller
-   sees to these. The others are errors as if nobody had asked. */
+/* Takes pending glGetError codes. Returns the number of codes equal to `code`, or of all codes if `code` is
+   0, for the caller to handle. The rest count as errors. */
 int gl_errors_take(unsigned code);
 
-/* While `asks`, what there is no memory for is no error: who asks for a buffer looks at glGetError. */
+/* While `asks` is true, out-of-memory is no error: callers that allocate buffers check glGetError. */
 void gl_debug_asks_for_memory(bool asks);
 
-/* Errors since gl_debug_install, of all contexts; takes pending glGetError codes of the current one along. */
+/* Errors of all contexts since gl_debug_install, with pending glGetError codes of the current context. */
 int gl_debug_errors(void);
 
-/* Errors of all contexts since the program began, none forgotten; needs no context. */
+/* Errors of all contexts since program start; needs no context. */
 int gl_debug_total(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Floats as the passes hand them back: as bits. */
+/* A float from the bits written by passes. */
 #ifndef SLOSH_FLOAT_BITS_H
 #define SLOSH_FLOAT_BITS_H
 

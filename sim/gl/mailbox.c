@@ -34,7 +34,7 @@ void mailbox_send(Mailbox *mailbox)
     mailbox->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
-/* It has arrived, or never will. */
+/* Opens the mailbox after arrival or failure. */
 static const void *open(Mailbox *mailbox, GLenum arrived)
 {
     mailbox_forget(mailbox);

@@ -27,7 +27,7 @@ static uint32_t word_of(const void *array, ColumnType here, ColumnType there, si
     if (here == COLUMN_BYTE)
         word = ((const uint8_t *)array)[i];
     else if (here == COLUMN_INDEX)
-        word = (uint32_t)((const ParticleId *)array)[i]; /* before PARTICLE_IDS_GPU */
+        word = (uint32_t)((const ParticleId *)array)[i]; /* below PARTICLE_IDS_GPU */
     else
         memcpy(&word, (const char *)array + 4 * i, sizeof word);
     if (here != COLUMN_FLOAT && there == COLUMN_FLOAT) {
@@ -52,7 +52,7 @@ static void put_word(uint32_t word, ColumnType there, ColumnType here, void *arr
         memcpy((char *)array + 4 * i, &word, sizeof word);
 }
 
-/* A component of a column in the buffer, for either way. */
+/* A component of a column in the buffer, for both directions. */
 typedef struct PackedPart {
     const PackedColumn *packed;
     ColumnType type;
@@ -60,7 +60,7 @@ typedef struct PackedPart {
     int word;
 } PackedPart;
 
-/* Those of the columns that are there; how many. */
+/* Lists the components of present columns in `buffer`; returns their number. */
 static int parts_of(const Packing *packing, int buffer, const Method *method, ParticleColumns columns,
                     PackedPart parts[PACKED_WORDS])
 {

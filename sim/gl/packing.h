@@ -1,5 +1,5 @@
-/* Where the buffers or textures of a GPU backend have the columns of sim/world/column.h, packed, and the way
-   between the two: for initial states, snapshots and reports, never within a frame. */
+/* Layout of the columns of sim/world/column.h in the packed buffers or textures of a GPU backend, with
+   conversion both ways: for initial states, snapshots and reports, never within a frame. */
 #ifndef SLOSH_GL_PACKING_H
 #define SLOSH_GL_PACKING_H
 
@@ -9,25 +9,25 @@ struct Method; /* sim/world/method.h */
 
 enum { PACKED_WORDS = 4, PACKED_BUFFERS = 4, PACKED_COLUMNS = 8 };
 
-/* A column, in one of the backend's buffers. A word has 4 bytes. */
+/* A column in a buffer of the backend. A word has 4 bytes. */
 typedef struct PackedColumn {
     int buffer;      /* counts from 1 */
-    int word;        /* its first component's place in an entry */
-    size_t at;       /* of that component in ParticleColumns */
-    ColumnType type; /* there, COLUMN_FLOAT or COLUMN_INDEX, whatever it is here */
+    int word;        /* first component's index in an entry */
+    size_t at;       /* offset of the first component in ParticleColumns */
+    ColumnType type; /* type in the buffer, COLUMN_FLOAT or COLUMN_INDEX, for any type in the column */
 } PackedColumn;
 
-/* A backend's table. Columns that a method has not stay 0, and the method's own are not in it. */
+/* A backend's table, without the method's columns. Columns missing in a method stay 0. */
 typedef struct Packing {
-    int words[PACKED_BUFFERS + 1];           /* of an entry of each buffer, by its number */
+    int words[PACKED_BUFFERS + 1];           /* words per entry of each buffer, by number */
     PackedColumn column[PACKED_COLUMNS + 1]; /* ended by a buffer 0 */
 } Packing;
 
-/* The method's columns that a table has. */
+/* Columns of the method that a table has. */
 ColumnRows packing_rows(const Packing *packing, const struct Method *method);
 
-/* Fills the entries of a buffer with the columns that it has, and the other way round: particle i is entry i,
-   or place[i]. Columns that are NULL are left out. */
+/* Packs columns into a buffer's entries, or unpacks: particle i is entry i, or place[i]. NULL columns are
+   skipped. */
 void packing_pack(const Packing *packing, int buffer, const struct Method *method,
                   const ParticleColumns *from, size_t count, const ParticleId *place, uint32_t *entries);
 void packing_unpack(const Packing *packing, int buffer, const struct Method *method, const uint32_t *entries,

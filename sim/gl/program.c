@@ -39,7 +39,7 @@ static bool attach(GLuint program, const char *path, const char *defines, Error 
     }
     shader_source_free(&source);
     glObjectLabel(GL_SHADER, shader, -1, path);
-    glDeleteShader(shader); /* lives on as long as the program */
+    glDeleteShader(shader); /* lives as long as the program */
     return done;
 }
 
@@ -58,7 +58,7 @@ unsigned program_begin(const char *label, const char *const stages[], const char
     return 0;
 }
 
-/* With the names of files, which are read again. */
+/* Reports a log with file names, reading the files again. */
 static bool say_log(const char *log, const char *label, const char *path, const char *defines, Error *error)
 {
     char named[LOG_MAX];
@@ -103,7 +103,7 @@ bool program_finish(unsigned program, const char *label, const char *const stage
     char log[LOG_MAX], before[160];
     glGetProgramInfoLog(program, sizeof log, NULL, log);
     snprintf(before, sizeof before, "%s: the program does not link: ", label);
-    if (!stages[1]) /* places are in this one's text */
+    if (!stages[1]) /* line numbers refer to the only stage */
         return say_log(log, before, stages[0], defines, error);
     return error_set(error, "%s%s", before, log);
 }

@@ -28,7 +28,7 @@ static bool append(ShaderSource *source, const char *text, size_t size)
     return true;
 }
 
-/* The file stands in the line too: Mesa 22 forgets the file's number in some messages. */
+/* The line number also encodes the file: Mesa 22 drops the file's number in some messages. */
 enum { LINES_MAX = 100000 };
 
 static bool append_line_mark(ShaderSource *source, int line, int file)
@@ -114,21 +114,21 @@ static bool already_has(const ShaderSource *source, const char *path)
 
 static bool append_file(ShaderSource *source, const char *path, const char *from, Error *error);
 
-/* Behind these a compiler that has left lines out, marks among them, does not know where it is. */
+/* After these lines a compiler that skipped lines, including marks, has a wrong line number. */
 static bool ends_group(const char *line)
 {
     line += strspn(line, " \t");
     return strncmp(line, "#endif", 6) == 0 || strncmp(line, "#el", 3) == 0;
 }
 
-/* Headers that C includes too are named from the root of the tree, as C names them. */
+/* Headers shared with C have paths from the root of the tree, as in C. */
 static const char *below_shaders(const char *path)
 {
     static const char folder[] = "shaders/";
     return path + (strncmp(path, folder, sizeof folder - 1) == 0 ? sizeof folder - 1 : 0);
 }
 
-/* The path that `#include NAME` means; none where no line `#define NAME path` stands before. */
+/* The path for `#include NAME`, from an earlier line `#define NAME path`; empty if there is no such line. */
 static bool named_path(const ShaderSource *source, const char *line, char path[SHADER_PATH_MAX])
 {
     char name[SHADER_PATH_MAX], wanted[SHADER_PATH_MAX + 16];
@@ -142,7 +142,7 @@ static bool named_path(const ShaderSource *source, const char *line, char path[S
     return true;
 }
 
-/* A line that is no include is copied. */
+/* Copies a line, or pastes an included file. */
 static bool append_source_line(ShaderSource *source, const char *line, size_t size, int file, int number,
                                Error *error)
 {
@@ -196,7 +196,7 @@ static bool ends_in(const char *path, const char *ending)
     return dot && strcmp(dot, ending) == 0;
 }
 
-/* The backend fragment keeps to GLSL 3.30: the compiler proves it. */
+/* The backend fragment uses GLSL 3.30, checked by the compiler. */
 static const char *version_of(const char *path)
 {
     const bool drawn = ends_in(path, ".vert") || ends_in(path, ".geom") || ends_in(path, ".frag");
@@ -218,8 +218,8 @@ void shader_source_free(ShaderSource *source)
     *source = (ShaderSource){0};
 }
 
-/* "1:12(5): error" is Mesa's way, "1(12) : error" NVIDIA's, "ERROR: 1:12: " that of others. The length of the
-   place, or 0 when there is none. */
+/* Parses "1:12(5): error" of Mesa, "1(12) : error" of NVIDIA, "ERROR: 1:12: " of further drivers. Returns
+   the length of the place, or 0 if there is none. */
 static int parse_place(const char *text, int *file, int *line)
 {
     int length = 0, column;

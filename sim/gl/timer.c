@@ -4,9 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    FRAMES = 4
-}; /* in flight at most: results are there two frames later, and a slow driver has one more */
+enum { FRAMES = 4 }; /* frames in flight: results arrive two frames later, on a slow driver three */
 
 /* A frame's queries, in pairs of begin and end. */
 typedef struct QueryFrame {
@@ -20,9 +18,9 @@ struct GlTimer {
     void (*between)(void *user); /* NULL: none */
     void *user;
     double began_ms;
-    StageTimes finished; /* `finish`: of the frame in progress */
+    StageTimes finished; /* for `finish`: times of the current frame */
     QueryFrame frames[FRAMES];
-    unsigned written, read; /* frames ended, frames read; the frame in progress is `written` */
+    unsigned written, read; /* frames ended, frames read; `written` is the current frame */
 };
 
 bool gl_renderer_is_software(void)
@@ -141,7 +139,7 @@ static bool results_ready(const QueryFrame *frame)
     return ready;
 }
 
-/* Waits where the results are not there yet. */
+/* Waits if results are missing. */
 static void read_oldest(GlTimer *timer, StageTimes *times)
 {
     QueryFrame *frame = &timer->frames[timer->read++ % FRAMES];
@@ -172,7 +170,7 @@ bool gl_timer_frame(GlTimer *timer, StageTimes *times)
         return false;
     if (owed < FRAMES && !results_ready(&timer->frames[timer->read % FRAMES]))
         return false;
-    read_oldest(timer, times); /* the next frame takes its place */
+    read_oldest(timer, times); /* the next frame reuses the slot */
     return true;
 }
 

@@ -1,8 +1,8 @@
-/* The clock of stages that run on the GPU, under the names of sim/base/stage.h.
+/* The clock of GPU stages, under the names of sim/base/stage.h.
 
-   `gl`: timestamp queries, read when they are there (two frames later), so that nothing waits. On a software
-   renderer these lie: work is deferred, and the stamps are taken when it is noted down, not when it is done.
-   There, `finish` brackets each stage by glFinish and the CPU clock; it costs the overlap of CPU and GPU. */
+   `gl`: timestamp queries, read when available (two frames later), without waiting. On a software renderer
+   such queries are wrong: work is deferred, and timestamps are taken at recording, not at execution. There,
+   `finish` puts glFinish and the CPU clock around each stage, which costs the overlap of CPU and GPU. */
 #ifndef SLOSH_GL_TIMER_H
 #define SLOSH_GL_TIMER_H
 
@@ -19,32 +19,33 @@ typedef enum GlClock {
 
 typedef struct GlTimer GlTimer;
 
-/* NULL when memory is short: then, as with every NULL timer below, nothing is measured, at no cost. */
+/* Returns NULL if memory is short. All functions accept a NULL timer, which measures nothing and costs
+   nothing. */
 GlTimer *gl_timer_create(GlClock clock);
 void gl_timer_destroy(GlTimer *timer);
 
-/* "gl", "finish" or "off": what GL_CLOCK_AUTO became. */
+/* "gl", "finish" or "off": the actual clock. */
 const char *gl_timer_clock_name(const GlTimer *timer);
 
-/* Calls `between` behind each stage, with any clock: for who looks at something else in a long picture, and
-   leaves OpenGL alone. */
+/* Calls `between` after each stage, with any clock: for other work during a long picture. `between` must
+   not call OpenGL. */
 void gl_timer_between(GlTimer *timer, void (*between)(void *user), void *user);
 
-/* Stages do not nest; one that runs several times in a frame is summed up. */
+/* Stages do not nest; several runs in a frame are summed. */
 void gl_timer_begin(GlTimer *timer);
 void gl_timer_end(GlTimer *timer, Stage stage);
 
-/* Ends the frame. True when the times of a frame are known: of this one (`finish`), of an earlier one (`gl`).
-   Frames come in order, none is lost. Only GL stages are written; the others of `times` stay as they are. */
+/* Ends the frame. True if the times of a frame are known: of this frame (`finish`) or of an earlier frame
+   (`gl`). Frames come in order, none is lost. Writes GL stages only; the rest of `times` is unchanged. */
 bool gl_timer_frame(GlTimer *timer, StageTimes *times);
 
-/* Waits for the frames that gl_timer_frame still owes, one a call; false when there are none. */
+/* Waits for a frame that gl_timer_frame still owes, a frame per call; false if there is none. */
 bool gl_timer_drain(GlTimer *timer, StageTimes *times);
 
-/* A clock for the stages of a solver on the GPU, which go into the timer. */
+/* A clock for GPU solver stages that writes to the timer. */
 StageClock gl_timer_stage_clock(GlTimer *timer);
 
-/* llvmpipe, softpipe, swrast by the renderer's name. */
+/* True for llvmpipe, softpipe and swrast, by the renderer's name. */
 bool gl_renderer_is_software(void);
 
 /* GL_STAGE(timer, STAGE_SHADE) statement; */

@@ -55,14 +55,14 @@ static float mueller_pressure(const Constants *constants, int fluid, float x)
     return mueller_state(constants, fluid, x / constants->stiffness_scale);
 }
 
-/* Of p = c^2 (rho - rho0); small x keep their digits. */
+/* For p = c^2 (rho - rho0); accurate for small x. */
 static double mueller_energy(double x)
 {
     return log1p(x) - x / (1 + x);
 }
 
-/* Symplectic Euler with the drift in two halves around the kick (position Verlet): the same single evaluation
-   of the forces and the same stability, but second order, and exact for free flight under gravity. */
+/* Symplectic Euler with the drift in two halves around the kick (position Verlet): same single evaluation
+   of forces and same stability, but second order, and exact for free flight under gravity. */
 static void mueller_substep(const Substep *step)
 {
     const Backend *b = step->backend;

@@ -1,4 +1,4 @@
-/* The settings of the method mueller. */
+/* Settings of the method mueller. */
 #ifndef SLOSH_MUELLER_H
 #define SLOSH_MUELLER_H
 
@@ -7,7 +7,7 @@
 
 typedef struct IN_A_ROOM MuellerDef {
     char density_kernel[NAME_SIZE]; /* see density_kernels in sim/kernel/kernel.h */
-    double numerical_viscosity;     /* alpha of the friction that fluid has at least: step_viscosity */
+    double numerical_viscosity;     /* alpha of the least friction of fluid: step_viscosity */
 } MuellerDef;
 
 extern const Method method_mueller;
@@ -17,7 +17,7 @@ static inline MuellerDef *mueller_def(const WorldDef *def)
     return method_def(def, &method_mueller);
 }
 
-/* What of a scene will not hold under mueller. */
+/* Warns about settings that fail under mueller. */
 void mueller_advise(const MethodAdvice *advice);
 
 #endif

@@ -1,4 +1,4 @@
-/* The pair sums of mueller. */
+/* Pair sums of mueller. */
 #include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/mueller/passes.h"
@@ -11,7 +11,7 @@ SIMD_INLINE f8 weight(f8 r2, f8 inverse_h, const bool poly6)
     return t * t * t;
 }
 
-/* Of neighbours, and of what the group's images find, the particles themselves among that. */
+/* Sum over neighbours, and over neighbours of the group's images, including the particles themselves. */
 SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const Images *images, const bool poly6)
 {
     const f8 inverse_h = f8_splat(1 / args->constants->support_radius);
@@ -32,7 +32,7 @@ SIMD_INLINE f8 density_of(const PairArgs *args, size_t i, const Images *images, 
     return sum;
 }
 
-/* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). The scale comes last. */
+/* sum W; Müller 2003, eq. 3 with unit mass (Solenthaler 2008). Scaled last. */
 SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, const bool poly6)
 {
     const f8 one = f8_splat(1), scale = f8_splat(args->constants->kernel_scale);
@@ -41,7 +41,7 @@ SIMD_INLINE void density_range(const PairArgs *args, size_t begin, size_t end, c
     GROUPS (i, begin, end) {
         const bool mirrored = images_of(args, &far, i, begin, end, &images);
         const f8 sum = mirrored ? density_of(args, i, &images, poly6) : density_of(args, i, NULL, poly6);
-        lanes_store(args->number_density, i, begin, end, scale * (one + sum)); /* 1: its own */
+        lanes_store(args->number_density, i, begin, end, scale * (one + sum)); /* 1: the particle itself */
     }
 }
 
@@ -53,11 +53,12 @@ PAIR_LOOP(mueller_density)
         density_range(args, begin, end, false);
 }
 
-/* Pressure of an image, in its particle's axes; one that rounding puts upon its neighbour pushes nowhere. */
+/* Pressure of an image, in its particle's axes; an image that rounding puts on its neighbour exerts no
+   force. */
 SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 pi, f8x4 near, Place *sum)
 {
     const Constants *s = args->constants;
-    const float least = 1e-9f * s->support_radius; /* no bit of another r2 */
+    const float least = 1e-9f * s->support_radius; /* changes no bit of a larger r2 */
     const Separation d = apart(image->at, near);
     const f8 r = f8_sqrt(d.r2 + f8_splat(least * least)), t = closeness(r * f8_splat(1 / s->support_radius));
     const f8 push = f8_splat(s->pressure_scale) * (t * t) * (pi + d.term) / r;
@@ -66,10 +67,10 @@ SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 pi, f8x
     sum->z += image->sign.z * push * d.z;
 }
 
-/* Forces of pressure and viscosity, eq. 10 and 14. With volumes V = 1 / n in place of m / rho and the
-   pressure terms p_i V_i^2 + p_j V_j^2 (the gradient of sum e(n_i), so that energy is conserved) they are
-   symmetric for every density ratio. Eq. 10 has (p_i + p_j) / 2 in that place, which makes half of grad p:
-   p_j alone sums up to grad p, p_i is there for symmetry only. */
+/* Forces of pressure and viscosity, eq. 10 and 14. With volumes V = 1 / n instead of m / rho and the
+   pressure terms p_i V_i^2 + p_j V_j^2 (the gradient of sum e(n_i), so that energy is conserved), the
+   forces are symmetric for every density ratio. Eq. 10 has (p_i + p_j) / 2 instead, which gives half of
+   grad p: p_j alone sums up to grad p, and p_i is there for symmetry only. */
 SIMD_INLINE Place force_of(const PairArgs *args, size_t i, const Images *images, const bool viscous,
                            const bool many)
 {

@@ -1,4 +1,4 @@
-/* Density, pressure and forces: the pair sums, then what the walls add. */
+/* Density, pressure and forces: pair sums, then additions by walls. */
 #include "sim/mueller/passes.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 PAIR_LOOPS(mueller_density);
 PAIR_LOOPS(mueller_force);
 
-/* The sum of the pairs stands in `volume`. */
+/* `volume` holds the pair sum on entry. */
 static void finish_density(Cpu *cpu, size_t i)
 {
     const Constants *s = cpu->constants;
@@ -26,8 +26,8 @@ static void density_body(const CpuRange *range)
         finish_density(range->cpu, i);
 }
 
-/* Pressure goes on hydrostatically behind the walls: the part of its weight that they hold. It fades out
-   below the pressure of one layer, so that a drop on a wall falls freely. */
+/* Hydrostatic continuation of pressure behind walls: the share of a particle's weight held by the walls.
+   Fades out below the pressure of a layer, so that a drop on a wall falls freely. */
 static void add_lift(const CpuRange *range, const float x[3], size_t i)
 {
     const Constants *s = range->cpu->constants;
@@ -57,14 +57,14 @@ static void force_body(const CpuRange *range)
     }
 }
 
-/* Of a neighbour {x, p V^2}. */
+/* Per neighbour: {x, p V^2}. */
 static PairCost density_pair(const Constants *constants)
 {
     (void)constants;
     return (PairCost){.gather = 16, .flops = 14};
 }
 
-/* With a viscosity {v, V} too, and that of its fluid where there are several. */
+/* With viscosity also {v, V}, and with several fluids the neighbour's viscosity. */
 static PairCost force_pair(const Constants *constants)
 {
     const bool viscous = constants->rubs, many = viscous && constants->fluid_count > 1;
@@ -72,7 +72,7 @@ static PairCost force_pair(const Constants *constants)
 }
 
 static const CpuPass density = {.loops = {{density_body, .walks = true}}, .pair = density_pair};
-/* A pair of force_range in sim/mueller/pairs.c. */
+/* Force of a pair as in force_range of sim/mueller/pairs.c. */
 static void solid_force(const SolidPair *pair, float out[3])
 {
     const Constants *s = pair->cpu->constants;

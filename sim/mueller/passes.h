@@ -1,11 +1,11 @@
-/* The passes of mueller, and its columns. */
+/* Passes and columns of mueller. */
 #ifndef SLOSH_MUELLER_PASSES_H
 #define SLOSH_MUELLER_PASSES_H
 
 #include "sim/box/wall_lift.h"
 #include "sim/cpu/pass.h"
 
-/* What a def means in numbers for mueller alone. */
+/* Constants of mueller alone. */
 typedef struct MuellerConstants {
     bool poly6; /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
     WallLift lift;
@@ -16,7 +16,7 @@ static inline const MuellerConstants *mueller_constants(const Constants *constan
     return (const MuellerConstants *)(const void *)constants->of_method;
 }
 
-/* The equation of state, p = c^2 (rho - rho0), of n / n0 - 1: Müller 2003, eq. 12. */
+/* Equation of state, p = c^2 (rho - rho0), for `crowded` = n / n0 - 1: Müller 2003, eq. 12. */
 static inline float mueller_state(const Constants *constants, int fluid, float crowded)
 {
     return constants->stiffness[fluid] * crowded;

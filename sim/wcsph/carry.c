@@ -1,9 +1,8 @@
-/* Shifts carry velocity: a particle that is moved by what is no part of the flow takes on the flow's velocity
-   of its new place, v += (shift . grad) v; else each shift mixes velocities, as friction does.
-
-   After: P. N. Sun, A. Colagrossi, S. Marrone, M. Antuono, A. M. Zhang, "A consistent approach to particle
-   shifting in the delta-Plus-SPH model", 2019; M. Antuono, P. N. Sun, S. Marrone, A. Colagrossi, "The
-   delta-ALE-SPH model", 2021; with masses that stay. */
+/* Velocity correction for shifts. A shift is not part of the flow, so a shifted particle takes on the
+   flow's velocity at its new position, v += (shift . grad) v; otherwise each shift mixes velocities like
+   friction. After: P. N. Sun, A. Colagrossi, S. Marrone, M. Antuono, A. M. Zhang, "A consistent approach to
+   particle shifting in the delta-Plus-SPH model", 2019; M. Antuono, P. N. Sun, S. Marrone, A. Colagrossi,
+   "The delta-ALE-SPH model", 2021; with constant masses. */
 #include "sim/wcsph/passes.h"
 
 PAIR_LOOPS(wcsph_carried);
@@ -13,7 +12,7 @@ static void carry_body(const CpuRange *range)
     cpu_pairs(range, &wcsph_carried);
 }
 
-/* Of a neighbour {x, p V^2}, {v, V} and its kind. */
+/* Per neighbour: {x, p V^2}, {v, V} and kind. */
 static PairCost carry_pair(const Constants *constants)
 {
     return (PairCost){.gather = 16 + 16 + 4, .flops = 48 + wcsph_shape_flops(constants)};

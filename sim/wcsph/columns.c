@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* With one fluid it is the same for all: then no column costs less. */
+/* A single fluid has a constant viscosity: no column is cheaper. */
 static bool differs_in_viscosity(const Constants *constants)
 {
     return constants->viscous && constants->fluid_count > 1;
@@ -15,7 +15,7 @@ bool wcsph_is_artificial(const Constants *constants)
     return wcsph_constants(constants)->any_artificial != 0;
 }
 
-/* Boundary particles have none. */
+/* Boundary particles have no artificial viscosity. */
 static bool differs_in_artificial(const Constants *constants)
 {
     return wcsph_is_artificial(constants) && (constants->fluid_count > 1 || constants->solid_count > 0);

@@ -1,19 +1,20 @@
-/* What a def means in numbers for wcsph alone, and which terms it names. */
+/* Constants of wcsph alone, and its terms. */
 #ifndef SLOSH_WCSPH_CONSTANTS_H
 #define SLOSH_WCSPH_CONSTANTS_H
 
 #include "shaders/sim/wcsph/wcsph_block.h"
 #include "sim/world/constants.h"
 
-/* Times in which sound crosses a support radius: after so many the density that shifted particles carry,
-   which does not know of shifts and would drift by a percent a second, comes back to that of their places. */
+/* Number of times that sound needs to cross a support radius: the time in which carried density relaxes to
+   the density of positions. Carried density ignores shifts and would drift by a percent per second. */
 #define SHIFT_RETURN 20.0F
 
-/* The same of diffusion without shifts, whose drift is slower: minutes of a shaken tank cost it 3 % of its
- * volume. */
+/* The same for diffusion without shifts, with slower drift: minutes of a shaken tank cost 3 % of its
+   volume. */
 #define DIFFUSION_RETURN 400.0F
 
-/* The same with corrected gradients, which keep to the flow's own divergence: the sum's noise brakes. */
+/* The same with corrected gradients, which follow the flow's own divergence: noise of the sum would brake
+   the flow. */
 #define SHIFT_RETURN_CORRECTED 80.0F
 
 static inline const WcsphBlock *wcsph_constants(const Constants *constants)
@@ -23,10 +24,11 @@ static inline const WcsphBlock *wcsph_constants(const Constants *constants)
 
 bool wcsph_diffuses(const Constants *constants);
 bool wcsph_corrects(const Constants *constants);
-bool wcsph_returns(const Constants *constants); /* carried density comes back to the sum of W */
+bool wcsph_returns(const Constants *constants); /* carried density relaxes to the sum of W */
 bool wcsph_carries(const Constants *constants);
 bool wcsph_curves(const Constants *constants);
-bool wcsph_layers(const Constants *constants); /* two fluids differ by more than CONTRAST_LEAST */
+bool wcsph_layers(const Constants *constants); /* densities of two fluids differ by more than a factor
+                                                  CONTRAST_LEAST */
 bool wcsph_is_artificial(const Constants *constants);
 
 #endif

@@ -1,10 +1,8 @@
-/* Corrected gradients (solver.corrected_gradient): sums of wcsph that are exact for linear fields, whatever
-   the order of particles.
-
-   After: J. Bonet, T.-S. L. Lok, "Variational and momentum preservation aspects of Smooth Particle
-   Hydrodynamic formulations", 1999. The divergence of velocity takes the particle's own correction, and
-   pressure those of both, so that the one is the other's adjoint: energy and momentum are kept; angular
-   momentum is not. */
+/* Corrected gradients (solver.corrected_gradient): sums of wcsph that are exact for linear fields, for any
+   arrangement of particles. After: J. Bonet, T.-S. L. Lok, "Variational and momentum preservation aspects
+   of Smooth Particle Hydrodynamic formulations", 1999. The divergence of velocity uses the particle's own
+   correction, and pressure uses both corrections of a pair. So both operators are adjoint: energy and
+   momentum are conserved, angular momentum is not. */
 #include "sim/wcsph/passes.h"
 
 #include <math.h>
@@ -20,8 +18,8 @@ static float ramp(float x, float from, float to)
     return fminf(fmaxf((x - from) / (to - from), 0), 1);
 }
 
-/* C = (M^-1 - 1) times a share: 0 in what flies apart, where less than 0.4 of the space around is full, 1
-   from 0.6 on, as a flat surface has it; 0 where neighbours hardly span the space. */
+/* C = (M^-1 - 1) times a share. The share is 0 in spray, where less than 0.4 of the surrounding space is
+   full, and 1 from 0.6 on, as at a flat surface. It is also 0 where neighbours hardly span the space. */
 static Matrix correction(const Matrix m, int dimensions)
 {
     const float cxx = m.yy * m.zz - m.yz * m.yz, cyy = m.xx * m.zz - m.zx * m.zx,
@@ -53,7 +51,7 @@ static void correct_body(const CpuRange *range)
     }
 }
 
-/* Of a neighbour {x, p V^2}. */
+/* Per neighbour: {x, p V^2}. */
 static PairCost correct_pair(const Constants *constants)
 {
     return (PairCost){.gather = 16, .flops = 23 + wcsph_shape_flops(constants)};

@@ -1,4 +1,4 @@
-/* The density that particles carry, and what follows from it. */
+/* The carried density and derived quantities. */
 #include "sim/wcsph/passes.h"
 
 PAIR_LOOPS(wcsph_slope);
@@ -15,8 +15,8 @@ static void fill_rest_densities(const CpuRange *range)
             p->own[REST_DENSITY][i] = range->cpu->constants->density[p->fluid[i]];
 }
 
-/* Density += its rate times dt; pressure, and V = V0 rho0 / rho. Diffusion goes by the mean of before and
-   after: so it is stable for steps up to 4 over its own rate, by the latter alone up to 2. */
+/* Density += rate times dt; pressure, and V = V0 rho0 / rho. Diffusion uses the mean of before and after,
+   which is stable for steps up to 4 over its rate; the value after alone allows only 2. */
 static void state_body(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
@@ -72,13 +72,13 @@ static void rate_body(const CpuRange *range)
     }
 
 static const CpuPass state = {.loops = {STATE}};
-/* Of a neighbour {x, p V^2}, its fluid and its relative density. */
+/* Per neighbour: {x, p V^2}, fluid and relative density. */
 static PairCost slope_pair(const Constants *constants)
 {
     return (PairCost){.gather = 16 + 4 + 4, .flops = 32 + wcsph_shape_flops(constants)};
 }
 
-/* Of a neighbour {x, p V^2} and {v, V}; with diffusion what the slope's pass reads too, and the slope. */
+/* Per neighbour: {x, p V^2} and {v, V}; with diffusion also the data of the slope's pass, and the slope. */
 static PairCost continuity_pair(const Constants *constants)
 {
     const bool diffuses = wcsph_diffuses(constants);

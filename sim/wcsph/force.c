@@ -1,4 +1,4 @@
-/* Accelerations, and with shifting what that goes by. */
+/* Accelerations, and with shifting the direction of shifts. */
 #include "sim/wcsph/passes.h"
 
 #include <math.h>
@@ -10,7 +10,7 @@ PAIR_LOOPS(wcsph_corrected_force);
 PAIR_LOOPS(wcsph_corrected_friction);
 PAIR_LOOPS(wcsph_interface_force);
 
-/* 0 where less than 0.8 of the space around is full, at a surface; 1 from 0.95 on. */
+/* 0 at a surface, where less than 0.8 of the surrounding space is full; 1 from 0.95 on. */
 static float share_of(float full)
 {
     return fminf(fmaxf((full - 0.8f) / 0.15f, 0), 1);
@@ -27,8 +27,8 @@ static void complete_shift(const Cpu *cpu, size_t i)
     own[FULL][i] = share;
 }
 
-/* Next to a wall nothing is shifted out through a surface that has tension: the shift would fill the notch
-   between the wall and a surface that overhangs it (Lind 2012 shifts along surfaces alone). */
+/* Near a wall, no shift goes out through a surface with tension: such shifts would fill the notch between
+   the wall and an overhanging surface (Lind 2012 shifts along surfaces only). */
 static void keep_notches(const Cpu *cpu, const WallsFar *far, size_t i)
 {
     const CpuParticles *p = &cpu->now;
@@ -76,7 +76,7 @@ static void force_body(const CpuRange *range)
     cpu_cushion(range);
 }
 
-/* Of a neighbour {x, p V^2}; with friction {v, V}, and what of it differs from fluid to fluid. */
+/* Per neighbour: {x, p V^2}; with friction {v, V}, and viscosities that differ between fluids. */
 static PairCost force_pair(const Constants *constants)
 {
     static const int heights[] = {[KERNEL_CUBIC] = 8, [KERNEL_WENDLAND_C2] = 6, [KERNEL_QUINTIC] = 18};
@@ -94,7 +94,7 @@ static PairCost force_pair(const Constants *constants)
     return cost;
 }
 
-/* C_i d of corrected gradients: sim/wcsph/pairs_corrected.c, where a boundary particle has none. */
+/* C_i d of corrected gradients: sim/wcsph/pairs_corrected.c; boundary particles have no correction. */
 static void corrected(const CpuParticles *p, size_t i, const float d[3], float out[3])
 {
     float *const *c = p->own + CORRECTION;
@@ -103,7 +103,7 @@ static void corrected(const CpuParticles *p, size_t i, const float d[3], float o
     out[2] = c[5][i] * d[0] + c[4][i] * d[1] + c[2][i] * d[2];
 }
 
-/* A pair of wcsph_range in sim/wcsph/pairs.c. */
+/* Force of a pair as in wcsph_range of sim/wcsph/pairs.c. */
 static void solid_force(const SolidPair *pair, float out[3])
 {
     const Constants *s = pair->cpu->constants;

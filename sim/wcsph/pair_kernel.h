@@ -1,4 +1,4 @@
-/* The kernels of wcsph in its pair loops. */
+/* Kernels of wcsph in its pair loops. */
 #ifndef SLOSH_PAIR_KERNEL_H
 #define SLOSH_PAIR_KERNEL_H
 
@@ -7,7 +7,7 @@
 #include "sim/wcsph/columns.h"
 #include "sim/wcsph/constants.h"
 
-/* `body(args, begin, end, kernel)` with the kernel as a constant, so that each has a loop of its own. */
+/* `body(args, begin, end, kernel)` with the kernel as a constant, so that each kernel has a separate loop. */
 #define FOR_KERNEL(args, begin, end, body)                                                                   \
     do {                                                                                                     \
         if (wcsph_constants((args)->constants)->kernel_shape == KERNEL_WENDLAND_C2)                          \

@@ -1,5 +1,4 @@
-/* Symmetric matrices of a group of particles. For the files that are compiled once for each instruction set.
- */
+/* Symmetric matrices of a group of particles. For files compiled for each instruction set. */
 #ifndef SLOSH_PAIR_MATRIX_H
 #define SLOSH_PAIR_MATRIX_H
 
@@ -9,8 +8,8 @@ typedef struct Symmetric {
     f8 xx, yy, zz, xy, yz, zx;
 } Symmetric;
 
-/* m^-1 b; 0 where det (3 m / trace) is below a quarter, since neighbours hardly span the space then: all
-   around it is 1, in the lattice's own corner 0.77. */
+/* m^-1 b; 0 where det (3 m / trace) is below a quarter, since neighbours hardly span the space there.
+   Inside the fluid det is 1, in a corner of the lattice 0.77. */
 static __attribute__((unused)) Place renormalise(const Symmetric m, const Place b)
 {
     const f8 cxx = m.yy * m.zz - m.yz * m.yz, cyy = m.xx * m.zz - m.zx * m.zx,

@@ -1,27 +1,27 @@
-/* What an image in the walls of the box weighs in the sums of wcsph, and how pressure goes on behind the
-   walls. For the files that are compiled once for each instruction set. */
+/* Weights of wall images in the sums of wcsph, and continuation of pressure behind walls. For files
+   compiled for each instruction set. */
 #ifndef SLOSH_PAIR_MIRROR_H
 #define SLOSH_PAIR_MIRROR_H
 
 #include "sim/cpu/pair_images.h"
 #include "sim/wcsph/pair_kernel.h"
 
-/* The kernel's gradient over q, not less than at a spacing `apart` for what is nearer: kernels let go of
-   pairs that are close, and fluid would stick to its images. */
+/* The kernel's slope over q; for pairs nearer than `apart`, the slope at `apart`. The kernel's slope
+   vanishes for close pairs, and fluid would stick to its images. */
 SIMD_INLINE f8 image_shape(f8 q, f8 apart, const ShapeKernel kernel)
 {
     const f8 wide = greater(q, apart);
     return shape(wide, kernel) * (wide / q);
 }
 
-/* How pressure goes on behind the walls: p V0^2 of the image of j is that of j and g0 + g.x_ij more, x_ij =
-   x_i' - x_j, since x_j' - x_j = 2 x_ij + x_i - x_i' along the axes in a mirror. It fades in over the
-   pressure of one layer, so that a drop on a wall falls freely. */
+/* Continuation of pressure behind walls: p V0^2 of the image of j is p V0^2 of j plus g0 + g.x_ij, with
+   x_ij = x_i' - x_j, since x_j' - x_j = 2 x_ij + x_i - x_i' along mirrored axes. The addition fades in over
+   the pressure of a layer, so that a drop on a wall falls freely. */
 typedef struct Rise {
     f8 g0, gx, gy, gz, inverse_layer;
 } Rise;
 
-/* What gravity makes of a layer: of each particle of a group rho0 V0^2 g, and one over its length times the
+/* Weight of a layer under gravity: per particle of a group rho0 V0^2 g, and 1 over its length times the
    spacing. */
 typedef struct Layers {
     Place pull;
@@ -60,7 +60,7 @@ static __attribute__((unused)) Rise rise_of(const PairArgs *args, size_t i, cons
                   two * gy, two * gz, layers->inverse};
 }
 
-/* Of the image of j; it turns no push into a pull. */
+/* Pressure term of the image of j; a push never becomes a pull. */
 SIMD_INLINE f8 image_term(const Rise rise, f8 term, Separation d)
 {
     const f8 zero = f8_splat(0), share = lesser(greater(term * rise.inverse_layer, zero), f8_splat(1));

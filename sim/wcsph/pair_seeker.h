@@ -1,18 +1,18 @@
-/* Who looks for neighbours in what wcsph adds to its sums: particles, and their images in the walls of the
-   box. For the files that are compiled once for each instruction set. */
+/* Sources of neighbour searches in the additional sums of wcsph: particles and their wall images. For files
+   compiled for each instruction set. */
 #ifndef SLOSH_PAIR_SEEKER_H
 #define SLOSH_PAIR_SEEKER_H
 
 #include "sim/wcsph/pair_matrix.h"
 #include "sim/wcsph/pair_mirror.h"
 
-/* The particles of a group, or an image of each. */
+/* The particles of a group, or an image of each particle. */
 typedef struct Seeker {
     Place at, sign;
     bool image;
 } Seeker;
 
-/* All of a group, themselves first: how many. */
+/* Fills in the seekers of a group, the particles first; returns their number. */
 SIMD_INLINE int seekers_of(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
                            Images *images)
 {
@@ -27,7 +27,7 @@ SIMD_INLINE Seeker seeker_of(const Images *images, int m)
     return (Seeker){images->of[m].at, images->of[m].sign, m > 0};
 }
 
-/* How pressure goes on from particles to the images that they find; nothing of particles. */
+/* Continuation of pressure from particles to images found; 0 for particles. */
 SIMD_INLINE Rise seeker_rise(const PairArgs *args, size_t i, const Seeker *from, const Layers *layers)
 {
     const f8 zero = f8_splat(0);
@@ -35,7 +35,7 @@ SIMD_INLINE Rise seeker_rise(const PairArgs *args, size_t i, const Seeker *from,
     return from->image ? rise_of(args, i, &image, layers) : (Rise){zero, zero, zero, zero, zero};
 }
 
-/* F of a pair, up to the scale. */
+/* F of a pair, up to scale. */
 SIMD_INLINE f8 weight_of(const PairArgs *args, f8 r2, bool image, const ShapeKernel kernel)
 {
     const float h = args->constants->support_radius, least = 1e-6f * h;
@@ -46,7 +46,7 @@ SIMD_INLINE f8 weight_of(const PairArgs *args, f8 r2, bool image, const ShapeKer
     return f8_masked(r2 >= least2, shape(f8_sqrt(r2) * inverse_h, kernel));
 }
 
-/* In a mirror's axes. */
+/* The matrix in a mirror's axes. */
 SIMD_INLINE Symmetric mirrored(const Symmetric m, const Place sign)
 {
     return (Symmetric){
@@ -59,7 +59,7 @@ SIMD_INLINE Place times(const Symmetric m, f8 x, f8 y, f8 z)
                    m.zx * x + m.yz * y + m.zz * z};
 }
 
-/* C of sim/wcsph/corrected.c: of a group, and of its next neighbours. */
+/* C of sim/wcsph/corrected.c: for a group, and for its next neighbours. */
 SIMD_INLINE Symmetric correction_of(const PairArgs *args, size_t i)
 {
     float *const *c = args->own + CORRECTION;

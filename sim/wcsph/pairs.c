@@ -1,14 +1,16 @@
-/* The pair sums of wcsph. With grad W_ij = -F x_ij, x_ij = x_i - x_j, F = gradient f(r / h) >= 0:
-     d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)      the rate of number density, so that an interface
-                                                            between fluids is none for it; Monaghan 1992
-     force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...      conserves the energy that goes with that rate */
+/* Pair sums of wcsph. With grad W_ij = -F x_ij, x_ij = x_i - x_j, F = gradient f(r / h) >= 0:
+
+   d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)
+   is the rate of number density, which an interface between fluids does not disturb; Monaghan 1992;
+
+   force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...
+   conserves the energy of that rate. */
 #include "sim/wcsph/pair_kernel.h"
 #include "sim/wcsph/pair_matrix.h"
 
-/* The gradient of relative density within a fluid, exact where that is linear: (sum F x x^T)^-1 sum F (e_i -
-   e_j) x with x = x_ij (Antuono 2010, with volumes that are all the same). 0 next to solids: diffusion has to
-   level the gaps that the fluid's order leaves there. Next is a little less than h, so that it does not
-   matter that lists are of half a drift ago. */
+/* Gradient of relative density within a fluid, exact for linear fields: (sum F x x^T)^-1 sum F (e_i - e_j)
+   x with x = x_ij (Antuono 2010, with equal volumes). 0 next to solids, where diffusion must level the gaps
+   in the fluid's arrangement. "Next" is slightly less than h, so that lists from half a drift ago suffice. */
 SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
@@ -16,14 +18,14 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     const float h = s->support_radius, least = 1e-6f * h;
     const f8 inverse_h = f8_splat(1 / h), h2 = f8_splat(h * h), least2 = f8_splat(least * least);
     const f8 next2 = f8_splat(NEXT_TO_SOLID * NEXT_TO_SOLID * h * h);
-    const f8 scale = f8_splat(w->gradient_scale / s->rest_number_density); /* m is 1 in the lattice */
+    const f8 scale = f8_splat(w->gradient_scale / s->rest_number_density); /* makes m = 1 on the lattice */
     const f8 first_solid = f8_splat(FLUIDS_MAX);
 
     GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
         const f8 ri = f8_load(args->own[RELATIVE] + i), fi = f8_load(args->kind + i);
-        i8 solid = i8_splat(0); /* whether a boundary particle is in reach */
+        i8 solid = i8_splat(0); /* a boundary particle is in reach */
         const f8 zero = f8_splat(0);
         Symmetric m = {zero, zero, zero, zero, zero, zero};
         Place g = {zero, zero, zero};
@@ -49,9 +51,8 @@ SIMD_INLINE void slope_range(const PairArgs *args, size_t begin, size_t end, con
     }
 }
 
-/* Sum of F v_ij . x_ij, the rate at which the flow draws together, less the diffusion of relative density
-   within a fluid: what its differences have beyond its gradient (Molteni and Colagrossi 2009; Antuono 2010).
- */
+/* Sum of F v_ij . x_ij, the flow's convergence, minus the diffusion of relative density within a fluid:
+   density differences beyond the gradient (Molteni and Colagrossi 2009; Antuono 2010). */
 SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                             const bool diffusive)
 {
@@ -90,9 +91,9 @@ SIMD_INLINE void rate_range(const PairArgs *args, size_t begin, size_t end, cons
     }
 }
 
-/* a_i + a_j of a pair; none between two fluids of other density that both have it: they slide along each
-   other, since what damps numbers would hold waves between them back. Solids, and fluids with a viscosity,
-   have 0. */
+/* a_i + a_j of a pair. 0 between fluids of different density with artificial viscosity on both sides: these
+   fluids slide, since numerical damping would brake waves between them. Solids and viscous fluids have a =
+   0. */
 SIMD_INLINE f8 artificial_of(const float *column, f8 ai, const uint32_t *j)
 {
     if (!column)
@@ -101,10 +102,10 @@ SIMD_INLINE f8 artificial_of(const float *column, f8 ai, const uint32_t *j)
     return f8_masked((aj == ai) | (ai * aj == f8_splat(0)), ai + aj);
 }
 
-/* Pressure; laminar viscosity (sim/matter/viscosity.h) or artificial one (Monaghan 1992, for pairs that part
-   too): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i V_j (a_i +
-   a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij, of no V above that of THINNEST. With `shifts` what
-   sim/wcsph/shift.c needs as well. */
+/* Pressure, and laminar viscosity (sim/matter/viscosity.h) or artificial viscosity (Monaghan 1992, also for
+   separating pairs): V_i V_j (mu_i + mu_j) F v_ji or V_i V_j (mu_i + mu_j) R F (v_ji . x_ij) x_ij, and -V_i
+   V_j (a_i + a_j) (v_ij . x_ij) / (r^2 + h^2 / 400) F x_ij, with V at most the value at THINNEST. With
+   `shifts` also the sums for sim/wcsph/shift.c. */
 SIMD_INLINE void wcsph_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                              const bool viscous, const bool radial, const bool artificial, const bool shifts)
 {

@@ -1,10 +1,10 @@
-/* What a shift carries of velocity: (shift . grad) v, sim/wcsph/carry.c. With y = M^-1 shift, M = sum F x_ij
-   x_ij^T over fluid neighbours, it is sum F (v_i - v_j) (x_ij . y): exact where velocity is linear, at walls
-   and surfaces too, since no image has a part in it. */
+/* Velocity change by a shift: (shift . grad) v, sim/wcsph/carry.c. With y = M^-1 shift, M = sum F x_ij
+   x_ij^T over fluid neighbours, the change is sum F (v_i - v_j) (x_ij . y). Exact for linear velocity, also
+   at walls and surfaces, since images take no part. */
 #include "sim/wcsph/pair_kernel.h"
 #include "sim/wcsph/pair_matrix.h"
 
-/* Sums of F x x^T and F x times a difference of velocity. */
+/* Sums of F x x^T, and of F x times velocity differences. */
 typedef struct Slopes {
     Symmetric m;
     Place u, v, w;

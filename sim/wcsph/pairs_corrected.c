@@ -1,11 +1,13 @@
-/* What corrected gradients add to the sums of wcsph: sim/wcsph/corrected.c. With C = 0 all is as without.
-     M_i = V_i sum F x_ij x_ij^T                            1 on the lattice; images and solids have a part
-     d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
-     force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij   that rate's adjoint
-     uneven_i += sum (S_i + S_j) / 2 F x_ij                S = n0^2 V^2 (1 + C) - 1
-   Shifts go by that sum with the plain one of F x_ij: both are what an even pressure pushes, so that
-   particles lie as dense as the flow is. The image of a particle has its C in the mirror; boundary particles
-   of solids have none and V0. */
+/* Additional sums of wcsph for corrected gradients: sim/wcsph/corrected.c. C = 0 adds nothing.
+
+   M_i = V_i sum F x_ij x_ij^T: 1 on the lattice; includes images and solids
+   d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
+   force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij: adjoint of that rate
+   uneven_i += sum (S_i + S_j) / 2 F x_ij, S = n0^2 V^2 (1 + C) - 1
+
+   Shifts use this sum plus the plain sum of F x_ij: together the push of a uniform pressure, so that
+   particles lie as dense as the flow. A particle's image has the mirrored C; boundary particles of solids
+   have C = 0 and V0. */
 #include "sim/wcsph/pair_seeker.h"
 
 SIMD_INLINE void spread(const PairArgs *args, const Near near, const Seeker *from, const ShapeKernel kernel,
@@ -27,7 +29,7 @@ SIMD_INLINE void add_mirrored(Symmetric *sum, const Symmetric m, const Place sig
     sum->xy += own.xy, sum->yz += own.yz, sum->zx += own.zx;
 }
 
-/* M / (n0 V_i), which sim/wcsph/corrected.c makes C of. */
+/* M / (n0 V_i), from which sim/wcsph/corrected.c makes C. */
 SIMD_INLINE void matrix_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel)
 {
     const Constants *s = args->constants;
@@ -96,7 +98,7 @@ typedef struct Pushed {
     Place even, there, shift;
 } Pushed;
 
-/* (n0 V)^2, of no V above that of THINNEST; 1 of boundary particles that no friction sees, whose V is 0. */
+/* (n0 V)^2, with V at most the value at THINNEST; 1 for boundary particles without friction, whose V is 0. */
 SIMD_INLINE f8 volume_squared(const PairArgs *args, f8 volume)
 {
     const float n0 = args->constants->rest_number_density;
@@ -104,7 +106,7 @@ SIMD_INLINE f8 volume_squared(const PairArgs *args, f8 volume)
     return f8_select(volume > f8_splat(0), v * v, f8_splat(1));
 }
 
-/* S x, of c = C x. */
+/* S x, with c = C x. */
 SIMD_INLINE Place evened(f8 v2, f8 x, f8 y, f8 z, const Place c)
 {
     const f8 more = v2 - f8_splat(1);

@@ -1,7 +1,7 @@
-/* What corrected gradients add to friction in the radial form, where neighbours are missing: each of a pair
-   has 1 + tr C / d of it, one over the part of the space around that is full, and the pair the mean of both.
-   So a free surface dissipates 2 mu D : D too, and momentum is kept. Images and solids have their own
-   friction. */
+/* Additional friction in the radial form for corrected gradients, where neighbours are missing. A
+   particle's friction is scaled by 1 + tr C / d, which is 1 over the filled share of the surrounding space;
+   a pair uses the mean of both scales. So a free surface also dissipates 2 mu D : D, and momentum is
+   conserved. Images and solids have separate friction. */
 #include "sim/wcsph/pair_kernel.h"
 
 /* tr C / (2 d). */

@@ -1,9 +1,9 @@
-/* What the images of the fluid in the walls of the box add to the sums of wcsph: the rate of density and
-   pressure, with what shifting goes by; friction of walls that let fluid slip. They have no part in diffusion
-   and no artificial viscosity. See sim/box/wall_images.h. */
+/* Additional sums of wcsph over images of the fluid in the box's walls: rate of density and pressure, sums
+   for shifting, and friction of slip walls. Images take no part in diffusion and artificial viscosity. See
+   sim/box/wall_images.h. */
 #include "sim/wcsph/pair_mirror.h"
 
-/* Sum of F v_ij . x_ij over what the images of the group i find. */
+/* Sum of F v_ij . x_ij over the neighbours of the images of group i. */
 SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const Mirrored *image,
                           const ShapeKernel kernel)
 {
@@ -22,7 +22,7 @@ SIMD_INLINE f8 image_flow(const PairArgs *args, size_t i, const Near near, const
     return sum;
 }
 
-/* Sums over what the images of a group find, in their mirrors' axes. */
+/* Sums over the neighbours of a group's images, in the mirrors' axes. */
 typedef struct Found {
     f8 fx, fy, fz, ex, ey, ez, full, dense;
 } Found;
@@ -47,10 +47,10 @@ SIMD_INLINE void image_push(const PairArgs *args, size_t i, const Near near, con
     }
 }
 
-/* Laminar viscosity as pairs have it (sim/wcsph/pairs.c), with velocities in the mirror: of a wall that slips
-   the stress along its normal, and no shear. By the kernel's own slope: it moves nothing apart. In Morris's
-   form of none nearer than half a spacing, as the lattice has them at walls: what stands on a wall would turn
-   round in a step that friction stands elsewhere. */
+/* Laminar viscosity as for pairs (sim/wcsph/pairs.c), with mirrored velocities: a slip wall has stress
+   along its normal and no shear. Uses the kernel's plain slope, since friction need not separate particles.
+   In Morris's form, distances count as at least half a spacing, as in the lattice at walls. Otherwise a
+   particle on a wall would reverse its velocity in a step that is stable elsewhere. */
 SIMD_INLINE void image_rub(const PairArgs *args, size_t i, const Near near, const Mirrored *image,
                            const ShapeKernel kernel, const bool radial, Found *sum)
 {
@@ -116,7 +116,8 @@ SIMD_INLINE void force_by(const PairArgs *args, size_t i, size_t begin, size_t e
                           const Layers *layers, const ShapeKernel kernel, const bool shifts)
 {
     const Constants *s = args->constants;
-    const bool images_rub = s->rubs && !s->no_slip; /* else the wall's own friction is all of it */
+    const bool images_rub = s->rubs && !s->no_slip; /* otherwise the wall's friction is the complete
+                                                       friction */
     const f8 zero = f8_splat(0);
     const Themselves own = themselves(args, i);
     const Rise rise = rise_of(args, i, image, layers);

@@ -1,19 +1,24 @@
-/* What interfaces between fluids of a great contrast in density add to the sums of wcsph. With t = p V^2 and
-   w_ij = 1 - 4 rho_i / rho_j, where the rest density of j is more than 4 times that of i, w_ji = -w_ij:
-     force_i += sum w_ij (t_i - t_j) F x_ij                   a pair has (1 + w) t_i + (1 - w) t_j then
-     d rho_i / dt += (rho0_i / n0) (-sum w_ij F v_ij . x_ij)  of which that is the adjoint
-   Momentum and energy are kept as without. With corrected gradients x_ij is (1 + C) x_ij of the one whose t
-   or rate it is. By t_i + t_j alone what presses heavy particles by a little throws light ones; with w it
-   moves them by no more than 4 times what their own fluid would, and the step is that of one fluid.
+/* Additional sums of wcsph for interfaces between fluids with a high density contrast. With t = p V^2 and
+   w_ij = 1 - 4 rho_i / rho_j if the rest density of j is more than 4 times that of i, w_ji = -w_ij:
 
-   After: X. Y. Hu, N. A. Adams, "An incompressible multi-phase SPH method", 2007, eq. 13, with w = (rho_j -
-   rho_i) / (rho_i + rho_j): the pressure that accelerates both sides alike. The rate goes by v_i less the
-   velocity of an interface that has the inertia of both. It takes an interface that is stretched along
-   itself for one that is drawn together, and waves between fluids of 2 : 1 would grow by 2 % more slowly: so
-   w begins at a contrast of 4. */
+   force_i += sum w_ij (t_i - t_j) F x_ij: a pair then has (1 + w) t_i + (1 - w) t_j
+   d rho_i / dt += (rho0_i / n0) (-sum w_ij F v_ij . x_ij): the force is its adjoint
+
+   Momentum and energy remain conserved. With corrected gradients, x_ij becomes (1 + C) x_ij with the C of
+   the particle of t or of the rate.
+
+   With t_i + t_j alone, a pressure that hardly moves heavy particles throws light particles. With w, light
+   particles move at most 4 times as much as within their own fluid, and the step of a single fluid is
+   stable. After: X. Y. Hu, N. A. Adams, "An incompressible multi-phase SPH method", 2007, eq. 13, with w =
+   (rho_j - rho_i) / (rho_i + rho_j): the pressure that accelerates both sides alike.
+
+   The rate uses v_i minus the velocity of an interface with the inertia of both fluids. The rate mistakes
+   stretching along the interface for contraction, and waves between fluids of 2 : 1 would grow 2 % more
+   slowly. So w begins at a contrast of 4. */
 #include "sim/wcsph/pair_seeker.h"
 
-/* w of a group and its next neighbours, by their rest densities; 0 with solids, which have none. */
+/* w of a group and its next neighbours, from their rest densities; 0 with solids, which have no rest
+   density. */
 SIMD_INLINE f8 contrast(f8 mine, f8 theirs)
 {
     const f8 light = lesser(mine, theirs),

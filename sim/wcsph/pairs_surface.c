@@ -1,5 +1,5 @@
-/* Surface tension by curvature: normals of a fluid's surface by its own particles and their images in the
-   walls of the box, and the force. */
+/* Surface tension by curvature: normals of a fluid's surface, from its own particles and their wall images,
+   and the force. */
 #include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/wcsph/columns.h"
@@ -11,7 +11,7 @@ SIMD_INLINE f8 slope(f8 r2, i8 same, f8 h2, f8 inverse)
     return f8_masked(same, t * t * t);
 }
 
-/* Sum of it times x_ij, m, over what stands near `at`. */
+/* Sum of slope times x_ij, m, over the neighbours of `at`. */
 SIMD_INLINE Place slopes(const PairArgs *args, const Near near, const Place at, f8 fi)
 {
     const float h = args->constants->support_radius;
@@ -35,7 +35,7 @@ SIMD_INLINE f8 weight_of(f8 x)
     return x * t * t * (f8_splat(3) - f8_splat(2) * t);
 }
 
-/* Normals N out of the fluid, of the length of their weight. */
+/* Normals N out of the fluid; their length is their weight. */
 PAIR_LOOP(wcsph_normals)
 {
     const f8 full = f8_splat(args->constants->curvature.full);
@@ -64,7 +64,7 @@ PAIR_LOOP(wcsph_normals)
     }
 }
 
-/* A normal times its weight, apart. */
+/* A unit normal and its weight. */
 typedef struct Front {
     f8 x, y, z, weight;
 } Front;
@@ -76,7 +76,7 @@ SIMD_INLINE Front front_of(f8 x, f8 y, f8 z)
     return (Front){x * scale, y * scale, z * scale, f8_masked(weight > f8_splat(1e-4F), weight)};
 }
 
-/* Sums of a curvature: sum w (n_i - n_j) . x_ij, sum w t^2. */
+/* Sums for a curvature: sum w (n_i - n_j) . x_ij, sum w t^2. */
 typedef struct Bend {
     f8 bend, along;
 } Bend;
@@ -100,8 +100,7 @@ SIMD_INLINE void bend_by(const PairArgs *args, const Near near, const Place at, 
     }
 }
 
-/* (1 - d/h)^2 of the distance to the wall that an image is behind; 0 where there is none, and of the images
-   of images. */
+/* (1 - d/h)^2 for the distance d to the wall of an image; 0 without an image, and for images of images. */
 SIMD_INLINE f8 next_to_wall(const Place at, const Mirrored *image, float h)
 {
     const f8 x = at.x - image->at.x, y = at.y - image->at.y, z = at.z - image->at.z;
@@ -110,7 +109,7 @@ SIMD_INLINE f8 next_to_wall(const Place at, const Mirrored *image, float h)
     return f8_masked(face, t * t);
 }
 
-/* What walls add: their images; the sum of next_to_wall. */
+/* Adds the wall images; returns the sum of next_to_wall. */
 SIMD_INLINE f8 bend_by_walls(const PairArgs *args, const Images *images, size_t i, const Front n, f8 fi,
                              Bend *sum)
 {
@@ -137,11 +136,12 @@ static f8 wetting(const PairArgs *args, size_t i)
     return f8_load(wet);
 }
 
-/* The curvature is (d - 1) sum w (n_i - n_j) . x_ij over sum w t^2, t^2 the square of x_ij but for its part
-   along (n_i + n_j) / 2: right for the few that stand along a surface, as for a full neighbourhood. Mirrors
-   alone would make a contact angle of 90 degrees; what the wall pulls turns it. The force is -sigma times the
-   curvature along the normal, over all layers; less by what pressure misses at the surface. A hollow counts
-   as a tenth of the greatest curvature at most, else single particles leave. */
+/* The curvature is (d - 1) sum w (n_i - n_j) . x_ij over sum w t^2, where t^2 is the squared length of x_ij
+   without its part along (n_i + n_j) / 2: correct for a few particles along a surface and for a full
+   neighbourhood. Mirrors alone would give a contact angle of 90 degrees; the wall's pull changes the angle.
+   The force is -sigma times the curvature along the normal, over all layers, reduced by the pressure
+   missing at the surface. A hollow counts as at most a tenth of the greatest curvature, otherwise single
+   particles escape. */
 PAIR_LOOP(wcsph_curvature)
 {
     const Constants *s = args->constants;
@@ -160,7 +160,7 @@ PAIR_LOOP(wcsph_curvature)
         bend_by(args, near_of(args, i), place_of(args, i), n, fi, &sum);
         if (images_of(args, &far, i, begin, end, &images))
             pull = wetting(args, i) * bend_by_walls(args, &images, i, n, fi, &sum);
-        const f8 along = f8_positive(sum.along); /* past a list's end nobody weighs */
+        const f8 along = f8_positive(sum.along); /* entries past a list's end have no weight */
         const f8 bend =
             (f8_splat(around) * sum.bend - pull * along) / (along + f8_splat(scale->few) * n.weight + tiny);
         const f8 curvature = lesser(greater(bend, f8_splat(-0.1F) * most), most);

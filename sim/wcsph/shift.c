@@ -1,14 +1,13 @@
-/* Shifting of particles: down the gradient of their number density, so that a flow does not line them up.
-
-   After: S. J. Lind, R. Xu, P. K. Stansby, B. D. Rogers, "Incompressible smoothed particle hydrodynamics for
-   free-surface flows", 2012, eq. 22 to 25; P. N. Sun, A. Colagrossi, S. Marrone, A. M. Zhang, "The
+/* Shifting of particles down the gradient of their number density, to prevent particles from lining up.
+   After: S. J. Lind, R. Xu, P. K. Stansby, B. D. Rogers, "Incompressible smoothed particle hydrodynamics
+   for free-surface flows", 2012, eq. 22 to 25; P. N. Sun, A. Colagrossi, S. Marrone, A. M. Zhang, "The
    delta-plus-SPH model", 2017. */
 #include "sim/wcsph/passes.h"
 
 #include <math.h>
 
-/* By chi c (h / 2) dt V0 sum F x_ij, with corrected gradients sum (1 + (S_i + S_j) / 2) F x_ij of
-   sim/wcsph/pairs_corrected.c, along no axis further than a tenth of a spacing. */
+/* Shift of chi c (h / 2) dt V0 sum F x_ij, with corrected gradients sum (1 + (S_i + S_j) / 2) F x_ij of
+   sim/wcsph/pairs_corrected.c, limited to a tenth of a spacing along each axis. */
 static inline void shift_run(const CpuRange *range, const bool wide)
 {
     const Constants *s = range->cpu->constants;

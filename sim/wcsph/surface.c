@@ -1,4 +1,4 @@
-/* The normals of free surfaces and interfaces. */
+/* Normals of free surfaces and interfaces. */
 #include "sim/wcsph/passes.h"
 
 PAIR_LOOPS(wcsph_normals);

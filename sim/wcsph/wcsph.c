@@ -12,7 +12,7 @@
 
 static const WcsphDef usual = {
     .kernel = "cubic",
-    .artificial_viscosity = 0.05, /* calms what the walls' lattice stirs up, half of what breaks waves */
+    .artificial_viscosity = 0.05, /* damps noise from the walls' lattice; half the value that breaks waves */
 };
 
 /* clang-format off */
@@ -58,7 +58,7 @@ static StepFriction wcsph_friction(const WorldDef *def, const Lattice *lattice)
     return friction;
 }
 
-/* -W'(r) / r at the radius where f(q) = -w'(q) / q is known best, over f there. */
+/* gradient_scale: -W'(r) / r divided by f(q) = -w'(q) / q, at a radius with known f. */
 static void kernel_set(WcsphBlock *own, const Constants *constants, const WorldDef *def)
 {
     static const double f_half[] = {[KERNEL_CUBIC] = 3,
@@ -97,13 +97,13 @@ static void wcsph_set(Constants *constants, const WorldDef *def)
     memcpy(constants->of_method, &own, sizeof own);
 }
 
-/* Of p = rho0 c^2 / 7 ((rho / rho0)^7 - 1); small x keep their digits. */
+/* For p = rho0 c^2 / 7 ((rho / rho0)^7 - 1); accurate for small x. */
 static double wcsph_energy(double x)
 {
     return x * x * (5.0 / 2 + x * (10.0 / 3 + x * (5.0 / 2 + x * (1 + x / 6))) + 1 / (1 + x)) / 7;
 }
 
-/* The rate of density as particles stand and move now, and half a step by it. */
+/* The rate of density at the present positions and velocities, and half a step of density. */
 static void continuity(const Substep *step)
 {
     if (wcsph_diffuses(step->constants))
@@ -111,7 +111,7 @@ static void continuity(const Substep *step)
     substep_run(step, &wcsph_continuity, 0.5 * step->dt);
 }
 
-/* Density comes back in the pass of the shift, which is none without a speed. */
+/* The pass of the shift also relaxes density; without a shift speed nothing moves. */
 static void shift(const Substep *step)
 {
     if (wcsph_carries(step->constants))
@@ -119,11 +119,11 @@ static void shift(const Substep *step)
     substep_run(step, &wcsph_shift, step->dt);
 }
 
-/* Leapfrog as the symmetric composition continuity, drift, kick, drift, continuity (halves but for the kick):
-   each part is exact by itself where the others hold still, so that the whole is of second order, runs
-   backwards as forwards but for viscosity, and needs one grid a step. The rate at the end of a step is that
-   at the begin of the next: it is summed once, over the neighbours that particles had half a drift ago, since
-   who came nearer than h meanwhile weighs next to nothing. */
+/* Leapfrog as the symmetric composition continuity, drift, kick, drift, continuity (half steps except for
+   the kick). Each part is exact while the rest is frozen, so the step is of second order, is reversible
+   except for viscosity, and needs a single grid. The rate at the end of a step is also the rate at the
+   begin of the next step: it is summed once, over the neighbours of half a drift ago, since particles that
+   came nearer than h meanwhile have almost no weight. */
 static void wcsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;
@@ -186,7 +186,7 @@ static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
                                    {"LAYERS", wcsph_layers},
                                    {0}};
 
-/* Of vec4, see slope.comp, evenness.glsl, correction.glsl and surface.glsl. */
+/* In vec4; see slope.comp, evenness.glsl, correction.glsl and surface.glsl. */
 static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses},
                                        {"Unevens", 32, wcsph_returns},
                                        {"Corrections", 32, wcsph_corrects},

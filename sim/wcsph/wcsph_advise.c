@@ -1,5 +1,5 @@
-/* What of a scene does not go together under wcsph: a kernel and its support, an artificial viscosity and a
-   greater one of the fluid. */
+/* Mismatched settings under wcsph: a kernel and its support, an artificial viscosity below the fluid's
+   viscosity. */
 #include "sim/wcsph/wcsph.h"
 #include "sim/world/step_control.h"
 
@@ -29,7 +29,7 @@ static void advise_kernel(const MethodAdvice *advice)
             def->support, kernel->name, lattice.neighbours);
 }
 
-/* Where the scene chose an alpha, and each of its fluids rubs more than that stands for. */
+/* Warns if the scene set an alpha, and each fluid has more friction than the equivalent of alpha. */
 static void advise_artificial(const MethodAdvice *advice)
 {
     const WorldDef *def = advice->def;

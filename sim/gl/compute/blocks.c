@@ -33,7 +33,7 @@ static void grid_constants(const Constants *s, const CellFold *fold, ConstantBlo
     c->cell_fold[2] = (int)fold->mask;
     c->first_row = s->first_row;
     c->last_row = s->last_row;
-    if (s->periodic.any) { /* single cells: a row may go on across a side */
+    if (s->periodic.any) { /* single cells: a row may continue across a side */
         c->first_single_row = 3 * s->first_row;
         c->last_single_row = 3 * s->last_row;
     }
@@ -96,7 +96,7 @@ static void copy3(const float from[3], float to[3])
     memcpy(to, from, 3 * sizeof *to);
 }
 
-/* The members of StepBlock from `begin` to before `end`. */
+/* Uploads the members of StepBlock from `begin` to before `end`. */
 static void put_step(const Compute *compute, const StepBlock *block, size_t begin, size_t end)
 {
     glNamedBufferSubData(compute->step, (GLintptr)begin, (GLsizeiptr)(end - begin),

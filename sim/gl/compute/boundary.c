@@ -1,5 +1,5 @@
-/* Solids: where they are, and their boundary particles, sorted in a grid of their own, so that the fluids'
-   buffers hold fluid alone. The passes are those of sim/cpu/boundary.c. */
+/* Solids: poses and boundary particles, sorted in a separate grid, so that the fluids' buffers hold fluid
+   only. Passes as in sim/cpu/boundary.c. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"

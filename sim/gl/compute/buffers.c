@@ -1,12 +1,12 @@
-/* Passes find the buffers of the state by the names of their storage blocks: what a shader declares is bound,
-   at the binding that it says. */
+/* Passes find the state's buffers by the names of storage blocks: a block declared in a shader is bound at
+   its declared binding. */
 #include "sim/gl/compute/compute.h"
 
 #include <epoxy/gl.h>
 
 static const struct {
     const char *block;
-    size_t at; /* of the buffer's name in Compute */
+    size_t at; /* offset of the buffer's name in Compute */
 } named[COMPUTE_NAMED] = {
     {"Positions", offsetof(Compute, now.position)},
     {"Velocities", offsetof(Compute, now.velocity)},

@@ -81,7 +81,8 @@ static bool buffers_create(Compute *c, Error *error)
     c->pressure = compute_buffer(c, "particle pressures", 8 * n);
     c->near = compute_buffer(c, "particle positions and pressure terms", 16 * n);
     c->acceleration = compute_buffer(c, "particle accelerations", 16 * n);
-    size_t level = (n > places ? n : places) + COMPUTE_LAYER; /* of what is scanned: sim/gl/compute/flow.c */
+    size_t level = (n > places ? n : places) + COMPUTE_LAYER; /* longest scanned array:
+                                                                 sim/gl/compute/flow.c */
     for (int k = 0; k < COMPUTE_SCAN_LEVELS; k++) {
         level = (level + COMPUTE_SCAN_BLOCK - 1) / COMPUTE_SCAN_BLOCK;
         c->totals[k] = compute_buffer(c, "scan totals", 4 * level);
@@ -100,7 +101,7 @@ typedef struct Source {
     char path[64], defines[COMPUTE_DEFINES_MAX];
 } Source;
 
-/* Which of the method's passes, and behind them those of terms, a pass has the shader of. */
+/* Index of the pass among the method's passes, then the terms' passes, for the shader of `pass`. */
 static int of_method(ComputePass pass)
 {
     return (int)pass - (pass < COMPUTE_FELT ? COMPUTE_METHOD : COMPUTE_FELT);
@@ -138,7 +139,7 @@ static unsigned begun(const Compute *c, ComputePass pass, const char *defines, E
     return program_begin(source.label, (const char *const[]){source.path, NULL}, source.defines, error);
 }
 
-/* Whether the pass needs a program: the scene's terms need the pass, or somebody has asked for it. */
+/* True if the pass needs a program: the scene's terms need the pass, or the pass was requested. */
 static bool pass_wanted(const Compute *c, ComputePass pass)
 {
     const Term *of;
@@ -205,7 +206,7 @@ static CellFold fold_of(const Constants *s, size_t capacity)
     return cell_fold(s, capacity + s->boundary.count);
 }
 
-/* Of the largest array: a vec4 a particle, or what the method has; start of cells. */
+/* Size of the largest array: a vec4 per particle, or columns of the method; starts of cells. */
 static size_t most_bytes(const Constants *s, size_t capacity)
 {
     size_t particle =
@@ -218,8 +219,7 @@ static size_t most_bytes(const Constants *s, size_t capacity)
     return larger(larger(particles, 16 * s->boundary.count), places);
 }
 
-/* Solids stand at the bindings 12 to 15, a method's own columns at 8 to 10, beside those of the pass that
-   binds most. */
+/* Solids use bindings 12 to 15, a method's columns 8 to 10, beside the bindings of the largest pass. */
 static bool supported(const Constants *s, size_t capacity, Error *error)
 {
     const bool solids = s->solid_count > 0;
@@ -261,7 +261,7 @@ static void *compute_create(const Constants *constants, const WorldDef *def, con
         return NULL;
     }
     compute_constants(c);
-    compute_lists_create(c); /* last: the steps can do without */
+    compute_lists_create(c); /* last: steps can run without lists */
     if (c->full) {
         compute_no_memory(c, error);
         compute_destroy(c);
@@ -304,7 +304,7 @@ static bool has_shader(const Pass *pass)
     return shader_source_has(path);
 }
 
-/* A method with passes that have no shader is the CPU's, and so is a scene that names a term with such. */
+/* Rejects a method with a pass without a shader, and a scene that names a term with such a pass. */
 static bool compute_can(const WorldDef *def, Error *error)
 {
     const Method *method = method_find(def->method);

@@ -1,5 +1,5 @@
-/* Particles that come and go between steps: sim/cpu/flow.c. Of each layer and each draining one number comes
-   back, how many they were. */
+/* Emitters, guides and drains between steps, as in sim/cpu/flow.c. Per layer and per drain a single number
+   comes back: the number of particles. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -37,8 +37,8 @@ static void bind_block(const Compute *c)
     glBindBufferBase(GL_UNIFORM_BUFFER, FLOW_BLOCK, c->flow.block);
 }
 
-/* What stands at the end of the prefix sums of `count` marks: how many are set, which is `count` at most
-   whatever a driver hands back. */
+/* The total of the prefix sums of `count` marks: the number of set marks, limited to `count` for any driver
+   result. */
 static size_t sum_of(unsigned buffer, size_t count)
 {
     uint32_t sum = 0;
@@ -113,7 +113,7 @@ double compute_guide(void *state, const Guide *guides, int count)
     return 0;
 }
 
-/* The least float not below `bound`: any float is below the result exactly where it is below `bound`. */
+/* The least float not below `bound`: a float is below the result exactly if it is below `bound`. */
 static float not_below(double bound)
 {
     const float near = (float)fmax(-3e38, fmin(bound, 3e38));

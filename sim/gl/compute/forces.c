@@ -1,5 +1,5 @@
-/* What box and solids feel (sim/matter/forces.h): parts that passes add to on the GPU, shaders/sim/felt.glsl,
-   until somebody asks what it was. */
+/* Forces on box and solids (sim/matter/forces.h): partial sums by passes on the GPU, shaders/sim/felt.glsl,
+   read on request. */
 #include "sim/matter/forces.h"
 #include "sim/gl/compute/compute.h"
 
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the work groups that all particles need, of each the box's and the solids'. */
+/* Parts of work groups over all particles: per group, for the box and each solid. */
 static size_t group_parts(const Compute *c)
 {
     return (c->capacity + COMPUTE_GROUP - 1) / COMPUTE_GROUP * (size_t)(1 + c->constants->solid_count);
@@ -104,7 +104,7 @@ void compute_felt_back(Compute *c)
     felt->seconds = felt->seconds_marked;
 }
 
-/* Forces are over the unit of volume. */
+/* Forces are in units of the unit volume. */
 static Push push_of(const Compute *c, const float force[3], const float torque[3])
 {
     const double unit = c->constants->unit_volume;
@@ -116,7 +116,7 @@ static Push push_of(const Compute *c, const float force[3], const float torque[3
     return push;
 }
 
-/* What boundary particles take the box does not. */
+/* Adds all parts. A force on a boundary particle is taken off the box. */
 static void add_up(const Compute *c, const FeltPart *part, Forces *to)
 {
     const size_t groups = group_parts(c), of_group = 1 + (size_t)c->constants->solid_count;

@@ -1,4 +1,4 @@
-/* What is plotted of the state: a pass that adds up, a few numbers on their way back, no wait for them. */
+/* Plotted sums of the state: a pass adds up, and a few numbers come back without a wait. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -7,7 +7,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-/* The first time. */
+/* Created on first use. */
 static bool prepare(Compute *c)
 {
     Error error;
@@ -39,7 +39,7 @@ bool compute_gauged(void *state, WorldGauge *gauge, bool waits)
     const GaugePart *part = waits ? mailbox_wait(&c->gauge) : mailbox_look(&c->gauge);
     if (!part)
         return false;
-    const double unit = c->constants->unit_volume; /* masses are over it */
+    const double unit = c->constants->unit_volume; /* masses are over the unit volume */
     for (int group = 0; group < COMPUTE_GAUGE_GROUPS; group++, part++) {
         gauge->density_error_mean += (double)part->density_error;
         gauge->kinetic_energy += unit * (double)part->kinetic_energy;

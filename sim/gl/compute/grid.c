@@ -1,5 +1,5 @@
-/* Counting sort by place of the cells' fold; for who asks to have the same bits each time by id within a
-   cell, the order that sim/cpu/grid.c makes. */
+/* Counting sort by places of the cell fold; for reproducible worlds by id within a cell, the order of
+   sim/cpu/grid.c. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/shared/scan.h"
@@ -56,7 +56,7 @@ void compute_grid(void *state)
         BIND([NAMES_BUFFER] = c->now.name, [CELLS_BUFFER] = c->cell, [STARTS_BUFFER] = c->start,
              [ORDERS_BUFFER] = c->order, [SORTED_BUFFER] = c->rank);
         compute_run(c, COMPUTE_SORT, c->count);
-        order = c->rank; /* which is free now */
+        order = c->rank; /* free at this point */
     }
     BIND([ORDERS_BUFFER] = order, [OLD_POSITIONS_BUFFER] = c->now.position,
          [OLD_VELOCITIES_BUFFER] = c->now.velocity, [OLD_NAMES_BUFFER] = c->now.name,

@@ -1,7 +1,7 @@
-/* The loop of a solver that iterates, decided on the GPU: the passes of an iteration take their work groups
-   from a buffer, and behind each iteration a small pass puts 0 there once little enough is left. So many
-   iterations as the step before needed, and some, are asked for at once, and a step waits once a solver as a
-   rule, not once an iteration. */
+/* The loop of an iterating solver, decided on the GPU. Passes of an iteration take their work groups from a
+   buffer, and after each iteration a small pass sets the number to 0 once the residual is small enough. A
+   batch has slightly more iterations than the last step needed. So a step usually waits once per solver,
+   not once per iteration. */
 #include "sim/world/iterate.h"
 #include "sim/gl/compute/compute.h"
 
@@ -12,9 +12,9 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-enum { MORE = 2 }; /* iterations than the step before had */
+enum { MORE = 2 }; /* iterations beyond those of the last step */
 
-/* What is summed up: the residual, what it counts in, and what else is asked for. */
+/* Summed columns: the residual, its scale, and requested columns. */
 enum { RESIDUAL_PARTS, SCALE_PARTS = EXCESS_OF_SCALE, ASKED_PARTS, PARTS = ASKED_PARTS + ITERATION_ASKED };
 
 bool compute_iterates(const Constants *s)
@@ -42,8 +42,7 @@ static void begin(const Compute *c, const Iteration *iteration)
     const SolveBlock block = {.groups_along = (uint)(groups > COMPUTE_ALONG ? COMPUTE_ALONG : groups),
                               .groups_rows = (uint)((groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG),
                               .groups_deep = 1,
-                              .iterations =
-                                  iteration->begun ? UINT32_MAX : 0, /* the first measure adds one */
+                              .iterations = iteration->begun ? UINT32_MAX : 0, /* the first measure adds 1 */
                               .tolerance = (float)iteration->tolerance,
                               .worst = (float)iteration->worst,
                               .iterations_few = (uint)iteration->few,
@@ -57,7 +56,7 @@ static GLuint place_of(const Compute *c, const ColumnDef *column)
     return column ? (GLuint)compute_scratch_place(c, column) : EXCESS_NO_COLUMN;
 }
 
-/* Into the parts of number `which`; with a residual what conjugate gradients want. */
+/* Sums a column into part `which`; for a residual also the sums of conjugate gradients. */
 static void sum_up(Compute *c, const ColumnDef *column, int which, const ColumnDef *power,
                    const ColumnDef *curvature)
 {
@@ -79,7 +78,7 @@ static Excess excess_of(const Compute *c, int which)
     return excess;
 }
 
-/* On their way ahead of what the solver found, which is waited for. */
+/* Sends the requested sums before the solver's result, which is waited for. */
 static void ask(Compute *c, const Iteration *iteration)
 {
     for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
@@ -114,7 +113,7 @@ static void iterate_once(Compute *c, const Iteration *iteration, const PassInput
 void compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve)
 {
     Compute *c = state;
-    /* where nothing is dispatched, as in a test of texts, `begin`'s number comes back */
+    /* without execution, as in a test of texts, the number set by `begin` comes back */
     const int at_once = (int)fmin(solve->iterations, iteration->most) + MORE;
     const SolveBlock *found;
     int asked = 0;

@@ -1,7 +1,6 @@
-/* Lists of neighbours, which the first pass of a step makes for those behind it: shaders/sim/lists.glsl.
-   Where the driver has no binding or no memory for them, and where sides are periodic, each pass walks the
-   cells. They are no more than a quarter of the memory: the views need some, and a driver may promise more
-   than there is. */
+/* Neighbour lists, made by the first pass of a step for later passes: shaders/sim/lists.glsl. Without a
+   free binding or memory, and with periodic sides, each pass walks the cells. Lists take at most a quarter
+   of the memory: the views need some, and a driver may promise more memory than there is. */
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/limits.h"
 
@@ -12,8 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Half as many again as the lattice has within the support, and some: fluid in motion is denser here and
- * there. */
+/* List size: half more than the lattice has within the support, plus 8, since moving fluid is locally
+   denser. */
 static size_t list_most(const Constants *s)
 {
     const double r = (double)s->support_radius / (double)s->spacing, pi = 3.14159265358979;
@@ -21,13 +20,14 @@ static size_t list_most(const Constants *s)
     return 8 * (size_t)ceil((1.5 * lattice + 8) / 8);
 }
 
-/* In blocks of 32 particles. */
+/* Rounded up to blocks of 32 particles. */
 static size_t stride_of(const Compute *c)
 {
     return (c->capacity + 31) / 32 * 32;
 }
 
-/* Solids and a method's own columns have bindings and blocks of their own, beside the eight of others. */
+/* True if the driver has enough bindings and blocks: solids and a method's columns need some beside the
+   usual eight. */
 static bool bound(const Compute *c, const GlLimits *have)
 {
     const int columns = (c->own.count > 0) + (compute_scratch_of(c->constants).total > 0);

@@ -1,4 +1,4 @@
-/* The distances of solids that are meshes, for the shaders: shaders/sim/mesh_distance.glsl. */
+/* Distances to mesh solids for the shaders: shaders/sim/mesh_distance.glsl. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/mesh_block.h"
@@ -30,7 +30,7 @@ static MeshGrid grid_of(const DistanceGrid *from, double scale, size_t first)
     return grid;
 }
 
-/* Solids of one mesh share its values. */
+/* The first solid with the same mesh, whose values are shared. */
 static int same_before(const Compute *c, int solid)
 {
     int other = 0;
@@ -74,7 +74,7 @@ bool compute_meshes_create(Compute *c, Error *error)
     meshes->block = compute_buffer(c, "meshes", sizeof block);
     meshes->values = compute_buffer(c, "distances from meshes", sizeof(float) * count);
     if (!meshes->block || !meshes->values)
-        return true; /* who made the buffers says so */
+        return true; /* compute_buffer has set `full` */
     glNamedBufferSubData(meshes->block, 0, sizeof block, &block);
     for (int k = 0; k < c->constants->solid_count; k++)
         if (shape_of(c, k) && same_before(c, k) == k)

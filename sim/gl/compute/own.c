@@ -1,6 +1,6 @@
-/* What a method, and the terms that its scene names, keep of each particle in columns of their own: one
-   storage buffer with all of them, a column behind the other, with room for `capacity` numbers each. Another
-   has the scratch of its shaders. shaders/sim/own.glsl and scratch.glsl read them. */
+/* Columns kept per particle by a method and by terms of the scene: a storage buffer with all columns in
+   sequence, each with room for `capacity` numbers. A second buffer holds the shaders' scratch. Read by
+   shaders/sim/own.glsl and scratch.glsl. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -23,7 +23,7 @@ size_t compute_scratch_place(const Compute *c, const ColumnDef *column)
     return place;
 }
 
-/* It only grows: programs of before, with more columns, may have to go on with it. */
+/* The buffer never shrinks: older programs, with more columns, may still use it. */
 bool compute_scratch_fit(Compute *c)
 {
     const int total = compute_scratch_of(c->constants).total;
@@ -72,7 +72,7 @@ static bool widen(Compute *c, unsigned *buffer, int before, int count)
     return true;
 }
 
-/* Terms that may come later stand last in their list. */
+/* Requires that terms added later are last in their list. */
 bool compute_own_fit(Compute *c)
 {
     const ComputeOwn own = compute_own_of(c->constants);
@@ -92,7 +92,8 @@ void compute_own_rows(const Compute *c, ColumnRows *rows)
         rows->row[rows->count++] = c->own.rows.row[k];
 }
 
-/* Where a column's first component stands in its buffer; of a term the term's name stands before it. */
+/* Defines the index of a column's first component in its buffer; for a term, with the term's name as
+   prefix. */
 static void define(const Compute *c, const char *buffer, const Term *of, const ColumnDef *column, size_t *at,
                    char out[COMPUTE_DEFINES_MAX])
 {
@@ -116,7 +117,7 @@ void compute_own_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
                  own, c->capacity);
 }
 
-/* Where entry i of the k-th column is, bytes. */
+/* Offset of entry i of the k-th column, bytes. */
 static GLintptr place_of(const Compute *c, int k, size_t i)
 {
     return (GLintptr)(4 * ((size_t)k * c->capacity + i));
@@ -129,8 +130,7 @@ static void clear_one(const Compute *c, int k, size_t first, size_t count)
                                   GL_FLOAT, NULL);
 }
 
-/* A column is either written or cleared: NVIDIA's driver (580) let a clear pass what was written behind it.
- */
+/* A column is either written or cleared: NVIDIA's driver (580) let a clear overtake a later write. */
 void compute_own_upload(const Compute *c, const ParticleColumns *from)
 {
     for (int k = 0; k < c->own.count; k++)

@@ -1,4 +1,4 @@
-/* The particles' columns in storage buffers: where each lies, and the way from there and back. */
+/* The particles' columns in storage buffers: layout and transfer both ways. */
 #include "sim/world/particles.h"
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/packing.h"
@@ -23,10 +23,10 @@ static const Packing packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [NAME]
                                     {PRESSURE, 1, AT(pressure_term), COLUMN_FLOAT},
                                 }};
 
-/* Those that move when particles are sorted: from POSITION to before MOVED. */
+/* Buffers moved by the sort: from POSITION to before MOVED. */
 static const struct {
     const char *label;
-    size_t at; /* in ComputeParticles */
+    size_t at; /* offset in ComputeParticles */
 } moved[MOVED] = {
     [POSITION] = {"particle positions", offsetof(ComputeParticles, position)},
     [VELOCITY] = {"particle velocities", offsetof(ComputeParticles, velocity)},
@@ -82,7 +82,7 @@ void compute_swap(Compute *c)
     c->now = other;
 }
 
-/* Of volumes and whatever else no column says: 0. */
+/* Uploads columns; volumes and missing columns become 0. */
 static void upload(const Compute *c, const ParticleColumns *from, uint32_t *entries)
 {
     for (int b = POSITION; b < MOVED; b++) {
@@ -105,7 +105,7 @@ static void download(const Compute *c, const ParticleColumns *to, uint32_t *entr
     compute_own_download(c, to);
 }
 
-/* Room for the largest entries of so many. */
+/* Memory for the largest entries of `count` particles. */
 static uint32_t *entries_create(size_t count)
 {
     return malloc(4 * PACKED_WORDS * (count + 1));

@@ -1,4 +1,4 @@
-/* What others see of the state: copies and sums. */
+/* Reads of the state: copies and sums. */
 #include "sim/gl/compute/compute.h"
 #include "sim/world/cell_rows.h"
 #include "sim/world/particles.h"
@@ -17,8 +17,8 @@ bool compute_read(void *state, const ParticleArrays *out)
     return true;
 }
 
-/* How many other particles have r < h, among those that the last grid has in and around the cell of that
- * place where it had particle i. */
+/* Number of neighbours of particle i with r < h, in the last grid: in particle i's cell of `place` and the
+   cells around. */
 static size_t neighbours_of(const Compute *c, const ParticleColumns *p, const uint32_t *start, size_t place,
                             size_t i)
 {
@@ -34,15 +34,15 @@ static size_t neighbours_of(const Compute *c, const ParticleColumns *p, const ui
             continue;
         for (size_t j = rows[row].begin; j < rows[row].end; j++) {
             float d[3] = {p->x[i] - p->x[j], p->y[i] - p->y[j], p->z[i] - p->z[j]};
-            periodic_nearest(&s->periodic, d); /* who has gone through a side since */
+            periodic_nearest(&s->periodic, d); /* for particles that crossed a side since */
             count += j != i && d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < h2;
         }
     }
     return count;
 }
 
-/* Particles are in the order of their cells at the last `grid`: its starts tell these, wherever they are by
- * now. */
+/* Particles are ordered by their cells at the last `grid`: the cell starts give each particle's cell,
+   wherever it is now. */
 static double neighbours_mean(const Compute *c, const ParticleColumns *p)
 {
     const size_t places = c->fold.count;

@@ -1,5 +1,5 @@
-/* The particles for the views, in the buffers that the steps work on; what these do not hold as such is
-   written by a pass of its own, for what is wanted only. */
+/* Particles for the views, in the buffers of the steps. Data not stored directly is written by a separate
+   pass, only if wanted. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -7,7 +7,7 @@
 
 #include <epoxy/gl.h>
 
-/* One of the scalars, or the fluid or the id: 4 bytes a particle. */
+/* A scalar, the fluid or the id: 4 bytes per particle. */
 static ParticleAttribute show(Compute *c, int what)
 {
     if (!c->shown[what])
@@ -23,7 +23,7 @@ static ParticleAttribute show(Compute *c, int what)
     return (ParticleAttribute){c->shown[what], 0, 4};
 }
 
-/* A column of the method's own, or a term's; nothing where the scene has none of that name. */
+/* A column of the method or a term; nothing if the scene has no column of the name. */
 static ParticleAttribute show_own(Compute *c, Scalar scalar)
 {
     const int place = columns_place(&c->own.rows, scalar);

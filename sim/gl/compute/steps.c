@@ -1,4 +1,4 @@
-/* The stages of a step. */
+/* Stages of a step. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/bindings.h"
@@ -21,7 +21,7 @@ void compute_dispatch(size_t groups)
 
 void compute_run(const Compute *compute, ComputePass pass, size_t count)
 {
-    enum { FIRST = CONSTANT_BLOCK }; /* of five in a row */
+    enum { FIRST = CONSTANT_BLOCK }; /* first of five consecutive blocks */
     const GLuint blocks[] = {[CONSTANT_BLOCK - FIRST] = compute->constant_block,
                              [STEP_BLOCK - FIRST] = compute->step,
                              [TERM_BLOCK - FIRST] = compute->terms,
@@ -50,7 +50,7 @@ void compute_pass(void *state, const Pass *pass, const PassInput *input)
 {
     Compute *c = state;
     const ComputePass at = compute_method_pass(c, pass);
-    compute_boundary_grid(c); /* behind a drift solids may have moved since */
+    compute_boundary_grid(c); /* a drift may have moved the solids */
     if (c->takes_dt[at])
         glProgramUniform1f(c->program[at], PASS_DT_AT, input->dt);
     if ((pass->stage == STAGE_FORCE || pass->stage == STAGE_INTEGRATE) && input->apparent)

@@ -1,4 +1,4 @@
-/* What only some scenes name: which lines stand before the shaders for it, and its uniforms and buffers. */
+/* Optional terms of scenes: lines before the shaders, uniforms and buffers. */
 #include "sim/gl/compute/compute.h"
 
 #include "shaders/sim/term_block.h"
@@ -96,7 +96,7 @@ bool compute_pass_named(const Constants *s, ComputePass pass)
     }
 }
 
-/* Entries of the tables of t + 1 faces. */
+/* Number of entries in the tables of t + 1 faces. */
 static size_t drag_entries(const WallDrag *drag, int t)
 {
     size_t entries = 1;

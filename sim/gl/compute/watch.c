@@ -1,5 +1,4 @@
-/* What the kicks of a frame found, read when the next one begins, and the state that the sentinel goes back
- * to. */
+/* Findings of a frame's kicks, read at the begin of the next frame, and the state marked for the sentinel. */
 #include "sim/gl/compute/compute.h"
 #include "sim/gl/float_bits.h"
 
@@ -8,7 +7,7 @@
 #include <epoxy/gl.h>
 #include <math.h>
 
-/* How far a particle may go in a step is asked with the longest of them. */
+/* The longest step since the last read bounds the distance per step. */
 void compute_watch_note(Compute *c, float dt)
 {
     c->longest = fmaxf(c->longest, dt);

@@ -1,5 +1,4 @@
-/* What the method has for shaders, and behind it what terms that methods share have: passes, buffers, columns
-   of scratch. */
+/* Passes, buffers and scratch columns for shaders: of the method, then of the shared terms. */
 #include "sim/gl/compute/compute.h"
 
 const Pass *compute_pass_at(const Method *method, int k, const Term **of)
@@ -33,7 +32,7 @@ ComputePass compute_method_pass(const Compute *c, const Pass *pass)
     return (ComputePass)(COMPUTE_METHOD + k);
 }
 
-/* The k-th of a list that ends with a NULL block, itself NULL if there is none. */
+/* Entry k of a list that ends with a NULL block; NULL if there is none. */
 static const ShaderBuffer *buffer_in(const ShaderBuffer *list, int k)
 {
     for (; list && list->block; list++)

@@ -1,4 +1,4 @@
-/* What is constant while a world lives, as GLSL: the compiler sees all of it. The names are those of
+/* Constants of a world as GLSL text, so that the compiler knows all values. Names as in
    shaders/sim/constant_block.h, so that wall_lift.glsl and images.glsl serve both backends. */
 #include "sim/gl/fragment/fragment.h"
 
@@ -29,13 +29,13 @@ static void put_ints(Text *to, const char *name, int count, const int *values)
         put(to, "%d%s", values[k], k + 1 < count ? ", " : ");\n");
 }
 
-/* Ten digits give a float back to the bit. */
+/* Ten digits reproduce a float exactly. */
 static void put_float(Text *to, const char *name, float value)
 {
     put(to, "const float %s = %.9e;\n", name, (double)value);
 }
 
-/* Terms that the scene does not name are not compiled in. */
+/* Terms not named by the scene are not compiled. */
 static void put_terms(Text *to, const Constants *s)
 {
 #define X(NAME, name, unit) put(to, "#define SCALAR_" #NAME " %d\n", SCALAR_##NAME);
@@ -78,7 +78,7 @@ void fragment_constants(const Fragment *f, char text[FRAGMENT_CONSTANTS_MAX])
     put_ints(&to, "grid_size", 3, s->cells.size);
     put(&to, "const int dimensions = %d, first_row = %d, last_row = %d;\n", s->dimensions, s->first_row,
         s->last_row);
-    put(&to, "uniform vec3 half_size;\n"); /* the box may change while the programs stay */
+    put(&to, "uniform vec3 half_size;\n"); /* the box may change while programs stay */
     put_float(&to, "wall_lift",
               wall_lift_of(&s->lattice, (double)s->spacing, (double)s->support_radius).scale);
 }

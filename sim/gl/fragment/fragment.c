@@ -31,11 +31,11 @@ static void fragment_destroy(void *state)
     free(f);
 }
 
-/* A texture for so many texels, wide rather than high: software renderers share tiles of 64 x 64 among their
-   threads, and few particles would make few of them. */
+/* Size of a texture for `count` texels, wide rather than high: software renderers share tiles of 64 x 64
+   among their threads, and a narrow texture has few tiles. */
 static void shape_for(size_t count, int *bits, int *width, int *height)
 {
-    enum { ROWS = 8, BITS = 12, ROWS_MOST = 16384, BITS_MOST = 14 }; /* GL 4.5 has 16384 x 16384 */
+    enum { ROWS = 8, BITS = 12, ROWS_MOST = 16384, BITS_MOST = 14 }; /* GL 4.5 guarantees 16384 x 16384 */
     *bits = 3;
     while ((count >> *bits > ROWS && *bits < BITS) || (count >> *bits >= ROWS_MOST && *bits < BITS_MOST))
         ++*bits;
@@ -43,7 +43,7 @@ static void shape_for(size_t count, int *bits, int *width, int *height)
     *height = (int)((count + (size_t)*width - 1) >> *bits);
 }
 
-/* "compute or cpu": the other backends that have all of the def, the newest first. */
+/* "compute or cpu": further backends that support the def, the newest first. */
 static void others_that_can(const WorldDef *def, char names[64])
 {
     const Backend *const *list = backend_list();
@@ -80,7 +80,7 @@ FragmentDef *fragment_def(const WorldDef *def)
     return backend_def(def, &backend_fragment);
 }
 
-/* The lattice puts ceil(support)^dimensions particles into a cell at most. */
+/* A lattice has at most ceil(support)^dimensions particles per cell. */
 int fragment_layers(const WorldDef *def)
 {
     const int given = fragment_def(def)->grid_layers;
@@ -140,7 +140,7 @@ static bool fits(const Fragment *f, Error *error)
     return true;
 }
 
-/* Never where a list of all particles is more than a texture may show of a buffer. */
+/* Never (0) if a list of all particles exceeds the size of a buffer texture. */
 static int order_every(const Fragment *f)
 {
     GLint texels = 0;

@@ -1,11 +1,11 @@
 /* The backend `fragment`: the solver in fragment shaders, after T. Harada, S. Koshizuka, Y. Kawaguchi,
-   "Smoothed particle hydrodynamics on GPUs", 2007. Its state, for the files that make it up.
+   "Smoothed particle hydrodynamics on GPUs", 2007. Its state, for the files of sim/gl/fragment. Needs a
+   current context, always the same.
 
-   Needs a current context, the same one throughout. Particles are texels of float textures; an index says
-   which. They begin in the order of their ids and come into that of their cells now and then. A pass draws a
-   triangle over all of them, from one set of textures into another. The neighbours are found through buckets:
-   a texel a cell, which holds four indices, in several layers. Shaders are shaders/sim/fragment and a
-   method's own in its folder, in GLSL 3.30. */
+   Particles are texels of float textures, addressed by index: first in the order of ids, and from time to
+   time sorted by cell. A pass draws a triangle over all texels, from a set of textures to a second set.
+   Neighbours are found by buckets: a texel per cell with four indices, in several layers. Shaders are
+   shaders/sim/fragment and the method's shaders in its folder, in GLSL 3.30. */
 #ifndef SLOSH_FRAGMENT_H
 #define SLOSH_FRAGMENT_H
 
@@ -14,15 +14,15 @@
 #include "sim/world/backend.h"
 
 enum {
-    FRAGMENT_COUNT_MOST = 1 << 24, /* ids up to here are exact in a float and a depth of 32 bits */
-    FRAGMENT_ORDER_EVERY = 32,     /* so many frames */
-    FRAGMENT_LAYERS_MOST = 63,     /* the stencil, of 8 bits, counts the places of a cell */
-    FRAGMENT_LEVELS_MOST = 8,      /* of the reduction, each an eighth of the one before */
+    FRAGMENT_COUNT_MOST = 1 << 24, /* ids below are exact in a float and in a 32-bit depth */
+    FRAGMENT_ORDER_EVERY = 32,     /* frames */
+    FRAGMENT_LAYERS_MOST = 63,     /* the 8-bit stencil counts places of a cell */
+    FRAGMENT_LEVELS_MOST = 8,      /* of the reduction, each an eighth per side of the level before */
     FRAGMENT_CONSTANTS_MAX = 3072  /* characters */
 };
 
-/* X(ENUM, vertex shader, the one after it, both below shaders/sim; defines). NULL: that of the method's pass
-   of this stage. */
+/* X(ENUM, vertex shader, next shader, both below shaders/sim; defines). NULL: shader of the method's pass
+   for the stage. */
 #define FRAGMENT_PASSES(X)                                                                                   \
     X(DRIFT, "fragment/screen.vert", "fragment/drift.frag", "")                                              \
     X(BUCKET, "fragment/bucket.vert", "fragment/bucket.frag", "")                                            \
@@ -49,7 +49,7 @@ typedef enum FragmentPass {
         FRAGMENT_PASS_COUNT
 } FragmentPass;
 
-/* X(ENUM, name): the samplers of the shaders; each has its own texture unit */
+/* X(ENUM, name): samplers of the shaders; each has a separate texture unit */
 #define FRAGMENT_SAMPLERS(X)                                                                                 \
     X(POSITION, "position")                                                                                  \
     X(VELOCITY, "velocity")                                                                                  \
@@ -63,7 +63,7 @@ typedef enum FragmentPass {
     X(BEFORE, "before")                                                                                      \
     X(BY_CELL, "by_cell")
 
-/* X(name): the uniforms of the shaders */
+/* X(name): uniforms of the shaders */
 #define FRAGMENT_UNIFORMS(X)                                                                                 \
     X(rotation)                                                                                              \
     X(omega0)                                                                                                \
@@ -100,78 +100,80 @@ typedef enum FragmentSampler {
         FRAGMENT_SAMPLER_COUNT
 } FragmentSampler;
 
-/* Texture names, unless said otherwise. Of a pair, [0] is the present one; a pass writes into [1]. */
+/* Texture names, unless noted. In a pair, [0] is the present texture; a pass writes to [1]. */
 typedef struct Fragment {
     const Constants *constants;
     size_t count;
-    int bits, width, height;                      /* of the textures of particles; width = 2^bits */
+    int bits, width, height;                      /* of particle textures; width = 2^bits */
     int bucket_bits, bucket_width, bucket_height; /* of the buckets, likewise */
     int layers;
-    bool flush;            /* the driver needs it before a grid */
-    size_t lost_limit;     /* so many particles may find no place in a step */
+    bool flush;            /* the driver needs a flush before a grid */
+    size_t lost_limit;     /* most particles without a place, per step */
     unsigned position[2];  /* x y z (m), id */
     unsigned velocity[2];  /* x y z (m/s), fluid */
-    unsigned held[2];      /* uint: by `drift`, how often the guard held the particle */
+    unsigned held[2];      /* uint: by `drift`, number of times the guard held the particle */
     unsigned fields;       /* by `density`: volume, p, 0; 1 for a particle without a place, else 0 */
-    unsigned near;         /* too, for others to read: x y z, p V^2 */
-    unsigned moving;       /* too, where a fluid is viscous: velocity, volume */
+    unsigned near;         /* by `density`, read of neighbours: x y z, p V^2 */
+    unsigned moving;       /* by `density`, if a fluid is viscous: velocity, volume */
     unsigned acceleration; /* by `force`: x y z (m/s2), 0 */
-    unsigned buckets;      /* by `grid`: uvec4 a cell and layer: index + 1 of four particles, or 0 */
-    unsigned bucket_depth; /* (id + 1) / 2^24 of what went in last; stencil: how many did */
-    unsigned full[FRAGMENT_LAYERS_MOST]; /* queries: whether some cell filled the layer */
-    unsigned listed[3]; /* buffers of uint, index + 1: all, by id; by `grid`, what waits for an even, an odd
-                           layer; the second by `mark`, too: all by cell */
-    unsigned by_cell;   /* the second as a texture */
-    unsigned written;   /* a query: how many particles were listed by cell */
-    int order_every, marks; /* frames from one order to the next, 0: never; those since the last */
+    unsigned buckets;      /* by `grid`: uvec4 per cell and layer: index + 1 of four particles, or 0 */
+    unsigned bucket_depth; /* (id + 1) / 2^24 of the last particle added; stencil: number of particles
+                              added */
+    unsigned full[FRAGMENT_LAYERS_MOST]; /* queries: some cell filled the layer */
+    unsigned listed[3]; /* buffers of uint, index + 1: all particles by id; by `grid`, particles waiting for
+                           an even, an odd layer; the second by `mark` too: all particles by cell */
+    unsigned by_cell;   /* the second list as a texture */
+    unsigned written;   /* query: number of particles listed by cell */
+    int order_every, marks; /* frames between sorts, 0: never; frames since the last sort */
     unsigned lists[3];      /* as vertex arrays */
-    unsigned feedback[2];   /* into the latter two */
-    int levels;             /* of the reduction, each coarser than the one before: */
+    unsigned feedback[2];   /* into the second and third list */
+    int levels;             /* of the reduction, ever coarser: */
     unsigned found[FRAGMENT_LEVELS_MOST], held_sum[FRAGMENT_LEVELS_MOST]; /* see watch.frag */
     int level_size[FRAGMENT_LEVELS_MOST][2];
     unsigned watch[2];  /* 2 x 1: see watch_last.frag */
-    Mailbox watched;    /* 8 uint: that */
-    bool watch_due;     /* gathered, not sent */
-    float longest;      /* dt of the kicks since the watch was read, s */
-    size_t lost;        /* greatest number in one step, as last read */
+    Mailbox watched;    /* 8 uint: copy of `watch` */
+    bool watch_due;     /* gathered and not sent */
+    float longest;      /* longest dt of the kicks since the watch was read, s */
+    size_t lost;        /* greatest number in a step, as last read */
     unsigned marked[2]; /* position and velocity; 0 before the first `mark` */
-    unsigned placed;    /* by `share`, like what follows: x y z, volume; 0 before the first */
+    unsigned placed;    /* by `share`, as below: x y z, volume; 0 before the first */
     unsigned word;      /* uint: a scalar's bits, fluid or id */
-    unsigned shown_position, shown_velocity, shown[SCALAR_STATE_COUNT + 2]; /* buffers; 0 until asked for */
+    unsigned shown_position, shown_velocity, shown[SCALAR_STATE_COUNT + 2]; /* buffers; 0 before the first
+                                                                               request */
     Mailbox gauge;                                                          /* 5 float: see gauge.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
-    GlState kept; /* of the caller's, while passes run */
+    GlState kept; /* the caller's state, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];
-    int uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* where it is; -1: not there */
-    char constant_lines[FRAGMENT_CONSTANTS_MAX];              /* with which they were compiled */
-    size_t bytes, guarded_before, guarded; /* of all textures; before the last load, and since */
+    int uniform[FRAGMENT_PASS_COUNT][FRAGMENT_UNIFORM_COUNT]; /* locations; -1: none */
+    char constant_lines[FRAGMENT_CONSTANTS_MAX];              /* used to compile the programs */
+    size_t bytes, guarded_before, guarded; /* of all textures; before the last load; since the last load */
 } Fragment;
 
-/* Textures and what draws into them. False with the reason. */
+/* Creates textures and framebuffers. Returns false with the reason. */
 bool fragment_textures_create(Fragment *fragment, Error *error);
 void fragment_textures_destroy(Fragment *fragment);
 bool fragment_marked_create(Fragment *fragment, Error *error);
 void fragment_shown_create(Fragment *fragment);
-bool fragment_terms_create(Fragment *fragment, Error *error); /* what terms need that came later */
+bool fragment_terms_create(Fragment *fragment, Error *error); /* textures of terms added later */
 
-/* Lines of GLSL that say what is constant: they stand before each shader. */
+/* GLSL lines of constants, placed before each shader. */
 void fragment_constants(const Fragment *fragment, char text[FRAGMENT_CONSTANTS_MAX]);
 
-/* (Re)compiles all passes with the solver's terms. False with the reason: the old ones stay. */
+/* (Re)compiles all passes with the solver's terms. Returns false with the reason: the old programs stay. */
 bool fragment_programs_create(Fragment *fragment, Error *error);
 
-/* Compiles the two passes of the gauge, which others have no need of. */
+/* Compiles the two passes of the gauge, on request. */
 bool fragment_gauge_programs(Fragment *fragment, Error *error);
 
-/* Gives the programs what may change of the fluids, and of the box. */
+/* Sets the live values of fluids and box in the programs. */
 void fragment_set_fluids(const Fragment *fragment);
 
-/* Which particles are the texels, from their ids: `listed`. What is drawn from then on, over `width` x
-   `height` texels of up to three textures. */
+/* fragment_number: lists the texels by particle id in `listed`. fragment_target: sets up to three textures
+   of `width` x `height` texels as targets. */
 void fragment_number(Fragment *fragment);
 void fragment_target(const Fragment *fragment, const unsigned *targets, int count, int width, int height);
 
-/* Once in so many calls, brings the particles into the order of their cells. */
+/* Every order_every calls, sorts the particles by cell. */
 void fragment_order(Fragment *fragment);
 
 /* Draws the pass over `width` x `height` texels of up to three textures. */
@@ -184,34 +186,34 @@ void fragment_set3(const Fragment *fragment, FragmentPass pass, FragmentUniform 
                    const float value[3]);
 void fragment_set1(const Fragment *fragment, FragmentPass pass, FragmentUniform uniform, float value);
 
-/* Copies all of a texture into a buffer, from a byte on: 32-bit floats, or uints for an _INTEGER format. */
+/* Copies a whole texture into a buffer from byte `at` on: 32-bit floats, or uints for an _INTEGER format. */
 void fragment_pack(unsigned texture, unsigned format, unsigned buffer, size_t at, size_t bytes);
 
-/* [1], just drawn into, becomes the present one. */
+/* Makes [1], just drawn, the present texture. */
 void fragment_swap(unsigned pair[2]);
 
-/* sim/gl/fragment/watch.c: gathers what a kick found; sends what was gathered, once a frame, before pictures;
-   forgets all of it, with so many guarded before. */
+/* sim/gl/fragment/watch.c. _gather: gathers the findings of a kick. _send: sends gathered findings, once
+   per frame, before pictures. _reset: forgets all findings, with `guarded` counts before. */
 void fragment_watch_gather(Fragment *fragment, const float gravity[3], float dt);
 void fragment_watch_send(Fragment *fragment);
 void fragment_watch_reset(Fragment *fragment, size_t guarded);
 
-/* False when memory is short. */
+/* Returns false if memory is short. */
 bool fragment_set_particles(Fragment *fragment, const InitialState *initial);
 
-/* All places of the buckets, to be freed; NULL when memory is short. What stands at a place of a cell: an id
-   + 1, or 0. */
+/* fragment_buckets_read: all places of the buckets, freed by the caller; NULL if memory is short.
+   fragment_bucket_at: entry at a place of a cell, an id + 1, or 0. */
 uint32_t *fragment_buckets_read(const Fragment *fragment);
 uint32_t fragment_bucket_at(const Fragment *fragment, const uint32_t *places, size_t cell, int place);
 
-/* Around all passes of a step, so that the state of the context is asked for once. */
+/* Called around all passes of a step, so that the context's state is queried once. */
 void fragment_enter(void *state);
 void fragment_leave(void *state);
 
 void fragment_grid(void *state);
 void fragment_drift(void *state, const BoxStep *step);
 
-/* Whether it can run the method: each pass is of the stage density or force, one of each, and has a shader
+/* True if the backend can run the method: exactly a density and a force pass, each with a shader
    shaders/sim/SHADER.frag. */
 bool fragment_has(const Method *method);
 void fragment_pass(void *state, const Pass *pass, const PassInput *input);

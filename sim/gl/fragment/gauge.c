@@ -1,12 +1,11 @@
-/* What is plotted of the state: reduced by the targets that the watch has, and on its way back without a
- * wait. */
+/* Plotted sums of the state: reduced with the targets of the watch, read back without a wait. */
 #include "sim/gl/fragment/fragment.h"
 
 #include <epoxy/gl.h>
 
 enum { NUMBERS = 5 };
 
-/* The first time. */
+/* Created on first use. */
 static bool prepare(Fragment *f)
 {
     Error error;
@@ -54,7 +53,7 @@ bool fragment_gauged(void *state, WorldGauge *gauge, bool waits)
     const float *found = waits ? mailbox_wait(&f->gauge) : mailbox_look(&f->gauge);
     if (!found)
         return false;
-    const double unit = f->constants->unit_volume; /* masses are over it */
+    const double unit = f->constants->unit_volume; /* masses are over the unit volume */
     gauge->density_error_mean = (double)found[0] / (f->count > 0 ? (double)f->count : 1);
     gauge->kinetic_energy = unit * (double)found[1];
     gauge->potential_energy = unit * (double)found[2];

@@ -1,13 +1,13 @@
-/* The buckets: each particle is a point, drawn into its cell's texel as deep as its id. In the k-th pass the
-   colour mask opens the k-th place; the depth test lets ids pass that are greater than the last one there,
-   and of these, which are drawn in rising order, the stencil lets only the first: it counts what went in. So
-   each pass puts every cell's next particle in: Harada, Koshizuka and Kawaguchi 2007, with more layers
-   than one. What one layer leaves is listed by transform feedback, and only that is drawn into the next. */
+/* Buckets: each particle is a point, drawn to its cell's texel with its id as depth. In the k-th pass the
+   colour mask opens the k-th place. The depth test passes ids greater than the last id there. Among these,
+   drawn in rising order, the stencil passes only the first and counts the particles added. So each pass
+   adds the next particle of every cell: Harada, Koshizuka and Kawaguchi 2007, with several layers.
+   Transform feedback lists the particles left over by a layer, and only those are drawn to the next layer. */
 #include "sim/gl/fragment/fragment.h"
 
 #include <epoxy/gl.h>
 
-/* Those that may go into the layer: all into the first. */
+/* Draws the candidates for the layer: all particles for the first layer. */
 static void draw_listed(const Fragment *f, int layer)
 {
     glBindVertexArray(f->lists[layer == 0 ? 0 : 1 + layer % 2]);
@@ -36,13 +36,13 @@ static void fill_layer(const Fragment *f, int layer)
     glEndQuery(GL_ANY_SAMPLES_PASSED);
 }
 
-/* What the layer below has left. */
+/* Lists the particles left over by the layer below. */
 static void list_waiting(const Fragment *f, int layer)
 {
     const GLuint program = f->program[FRAGMENT_WAITING];
     glUseProgram(program);
     glProgramUniform1i(program, fragment_uniform(f, FRAGMENT_WAITING, FRAGMENT_layer), layer - 1);
-    glTextureBarrier(); /* it was drawn into until now */
+    glTextureBarrier(); /* the buckets were a target until now */
     glEnable(GL_RASTERIZER_DISCARD);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, f->feedback[layer % 2]);
     glBeginTransformFeedback(GL_POINTS);
@@ -52,7 +52,7 @@ static void list_waiting(const Fragment *f, int layer)
     glDisable(GL_RASTERIZER_DISCARD);
 }
 
-/* Where no cell filled a layer the next one stays empty. */
+/* If no cell filled a layer, the next layer stays empty. */
 static void fill_layers(const Fragment *f)
 {
     fill_layer(f, 0);
@@ -68,13 +68,13 @@ void fragment_grid(void *state)
 {
     Fragment *f = state;
     gl_state_keep(&f->kept);
-    if (f->flush) /* zink of Mesa 22.3 draws hardly a particle behind a view's indexed indirect draw */
+    if (f->flush) /* zink of Mesa 22.3 draws hardly any particle after a view's indexed indirect draw */
         glFlush();
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->bucket_framebuffer[0]);
     glViewport(0, 0, f->bucket_width, f->bucket_height);
     glClearBufferfi(GL_DEPTH_STENCIL, 0, 0, 0);
-    /* All layers, whatever the conditions below say: NVIDIA's driver (580) left out a layer's glClearBuffer
-       that stood under one and drew into the layer. */
+    /* Clears all layers regardless of the conditions below: NVIDIA's driver (580) skipped a layer's
+       conditional glClearBuffer and drew to the layer. */
     glClearTexImage(f->buckets, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, NULL);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GREATER);

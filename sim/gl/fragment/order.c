@@ -1,7 +1,6 @@
-/* Which particle is which texel. They move into the order of their cells now and then, so that what a pass
-   reads of neighbours lies together; the buckets fill by id wherever a particle lies, so no bit of a step
-   depends on when. Called where the last frame is known to be good: its buckets then hold each particle once.
- */
+/* Assignment of particles to texels. From time to time the particles are sorted by cell, so that a pass
+   reads neighbours from nearby texels. Buckets fill by id for any texel order, so the time of sorting
+   changes no bit of a step. Call only after a good frame: the buckets then hold each particle once. */
 #include "sim/gl/fragment/fragment.h"
 
 #include <epoxy/gl.h>
@@ -24,12 +23,12 @@ static void draw_points(const Fragment *f, bool placeless, size_t count)
     glDrawArrays(GL_POINTS, 0, (GLsizei)count);
 }
 
-/* Into listed[1]: what the buckets hold, cell by cell, and behind it who has no place in them. How many they
-   were. */
+/* Lists in listed[1] the particles in the buckets, cell by cell, then particles without a place. Returns
+   their number. */
 static size_t list_by_cell(const Fragment *f)
 {
     GLuint written = 0;
-    fragment_target(f, &f->held[1], 1, f->width, f->height); /* no texture that is read here */
+    fragment_target(f, &f->held[1], 1, f->width, f->height); /* a texture not read here */
     glUseProgram(f->program[FRAGMENT_ORDER]);
     glEnable(GL_RASTERIZER_DISCARD);
     glBindTransformFeedback(GL_TRANSFORM_FEEDBACK, f->feedback[0]);

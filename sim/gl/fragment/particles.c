@@ -1,4 +1,4 @@
-/* The particles' columns in textures: where each lies, and the way from there and back. */
+/* The particles' columns in textures: layout and transfer both ways. */
 #include "sim/world/particles.h"
 #include "sim/gl/fragment/fragment.h"
 #include "sim/gl/packing.h"
@@ -26,7 +26,7 @@ static unsigned texture_of(const Fragment *f, int texture)
     return texture == POSITION ? f->position[0] : texture == VELOCITY ? f->velocity[0] : f->fields;
 }
 
-/* All of a texture, into memory here. */
+/* Reads a whole texture into memory. */
 static void texels_read(unsigned texture, GLenum format, GLenum type, size_t bytes, void *out)
 {
     GLint pack;
@@ -41,8 +41,8 @@ static size_t texture_bytes(const Fragment *f)
     return 16 * (size_t)f->width * (size_t)f->height;
 }
 
-/* The id of each texel's particle, to be freed; NULL when memory is short. A lost context gives anything:
-   then an id is that of its texel, so that nobody writes beside an array. */
+/* The id of each texel's particle, freed by the caller; NULL if memory is short. A lost context gives
+   arbitrary values: invalid ids become the texel's index, to keep array accesses in bounds. */
 static uint32_t *ids_read(const Fragment *f)
 {
     float *texels = calloc(1, texture_bytes(f));
@@ -57,7 +57,7 @@ static uint32_t *ids_read(const Fragment *f)
     return id;
 }
 
-/* A texture's texels in the order of the ids, into `out`. */
+/* Reads a texture's texels in the order of ids to `out`. */
 static void texels_by_id(const Fragment *f, int texture, const uint32_t *id, uint32_t *texels, uint32_t *out)
 {
     texels_read(texture_of(f, texture), GL_RGBA, GL_FLOAT, texture_bytes(f), texels);
@@ -65,7 +65,7 @@ static void texels_by_id(const Fragment *f, int texture, const uint32_t *id, uin
         memcpy(out + 4 * (size_t)id[i], texels + 4 * i, 16);
 }
 
-/* In the order of the ids, whatever that of the texels, into columns that columns_destroy frees; false when
+/* Downloads columns in the order of ids, for any order of texels; free with columns_destroy. False if
    memory is short. */
 static bool download(const Fragment *f, ParticleColumns *columns)
 {
@@ -95,7 +95,7 @@ static void texels_write(const Fragment *f, unsigned texture, const uint32_t *te
     glBindBuffer(GL_PIXEL_UNPACK_BUFFER, (GLuint)unpack);
 }
 
-/* Each particle into the texel of its id, so that what follows does not depend on the order it came in. */
+/* Writes each particle to the texel of its id, so that the result is independent of the input order. */
 static bool upload(Fragment *f, const ParticleColumns *from)
 {
     uint32_t *texels = malloc(texture_bytes(f));
@@ -131,7 +131,7 @@ bool fragment_save(void *state, const ParticleColumns *to)
     if (!download(f, &copy))
         return false;
     columns_copy(&saved, &copy, to, NULL, 0, f->count);
-    for (int k = COLUMNS_LEFT; k < COLUMNS_SHOWN; k++) /* it keeps none */
+    for (int k = COLUMNS_LEFT; k < COLUMNS_SHOWN; k++) /* the backend keeps no remainders */
         if (to->own[k])
             memset(to->own[k], 0, f->count * sizeof(float));
     columns_destroy(&copy);
@@ -161,7 +161,7 @@ bool fragment_read(void *state, const ParticleArrays *out)
 uint32_t *fragment_buckets_read(const Fragment *f)
 {
     const size_t bytes = 16 * (size_t)f->bucket_width * (size_t)f->bucket_height * (size_t)f->layers;
-    uint32_t *places = bytes <= INT32_MAX ? malloc(bytes) : NULL; /* more, a single read cannot bring */
+    uint32_t *places = bytes <= INT32_MAX ? malloc(bytes) : NULL; /* limit of a single read */
     uint32_t *id = places ? ids_read(f) : NULL;
     if (id)
         texels_read(f->buckets, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, places);
@@ -182,7 +182,7 @@ uint32_t fragment_bucket_at(const Fragment *f, const uint32_t *places, size_t ce
     return places[4 * ((size_t)place / 4 * layer + cell) + (size_t)place % 4];
 }
 
-/* Others with r < h of particle i, in three cells. */
+/* Number of neighbours of particle i with r < h in three cells. */
 static size_t neighbours_in_row(const Fragment *f, const ParticleColumns *p, const uint32_t *places,
                                 size_t first, size_t i)
 {
@@ -217,7 +217,7 @@ static size_t neighbours_of_cell(const Fragment *f, const ParticleColumns *p, co
     return sum;
 }
 
-/* Counts what the buckets hold: a particle without a place has no neighbours, and is no neighbour. */
+/* Counts particles in the buckets: a particle without a place has no neighbours and is no neighbour. */
 static double neighbours_mean(const Fragment *f, const ParticleColumns *p)
 {
     uint32_t *places = fragment_buckets_read(f);

@@ -1,4 +1,4 @@
-/* Programs, and how a pass is drawn. */
+/* Programs, and drawing of a pass. */
 #include "sim/gl/fragment/fragment.h"
 #include "sim/gl/program.h"
 #include "sim/gl/shader_source.h"
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { FIRST_UNIT = 16 }; /* the views use those below; GL 4.5 has 80 for all stages together */
+enum { FIRST_UNIT = 16 }; /* the views use lower units; GL 4.5 has 80 over all stages */
 
 static const struct {
     const char *vertex, *next, *defines;
@@ -39,7 +39,7 @@ bool fragment_has(const Method *method)
     return of_stage[STAGE_DENSITY] == 1 && of_stage[STAGE_FORCE] == 1;
 }
 
-/* What follows the vertex shader of a pass: its own, or the method's of its stage. */
+/* The shader after the vertex shader of a pass: the table's shader, or the method's for the stage. */
 static void next_shader(const Method *method, FragmentPass pass, char path[64])
 {
     const Stage stage = pass == FRAGMENT_DENSITY ? STAGE_DENSITY : STAGE_FORCE;
@@ -53,7 +53,7 @@ static void next_shader(const Method *method, FragmentPass pass, char path[64])
     shader_of(*own, path);
 }
 
-/* For transform feedback, which has to be known before the program is linked: once more. */
+/* Sets an output for transform feedback, which requires linking again. */
 static void capture(unsigned program, const char *output)
 {
     glTransformFeedbackVaryings(program, 1, &output, GL_INTERLEAVED_ATTRIBS);
@@ -135,7 +135,7 @@ bool fragment_programs_create(Fragment *f, Error *error)
     char constant_lines[FRAGMENT_CONSTANTS_MAX];
     fragment_constants(f, constant_lines);
     for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
-        if (is_gauge(p) && !f->program[p]) /* nobody asks for it */
+        if (is_gauge(p) && !f->program[p]) /* not requested */
             continue;
         made[p] = pass_create(f, (FragmentPass)p, constant_lines, error);
         if (made[p])

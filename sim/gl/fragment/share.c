@@ -1,11 +1,11 @@
-/* The particles for the views: a pass into a texture, from there into a pixel buffer, which is the vertex
-   buffer; nothing leaves the GPU. */
+/* Particles for the views: a pass draws to a texture, copied to a pixel buffer that is the vertex buffer;
+   no data leaves the GPU. */
 #include "sim/gl/fragment/fragment.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <epoxy/gl.h>
 
-/* What SHOW is asked for besides scalars. */
+/* Outputs of SHOW besides scalars. */
 enum { SHOW_FLUID = SCALAR_STATE_COUNT, SHOW_ID };
 
 static ParticleAttribute pack(Fragment *f, unsigned *buffer, unsigned texture, GLenum format, size_t stride)

@@ -1,4 +1,4 @@
-/* The stages of a step, each a pass over all particles. */
+/* Stages of a step, each a pass over all particles. */
 #include "sim/gl/fragment/fragment.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,4 @@
-/* The textures of the backend and the framebuffers that draw into them. */
+/* Textures and framebuffers of the backend. */
 #include "sim/gl/debug.h"
 #include "sim/gl/fragment/fragment.h"
 
@@ -46,7 +46,7 @@ static void particles_create(Fragment *f)
     f->acceleration = texture(f, "particle accelerations", GL_RGBA32F, f->width, f->height);
 }
 
-/* Each layer with a framebuffer of its own; all share the depths. */
+/* A framebuffer per layer; all share the depths. */
 static void buckets_create(Fragment *f)
 {
     const size_t texels = (size_t)f->bucket_width * (size_t)f->bucket_height;
@@ -67,7 +67,7 @@ static void buckets_create(Fragment *f)
     }
 }
 
-/* Lists of indices, room for all of them and, since the first is a texture's, for the texels behind. */
+/* Lists of indices for all particles; the first also has room for surplus texels of a texture. */
 static void lists_create(Fragment *f)
 {
     const size_t bytes = 4 * (size_t)f->width * ((size_t)f->height + 1);
@@ -127,7 +127,7 @@ bool fragment_textures_create(Fragment *f, Error *error)
     return memory_sufficed(f, enough, error) && fragment_terms_create(f, error);
 }
 
-/* Names without memory, so that they are not taken for textures afterwards; false. */
+/* Deletes textures without memory, so that their names are not used; false. */
 static bool drop(unsigned *textures, int count)
 {
     glDeleteTextures(count, textures);

@@ -1,5 +1,5 @@
-/* What the kicks of a frame found: reduced by ever smaller targets, and read when the next frame begins. And
-   the state that the sentinel goes back to. */
+/* Findings of a frame's kicks: reduced by ever smaller targets, read at the begin of the next frame. Also
+   the state marked for the sentinel. */
 #include "sim/gl/float_bits.h"
 #include "sim/gl/fragment/fragment.h"
 
@@ -107,7 +107,7 @@ bool fragment_mark(void *state, Error *error)
 void fragment_back(void *state, size_t count, size_t guarded)
 {
     Fragment *f = state;
-    (void)count; /* none comes, none goes */
+    (void)count; /* never changes */
     copy_texture(f, f->marked[0], f->position[0]);
     copy_texture(f, f->marked[1], f->velocity[0]);
     fragment_watch_reset(f, guarded);

@@ -16,7 +16,7 @@
 
 enum {
     CELLS = COUNTING_CELLS * COUNTING_CELLS * COUNTING_CELLS,
-    GROUPS_MOST = 32768 /* of a dispatch: an axis may have 65,535 */
+    GROUPS_MOST = 32768 /* per dispatch; an axis allows 65,535 */
 };
 
 _Static_assert(WALK_NEWTON_STEPS == NEWTON_STEPS && WALK_HALVINGS == HALVINGS,
@@ -24,7 +24,7 @@ _Static_assert(WALK_NEWTON_STEPS == NEWTON_STEPS && WALK_HALVINGS == HALVINGS,
 
 static const size_t POINT = sizeof(SurfacePoint);
 
-/* Such a buffer may begin anywhere that a binding may: no driver asks for more. */
+/* Any buffer binding may begin at a multiple: no driver requires more. */
 static const size_t ALIGNED = 256;
 
 bool surface_gpu_knows(const LevelField *field)
@@ -58,14 +58,14 @@ static unsigned program_of(SurfaceGpu *gpu, const char *stage, const char *field
 
 /* ---- buffers ---- */
 
-/* 0 when memory is short. */
+/* Returns 0 if memory is short. */
 static unsigned buffer_of(const char *label, const void *data, size_t bytes)
 {
     static const uint32_t nothing[4] = {0};
     unsigned buffer;
     glCreateBuffers(1, &buffer);
     glObjectLabel(GL_BUFFER, buffer, -1, label);
-    gl_debug_errors(); /* what is asked below is of this buffer */
+    gl_debug_errors(); /* errors found below belong to this buffer */
     gl_debug_asks_for_memory(true);
     glNamedBufferData(buffer, (GLsizeiptr)(bytes > 0 ? bytes : sizeof nothing), bytes > 0 ? data : nothing,
                       GL_STREAM_DRAW);
@@ -89,7 +89,7 @@ static bool make_buffer(const SurfaceGpu *gpu, unsigned *buffer, const char *lab
     return *buffer || error_set(error, "the GPU has no memory for %zu bytes of %s", bytes, label);
 }
 
-/* The field's arrays and numbers, for the program in use. */
+/* Uploads the field's arrays and numbers for the program in use. */
 static bool take_field(SurfaceGpu *gpu, const LevelField *field, Error *error)
 {
     static const char *const labels[] = {"field of a surface", "cells of a surface's field"};
@@ -143,7 +143,7 @@ static bool take_spheres(SurfaceGpu *gpu, const Counting *counting, Error *error
     return ok;
 }
 
-/* Room for that many points in all; what is there stays. */
+/* Makes room for `count` points in total; keeps the contents. */
 static bool reserve(SurfaceGpu *gpu, size_t count, Error *error)
 {
     if (count <= gpu->point_room && gpu->points)
@@ -170,7 +170,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Binds points first .. end, of which the first is at the word returned. */
+/* Binds points first .. end - 1. Returns the word offset of the first point. */
 static GLuint bind_points(const SurfaceGpu *gpu, size_t first, size_t end)
 {
     const size_t from = first * POINT / ALIGNED * ALIGNED;
@@ -179,14 +179,14 @@ static GLuint bind_points(const SurfaceGpu *gpu, size_t first, size_t end)
     return (GLuint)((first * POINT - from) / sizeof(uint32_t));
 }
 
-/* As many points as a block and a dispatch may have. */
+/* Number of points that fit in a block and a dispatch. */
 static size_t points_at_once(const SurfaceGpu *gpu)
 {
     const size_t block = ((size_t)gpu->block_bytes - ALIGNED) / POINT;
     return least(block, (size_t)gpu->group_most * SURFACE_GROUP);
 }
 
-/* For points first .. end, some at a time, with the program in use. */
+/* Runs the program in use over points first .. end - 1, in pieces. */
 static void run_over_points(const SurfaceGpu *gpu, size_t first, size_t end)
 {
     while (first < end) {
@@ -222,7 +222,7 @@ static void set_walk(const SurfaceGpu *gpu, const Walk *walk)
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, WALKERS_STORAGE, gpu->walkers);
 }
 
-/* All walkers, some at a time. */
+/* Runs all walkers, in pieces. */
 static void dispatch_walkers(const SurfaceGpu *gpu, const Walk *walk, bool keep)
 {
     const size_t all = gpu->walker_count, count = walk->count,
@@ -233,7 +233,7 @@ static void dispatch_walkers(const SurfaceGpu *gpu, const Walk *walk, bool keep)
         const size_t end = least(w + most, all), first = gpu->point_count;
         glUniform3ui(WALK_WALKERS_AT, (GLuint)all, (GLuint)w, (GLuint)end);
         glUniform1ui(SURFACE_RANGE_AT, keep ? bind_points(gpu, first + w * count, first + end * count)
-                                            : bind_points(gpu, 0, 1)); /* a block has a buffer */
+                                            : bind_points(gpu, 0, 1)); /* a block needs some buffer */
         glDispatchCompute((GLuint)((end - w + SURFACE_GROUP - 1) / SURFACE_GROUP), 1, 1);
     }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -313,7 +313,7 @@ static size_t taken(void *own)
     return sum;
 }
 
-/* What a walk leaves are its points. */
+/* Frees all buffers of a walk except the points. */
 static void end(void *own)
 {
     SurfaceGpu *gpu = own;
@@ -325,7 +325,7 @@ static void end(void *own)
     }
 }
 
-/* ---- its life ---- */
+/* ---- create and destroy ---- */
 
 void surface_gpu_create(SurfaceGpu *gpu)
 {

@@ -1,6 +1,6 @@
 /* A walk on a surface by compute shaders (shaders/surface): a SurfaceDevice for requests to surface_sample.
-   The seeds and the random numbers are those of the CPU, so points differ by rounding only; the work groups
-   are of no account to them. Needs a current OpenGL 4.5 core context. */
+   Seeds and random numbers equal the CPU's, so points differ by rounding only, for any work groups. Needs a
+   current OpenGL 4.5 core context. */
 #ifndef SLOSH_SURFACE_GPU_H
 #define SLOSH_SURFACE_GPU_H
 
@@ -10,13 +10,13 @@
 
 enum { SURFACE_GPU_PROGRAMS = 32 };
 
-/* Made when they are first needed, and kept. */
+/* Created on first use, and kept. */
 typedef struct SurfaceProgram {
-    const char *stage, *field; /* a file of shaders/surface, and a LevelKind's name or "" */
+    const char *stage, *field; /* file of shaders/surface, and name of a LevelKind or "" */
     unsigned program;
 } SurfaceProgram;
 
-/* Zero-initialise it. */
+/* Zero-initialise. */
 typedef struct SurfaceGpu {
     SurfaceDevice device; /* for SurfaceRequest.device */
     SurfaceProgram programs[SURFACE_GPU_PROGRAMS];
@@ -26,17 +26,17 @@ typedef struct SurfaceGpu {
     unsigned points; /* GL name of the buffer of points; 0: none */
     size_t point_count, point_room;
     float sphere_low[3], sphere_cell[3], sphere_radius;
-    int64_t block_bytes; /* as many a shader may see of a buffer; a test may say fewer */
-    unsigned group_most; /* work groups of a dispatch; a test may say fewer */
+    int64_t block_bytes; /* greatest size of a buffer in a shader; tests may set less */
+    unsigned group_most; /* work groups per dispatch; tests may set less */
 } SurfaceGpu;
 
 void surface_gpu_create(SurfaceGpu *gpu);
 void surface_gpu_destroy(SurfaceGpu *gpu);
 
-/* Whether there are shaders for the field. */
+/* True if there are shaders for the field. */
 bool surface_gpu_knows(const LevelField *field);
 
-/* The buffer of the last walk's points, which belongs to the caller from now on; 0: there is none. */
+/* The buffer of the last walk's points, owned by the caller from now on; 0: none. */
 unsigned surface_gpu_take_points(SurfaceGpu *gpu);
 
 #endif
