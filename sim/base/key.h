@@ -10,7 +10,8 @@
 
 typedef enum KeyType {
     KEY_MAPPING, /* holds keys */
-    KEY_VARIANT, /* a mapping that an element of its list has exactly once: its name is the element's kind */
+    KEY_VARIANT, /* a mapping; an element of the list has exactly one such mapping, whose name is the
+                    element's kind */
     KEY_LIST,    /* holds elements, with keys under "path[]" */
     KEY_NUMBER,  /* double */
     KEY_INTEGER, /* int */

@@ -1,5 +1,5 @@
-/* The macros by which a file writes rows of keys (sim/base/key.h), a line or two for a key. For such .c files
-   only. Rows of one owner are an array that KEYS_END ends:
+/* Macros for rows of keys (sim/base/key.h), a line or two per key. Include in such .c files only. The rows of
+   an owner are an array ended by KEYS_END:
 
        #define AT(field) offsetof(BoxDef, field)
        const Key box_keys[] = {
@@ -7,7 +7,7 @@
            KEYS_END,
        };
 
-   What follows a row's help sets further members: .owner = &mine, .fallback = "in words", .flags = I. */
+   After a row's help, further members may follow: .owner = &mine, .fallback = "in words", .flags = I. */
 #ifndef SLOSH_KEY_ROWS_H
 #define SLOSH_KEY_ROWS_H
 

@@ -1,16 +1,16 @@
 /* Keeps fluid drawn by gravity from lying on a wall. Images in a wall push with their fluid's pressure, and
    not harder at a smaller distance. At the edge of a free surface the pressure is nearly 0 and neighbours
-   are on one side only, so the outermost row would come to lie on the wall (1 % of a spinning bucket's
+   are on a single side, so the outermost row would come to lie on the wall (1 % of a spinning bucket's
    particles). Within a third of a spacing of the wall, such a particle rests on a spring:
 
-   a = CUSHION_PUSH |g_n| (1 - d / reach) along the normal, if gravity draws the particle to the wall.
+     a = CUSHION_PUSH |g_n| (1 - d / reach) along the normal, if gravity draws the particle to the wall.
 
    The spring fades to 0 as the particle leaves the wall. Walls of repelling particles have forces of
    gravity's size too (J. J. Monaghan, "Simulating free surface flows with SPH", 1994; J. J. Monaghan, J. B.
    Kajtar, "SPH particle boundary forces for arbitrary boundaries", 2009). The spring returns at most
-   CUSHION_LEAVES^2 / 2 |g_n| spacing of energy per mass, for any change of pressure meanwhile: with a full
-   spring, a puddle of four particles gained energy. There is no force along the wall, no force if gravity
-   draws away from the wall, and under the pressure of a few layers the spring is negligible. */
+   CUSHION_LEAVES^2 / 2 |g_n| spacing of energy per mass, for any change of pressure in the meantime: with a
+   full spring, a puddle of four particles gained energy. There is no force along the wall, and no force if
+   gravity draws away from the wall. Under the pressure of a few layers the spring is negligible. */
 #ifndef SLOSH_WALL_CUSHION_H
 #define SLOSH_WALL_CUSHION_H
 

@@ -1,10 +1,11 @@
-/* No-slip walls of the box: friction with a lattice of wall particles behind the walls, after J. P. Morris,
-   P. J. Fox, Y. Zhu, "Modeling low Reynolds number incompressible flows using SPH", 1997, sec. 3.7. For
-   fluid at distance d from a wall, a wall particle at depth u has the mirrored velocity -v u / max(d,
-   spacing / 2), so that velocities continue linearly through zero at the wall. Then all viscous pair terms
-   of a wall are proportional to the fluid particle's velocity:
+/* No-slip walls of the box: friction with a lattice of wall particles behind the walls.
 
-   force_i = -mu_i V_i V0 D v_i, D = sum w(r) (1 + u / max(d, spacing / 2)), V0 = 1 / n0
+   After: J. P. Morris, P. J. Fox, Y. Zhu, "Modeling low Reynolds number incompressible flows using SPH",
+   1997, sec. 3.7. For fluid at distance d from a wall, a wall particle at depth u has the mirrored velocity
+   -v u / max(d, spacing / 2), so that velocities continue linearly through zero at the wall. Then all
+   viscous pair terms of a wall are proportional to the fluid particle's velocity:
+
+     force_i = -mu_i V_i V0 D v_i, D = sum w(r) (1 + u / max(d, spacing / 2)), V0 = 1 / n0
 
    over the wall particles, where w is the pair weight of the method's viscosity. D times a volume chosen by
    the caller, to fit in a float for any spacing, is tabulated over the distances: faces - edges + corners.
@@ -33,10 +34,10 @@ typedef struct WallDrag {
 
 typedef enum DragWeight { DRAG_LAPLACIAN, DRAG_MORRIS, DRAG_RADIAL } DragWeight;
 
-/* w(r), 1/m5, of a wall particle at distance `normal` along the wall's normal: Müller's Laplacian; 2 F = -2
-   W'(r) / r with the pressure kernel; or the radial form of sim/matter/viscosity.h for velocities along the
-   wall, 2 R F (r^2 - normal^2) / (dimensions - 1), used for all velocities: there is no velocity across the
-   wall. */
+/* w(r), 1/m5, of a wall particle at distance `normal` along the wall's normal: Müller's Laplacian; 2 F,
+   which is -2 W'(r) / r with the pressure kernel; or the radial form of sim/matter/viscosity.h for
+   velocities along the wall, 2 R F (r^2 - normal^2) / (dimensions - 1), used for all velocities: there is
+   no velocity across the wall. */
 double wall_drag_weight(const Lattice *lattice, DragWeight weight, double r, double normal,
                         double support_radius);
 

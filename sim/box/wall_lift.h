@@ -2,7 +2,7 @@
    a wall is 0; in fluid at rest it is rho0 g. If an image at depth y behind the wall had 2 rho0 g y more
    along the normal, the force on a particle at distance d would gain
 
-   -m g lift(d), lift(d) = V0 sum F x_n 2 y, F = -W'(r) / r, x_n = d + y
+     -m g lift(d), lift(d) = V0 sum F x_n 2 y, F = -W'(r) / r, x_n = d + y
 
    over the lattice behind the wall. For even layers and the kernel (1 - r / h)^3 in three dimensions, lift
    is t^5 (3 - 2 t), t = 1 - d / h. This form is used, scaled to be exact for the first lattice layer; the

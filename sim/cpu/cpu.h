@@ -53,7 +53,7 @@ typedef struct Cpu {
     StepWatch watch; /* written by `kick` (atomic), read and reset by `watch` */
 } Cpu;
 
-/* Boundary particles stand among the fluid particles: `fluid` is FLUIDS_MAX + solid, ids start here. */
+/* Boundary particles are stored among the fluid particles: `fluid` is FLUIDS_MAX + solid, ids start here. */
 #define BOUNDARY_ID (UINT64_C(1) << 63)
 
 /* x of a boundary particle set aside, m. Its square is finite, since lanes past a row's end read the
@@ -139,11 +139,10 @@ void cpu_find(Cpu *cpu);
 void cpu_grid(void *state);
 
 /* sim/cpu/copies.c, for boxes with periodic sides.
-
    _fit: counts the copies after cpu_cells; false if room is short. _grow: makes room; false if memory is
-   short. _drop: then leaves the world without copies and reports the step's memory trouble. _place: puts
-   the copies after the particles. Before a pass walks, _update copies the columns of the pass's pair sums
-   and _pack the packed values. */
+   short, then call _drop: no copies exist, and the step reports the trouble. _place: puts the copies after
+   the particles. Before a pass walks, _update copies the columns of the pass's pair sums and _pack the
+   packed values. */
 bool cpu_copies_fit(Cpu *cpu);
 bool cpu_copies_grow(Cpu *cpu);
 void cpu_copies_drop(Cpu *cpu);

@@ -22,7 +22,7 @@ typedef struct Images {
     i8 there[IMAGES_MAX]; /* mask of the particles that have the image */
 } Images;
 
-/* Distance to walls without images in reach; the margin covers rounding of squares. */
+/* The region of particles without wall images; the margin covers rounding of squares. */
 SIMD_INLINE WallsFar out_of_sight(const Constants *s)
 {
     return walls_far(&s->walls, 1.001f * s->support_radius);

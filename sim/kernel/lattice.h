@@ -1,9 +1,10 @@
-/* Kernel sums on an infinite cubic lattice at rest, and factors to correct these sums. A kernel that
-   integrates to 1 does not sum to 1 over particles. The density kernel is scaled so that the lattice has
-   exactly a particle per volume spacing^3, and with the mass rho0 spacing^3 exactly the rest density.
-   Pressure gradient, viscous Laplacian and stiffness are scaled to be exact on the lattice for linear
-   pressure, quadratic velocity and uniform compression. Without scaling, pressure in a column at support
-   2.1 would be 4 % too high and sound 10 % too slow. */
+/* Kernel sums on an infinite cubic lattice at rest, and factors to correct these sums.
+
+   A kernel that integrates to 1 does not sum to 1 over particles. The density kernel is scaled so that the
+   lattice has exactly one particle per volume spacing^3, and with the mass rho0 spacing^3 exactly the rest
+   density. Pressure gradient, viscous Laplacian and stiffness are scaled to be exact on the lattice for
+   linear pressure, quadratic velocity and uniform compression. Without scaling, pressure in a column at
+   support 2.1 would be 4 % too high and sound 10 % too slow. */
 #ifndef SLOSH_LATTICE_H
 #define SLOSH_LATTICE_H
 

@@ -3,10 +3,10 @@
    each of a hundred random points of the surface. The surface cuts the sphere in a great circle of area S,
    and n points fall into the sphere.
 
-   A sphere with more surface than its great circle would count too many points. So in a valid sphere all
-   known points of the surface lie near the tangent plane and have similar normals, and the bounds do not
-   cut the sphere. If few spheres are valid, all are made smaller. On surfaces folded more finely than the
-   known points show, n is still wrong: sampling.c compares n with the area. */
+   A sphere that holds more surface than its great circle would count too many points. So in a valid sphere
+   all known points of the surface are near the tangent plane and have similar normals, and the bounds do
+   not cut the sphere. If few spheres are valid, all are made smaller. On surfaces folded more finely than
+   the known points show, n is still wrong: sampling.c compares n with the area. */
 #ifndef SLOSH_SURFACE_COUNTING_H
 #define SLOSH_SURFACE_COUNTING_H
 

@@ -1,6 +1,7 @@
 /* Points on surfaces, from samplers to renderers: an array of SurfacePoint is copied to a GL buffer
-   unchanged. In std430 it is struct SurfacePoint { float x, y, z; uint normal; uint surface; float value;
-   }; with a stride of 24 bytes (six scalars, no vec3, which would be padded to 32). As vertex attributes: 3
+   unchanged. In std430 the layout is
+     struct SurfacePoint { float x, y, z; uint normal; uint surface; float value; };
+   with a stride of 24 bytes (six scalars, no vec3, which would be padded to 32). As vertex attributes: 3
    floats at 0, 2 normalised shorts (GL_SHORT) at 12, 1 unsigned integer at 16, 1 float at 20.
 
    Sets (L_R of Tanaka et al. 2012): point i belongs to set i mod sets. So an array can be split into any

@@ -25,9 +25,9 @@ void polygons_bounds(const Polygons *polygons, double low[3], double high[3]);
 
 double polygons_area(const Polygons *polygons); /* m2 */
 
-/* As surface_sample, with the triangles instead of the field's level. Uses of the request `density`,
-   `sets`, `seed`, `surface`, `threads` and `points_most`; a point's value is `level`. Returns false if the
-   total area of the triangles is 0. */
+/* As surface_sample, with the triangles instead of the field's level. Used members of the request:
+   `density`, `sets`, `seed`, `surface`, `threads` and `points_most`; a point's value is `level`. Returns
+   false if the total area of the triangles is 0. */
 bool polygons_sample(const Polygons *polygons, const SurfaceRequest *request, SurfacePoints *points,
                      SurfaceResult *result, Error *error);
 

@@ -3,8 +3,8 @@
    no pass and no branch.
 
    With q = |x - point| / radius and w = (1 - q^2)^2 inside, 0 outside, over a step of dt:
-   stir: v += (1 - exp(-strength w dt)) (V - v), exact for a particle at rest in the ball: never overshoots;
-   pull, push: v -+= strength dt w q / max(w q) along x - point, so that the centre feels nothing. */
+     stir: v += (1 - exp(-strength w dt)) (V - v), exact for a fixed w, so never overshoots;
+     pull, push: v -+= strength dt w q / max(w q) along x - point, so that the centre feels nothing. */
 #ifndef SLOSH_FINGER_H
 #define SLOSH_FINGER_H
 

@@ -1,9 +1,8 @@
 /* Pair sums of wcsph. With grad W_ij = -F x_ij, x_ij = x_i - x_j, F = gradient f(r / h) >= 0:
-
-   d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)
-   is the rate of number density, which an interface between fluids does not disturb; Monaghan 1992;
-
-   force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...
+     d rho_i / dt = (rho0_i / n0) (-sum F v_ij . x_ij)
+   is the rate of number density, to which an interface between fluids makes no difference (Monaghan 1992),
+   and
+     force_i = sum (p_i V_i^2 + p_j V_j^2) F x_ij + ...
    conserves the energy of that rate. */
 #include "sim/wcsph/pair_kernel.h"
 #include "sim/wcsph/pair_matrix.h"

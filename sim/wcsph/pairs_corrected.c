@@ -1,13 +1,11 @@
 /* Additional sums of wcsph for corrected gradients: sim/wcsph/corrected.c. C = 0 adds nothing.
-
-   M_i = V_i sum F x_ij x_ij^T: 1 on the lattice; includes images and solids
-   d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij)
-   force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij: adjoint of that rate
-   uneven_i += sum (S_i + S_j) / 2 F x_ij, S = n0^2 V^2 (1 + C) - 1
-
-   Shifts use this sum plus the plain sum of F x_ij: together the push of a uniform pressure, so that
-   particles lie as dense as the flow. A particle's image has the mirrored C; boundary particles of solids
-   have C = 0 and V0. */
+     M_i = V_i sum F x_ij x_ij^T, which is 1 on the lattice and includes images and solids;
+     d rho_i / dt += (rho0_i / n0) (-sum F v_ij . C_i x_ij);
+     force_i += sum (p_i V_i^2 C_i + p_j V_j^2 C_j) F x_ij, the adjoint of that rate;
+     uneven_i += sum (S_i + S_j) / 2 F x_ij, S = n0^2 V^2 (1 + C) - 1.
+   Shifts use the sum of uneven plus the plain sum of F x_ij: together the push of a uniform pressure, so
+   that particles become as dense as the flow. A particle's image has the mirrored C; boundary particles of
+   solids have C = 0 and V0. */
 #include "sim/wcsph/pair_seeker.h"
 
 SIMD_INLINE void spread(const PairArgs *args, const Near near, const Seeker *from, const ShapeKernel kernel,

@@ -1,9 +1,7 @@
 /* Additional sums of wcsph for interfaces between fluids with a high density contrast. With t = p V^2 and
    w_ij = 1 - 4 rho_i / rho_j if the rest density of j is more than 4 times that of i, w_ji = -w_ij:
-
-   force_i += sum w_ij (t_i - t_j) F x_ij: a pair then has (1 + w) t_i + (1 - w) t_j
-   d rho_i / dt += (rho0_i / n0) (-sum w_ij F v_ij . x_ij): the force is its adjoint
-
+     force_i += sum w_ij (t_i - t_j) F x_ij, so a pair has (1 + w) t_i + (1 - w) t_j;
+     d rho_i / dt += (rho0_i / n0) (-sum w_ij F v_ij . x_ij), with the force as adjoint.
    Momentum and energy remain conserved. With corrected gradients, x_ij becomes (1 + C) x_ij with the C of
    the particle of t or of the rate.
 

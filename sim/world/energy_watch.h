@@ -1,21 +1,21 @@
 /* Detects energy gained without work. A step too long for friction heats fluid at rest, even without large
    moves of particles. The watched energy is the energy of motion and compression, of fluids and floating
-   solids. The method must give its energy of compression or be incompressible. Energy minus the work done
-   must not grow.
+   solids. The method must give its energy of compression or be incompressible. Without trouble, energy
+   minus the work done does not grow.
 
    Work comes from:
-   - gravity and the box's motion, by sums over the particles at two looks; if the box's velocity jumps in a
-   step, the looks are at both ends of the step;
+   - gravity and the box's motion, by sums over the particles at two looks; if the box's velocity jumps in
+     a step, the looks are at both ends of the step;
    - solids with prescribed motion, by the forces on these solids;
    - emitters: emitted fluid brings energy, and the emitter holds fluid to its course. Drained fluid takes
-   its energy along.
+     its energy along.
 
    For surface energy only a bound is known: tension may free all surface energy present, as a lid may drag
    fluid to the lid's speed. A world touched by a finger is not watched.
 
-   On a GPU, the gauge is read now and then, at the end of a frame that was waited for. The gauge has no
-   momenta. So a GPU does not watch moving boxes, emitters, solids with prescribed motion, or gravity along
-   a periodic axis. */
+   On a GPU, the gauge is read now and then, at the end of a frame whose results were waited for. The gauge
+   has no momenta. So a GPU does not watch moving boxes, emitters, solids with prescribed motion, or gravity
+   along a periodic axis. */
 #ifndef SLOSH_ENERGY_WATCH_H
 #define SLOSH_ENERGY_WATCH_H
 
