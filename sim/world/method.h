@@ -142,7 +142,8 @@ extern const Term *const shared_terms[];
    names. */
 ColumnRows columns_saved(const WorldDef *def);
 
-/* A solver of a step by number, the method's solvers first; NULL if the number has no solver. */
+/* A solver of a step by number, the method's solvers first (a missing solver has a NULL name). NULL if no
+   term has the number. */
 const MethodSolver *solver_of(const Method *method, int solve);
 
 /* All methods, ended by NULL: built-in methods, then added methods. */
