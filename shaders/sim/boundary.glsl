@@ -1,5 +1,5 @@
-// Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a grid of their own: the fluids' buffers hold
-// fluid alone. BOUNDARY_ACCESS: what a pass does with them, if not to read.
+// Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a separate grid: the fluids' buffers hold
+// fluid only. BOUNDARY_ACCESS: access of the pass, if not readonly.
 #include "shaders/sim/bindings.h"
 #include "sim/cells.glsl"
 #ifdef SOLIDS

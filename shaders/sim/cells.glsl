@@ -1,4 +1,4 @@
-// Which cell is where, and which are next to it: sim/cpu/grid.c, sim/world/cell_rows.c.
+// Numbering of cells and their neighbours: sim/cpu/grid.c, sim/world/cell_rows.c.
 ivec3 cell_of(vec3 x)
 {
     ivec3 first = first_cell + 1, last = first_cell + grid_size - 2;
@@ -9,11 +9,11 @@ ivec3 cell_of(vec3 x)
 #endif
 }
 
-// Its place: sim/world/cell_fold.h.
+// Place of a cell: sim/world/cell_fold.h.
 int cell_place(ivec3 at) { return ((cell_fold.x * at.y + cell_fold.y * at.z) & cell_fold.z) + at.x; }
 
-// The places of a row's first cell and the one behind it. With periodic sides a row is a single cell, and what stands there sees a
-// particle at x as if it were at x + row_shift.
+// Places of a row's first cell and of the cell after the row. With periodic sides a row is a single cell, and
+// particles there see a particle at x as if at x + row_shift.
 #ifdef PERIODIC
 #define FIRST_ROW first_single_row
 #define LAST_ROW last_single_row
@@ -33,7 +33,7 @@ ivec2 row_cells(ivec3 at, int row)
     ivec3 inside = cell + cells * (ivec3(lessThan(cell, ivec3(1))) - ivec3(greaterThan(cell, cells)));
     int place = cell_place(ivec3(mix(vec3(cell), vec3(inside), periodic)));
 #ifdef BEHIND_DRIFT
-    // Another row has all that stands in this one: cell_row_again of sim/world/cell_rows.c.
+    // A further row has the same particles: cell_row_again of sim/world/cell_rows.c.
     if (any(bvec3(mix(vec3(0), vec3(notEqual(cell, inside)) * vec3(equal(cells, ivec3(2))), periodic))))
         return ivec2(place);
 #endif
@@ -44,7 +44,7 @@ ivec2 row_cells(ivec3 at, int row)
 vec3 row_seen(vec3 x, ivec3 at, int row) { return x + row_shift(at, row); }
 #endif
 
-// The nearest image of a difference of places.
+// The nearest image of a difference of positions.
 vec3 nearest(vec3 d) { return d - mix(vec3(0), box_whole * roundEven(d / box_whole), periodic); }
 #ifdef BEHIND_DRIFT
 vec3 row_seen(vec3 x, ivec3 at, int row) { return x; }

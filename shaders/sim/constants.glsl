@@ -1,4 +1,4 @@
-// What is constant while a world lives, what one step brings, and who runs.
+// Constants of a world, data of a step, and numbers of invocations.
 #include "shaders/sim/constant_block.h"
 #include "shaders/sim/step_block.h"
 #include "shaders/sim/watch_block.h"
@@ -6,13 +6,13 @@
 // Apparent gravity at x.
 vec3 felt_at(vec3 x) { return felt_origin - cross(felt_alpha, x) - cross(felt_omega, cross(felt_omega, x)); }
 
-// How many there are; how many a pass has to do with. None behind a step that blew up: all fluid in one cell would keep the
-// rest of the frame for minutes. What moves particles to other places, or counts them, goes by those that are there.
+// particles_there: number of particles, for passes that move or count particles. particle_count: number to process; 0
+// after a step that blew up: all fluid in a single cell would delay the rest of the frame for minutes.
 uint particles_there() { return uint(particle_total); }
 uint particle_count() { return went_too_far != 0u ? 0u : particles_there(); }
 uint cell_count() { return went_too_far != 0u ? 0u : uint(cell_total); }
 
-// The fluid of a particle of name[]: of one nobody has to ask.
+// The fluid of a particle in name[]; not read with a single fluid.
 #ifdef ONE_FLUID
 #define FLUID_OF(i) 0u
 #else
@@ -20,10 +20,10 @@ uint cell_count() { return went_too_far != 0u ? 0u : uint(cell_total); }
 #endif
 
 #ifdef PERIODIC
-const bvec3 periodic = PERIODIC; // across which axes its sides are one
+const bvec3 periodic = PERIODIC; // axes with periodic sides
 #endif
 
 layout(local_size_x = 64) in;
 
-// Groups stand in rows, since a driver may allow 65,535 along an axis only.
+// Groups are in rows, since a driver may allow only 65,535 along an axis.
 uint invocation() { return gl_GlobalInvocationID.y * gl_NumWorkGroups.x * 64u + gl_GlobalInvocationID.x; }

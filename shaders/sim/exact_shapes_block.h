@@ -1,5 +1,5 @@
-/* The shapes of solids in double precision, for who asks for the CPU's bits; sim/gl/compute/boundary.c fills
- * it. */
+/* Shapes of solids in double precision, for worlds with the CPU's bits; filled by
+   sim/gl/compute/boundary.c. */
 #ifndef SLOSH_EXACT_SHAPES_BLOCK_H
 #define SLOSH_EXACT_SHAPES_BLOCK_H
 

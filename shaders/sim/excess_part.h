@@ -1,20 +1,20 @@
-/* What a group of excess.comp sums up of a column; decide.comp adds the groups' up. */
+/* Sums of a group of excess.comp over a column; decide.comp adds the groups. */
 #ifndef SLOSH_EXCESS_PART_H
 #define SLOSH_EXCESS_PART_H
 
 #include "shaders/shared/block.h"
 
-/* Which groups' parts are the scale of the residual; the residual's are the first. */
+/* Part number for the scale of the residual; part 0 is for the residual. */
 #define EXCESS_OF_SCALE 1
 
-/* Instead of the place of a column: there is none. */
+/* Place of a missing column. */
 #define EXCESS_NO_COLUMN 0xffffffffu
 
 BLOCK_STRUCT(ExcessPart)
 {
-    float above; /* the sum of what is above 0 */
+    float above; /* sum of positive values */
     float greatest;
-    float power; /* of conjugate gradients: sums of two other columns, whatever their signs */
+    float power; /* conjugate gradients: plain sums of two further columns */
     float curvature;
 }
 BLOCK_END(ExcessPart);

@@ -1,4 +1,4 @@
-/* A part of what box and solids feel, summed over steps; sim/gl/compute/forces.c adds the parts up. */
+/* A part of the forces on box and solids, summed over steps; sim/gl/compute/forces.c adds the parts. */
 #ifndef SLOSH_FELT_PART_H
 #define SLOSH_FELT_PART_H
 
@@ -7,8 +7,8 @@
 BLOCK_STRUCT(FeltPart)
 {
     vec3 force;  /* N s, in the box's axes */
-    vec3 torque; /* N m s, about the box's origin; of a solid about the solid's own */
-    vec3 about;  /* of a solid's boundary particle: about the box's origin */
+    vec3 torque; /* N m s, about the box's origin; for a solid about the solid's centre */
+    vec3 about;  /* torque of a solid's boundary particle about the box's origin */
 }
 BLOCK_END(FeltPart);
 

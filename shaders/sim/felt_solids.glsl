@@ -1,7 +1,7 @@
-// What the pass that has run pushed the fluid with at boundary particles of solids, the other way round: add_boundary of
-// sim/cpu/forces.c. The pass's shader has this for its main where FELT_SOLIDS stands before it; before this it declares
-// PLACES[] and walks, and says with FELT_FORCE(i, term, d, r2) what the boundary particle `felt_by` pushes particle i
-// with, N, which is d away; `term` is the fourth number of i's place.
+// Forces of a pass on boundary particles of solids, opposite to the forces on the fluid: add_boundary of
+// sim/cpu/forces.c. Replaces the main of the pass's shader if FELT_SOLIDS is defined. The shader must declare
+// PLACES[] and the walks, and define FELT_FORCE(i, term, d, r2): the force of boundary particle `felt_by` on particle
+// i, N, at distance vector d; `term` is the fourth number of i's place.
 #include "sim/solids.glsl"
 #include "sim/felt.glsl"
 layout(std430, binding = FELT_RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; };

@@ -1,4 +1,4 @@
-// What a particle gains of a finger: finger_apply of sim/touch/finger.h, by the same operations.
+// Velocity change by a finger: finger_apply of sim/touch/finger.h, with the same operations.
 float finger_share(float x)
 {
     float y = min(x, 16.0) * (1.0 / 32.0);
@@ -8,7 +8,7 @@ float finger_share(float x)
     return share;
 }
 
-// `d`: off the point; finger_velocity.w: grip.
+// `d`: vector from the point; finger_velocity.w: grip.
 vec3 finger_moved(vec3 v, vec3 d, float inverse_radius2, vec4 finger_velocity, float finger_kick)
 {
     float q2 = dot(d, d) * inverse_radius2;

@@ -1,4 +1,4 @@
-/* Where fluid comes and goes; sim/gl/compute/flow.c fills it. */
+/* Emitters, guides and drains; filled by sim/gl/compute/flow.c. */
 #ifndef SLOSH_FLOW_BLOCK_H
 #define SLOSH_FLOW_BLOCK_H
 
@@ -7,8 +7,8 @@
 
 BLOCK_STRUCT(Region)
 {
-    vec3 low;      /* of a block, or a ball's centre, m */
-    int ball;      /* 1: it is a ball */
+    vec3 low;      /* low corner of a block, or centre of a ball, m */
+    int ball;      /* 1: a ball */
     vec3 high;     /* of a block, m */
     float radius2; /* of a ball, squared, m2 */
 }
@@ -21,7 +21,7 @@ BLOCK_STRUCT(Course)
     vec3 direction;
     float depth; /* m */
     vec3 velocity;
-    int fluid; /* that is held to it */
+    int fluid; /* fluid of the guide */
 }
 BLOCK_END(Course);
 
@@ -30,10 +30,10 @@ UNIFORM_BLOCK(FlowBlock, FLOW_BLOCK)
     int drain_total;
     int guide_total;
     uint candidate_total; /* points of a layer */
-    uint gridded;         /* particles that the grid has */
+    uint gridded;         /* particles in the grid */
     uint layer_fluid;
     uint first_id;
-    uint layer_most; /* as many of the layer may come */
+    uint layer_most; /* most points of the layer to add */
     vec3 layer_velocity;
     Region drains[DRAINS_MOST];
     Course guides[GUIDES_MOST];

@@ -1,5 +1,5 @@
-// What the forces of methods have in common: pairs within the support, surface tension, boundary particles of solids. A
-// method's force.comp says what a pair does, and adds what its walls do.
+// Shared code of the methods' forces: pairs within the support, surface tension, boundary particles of solids. A
+// method's force.comp defines the pair force and adds the forces of walls.
 #include "shaders/sim/term_block.h"
 #define PLACES near
 #include "sim/walk.glsl"
@@ -7,25 +7,25 @@
 #include "sim/pair_viscosity.glsl"
 layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: p V^2
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
-#ifndef SEEN_VELOCITY // what pairs see of each other
+#ifndef SEEN_VELOCITY // velocity for pair forces
 #define SEEN_VELOCITY(i) velocity[i].xyz
-layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: what volume_of takes
+layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; }; // w: input of volume_of
 #endif
 #ifndef FELT_SOLIDS
 layout(std430, binding = ACCELERATIONS_BUFFER) writeonly buffer Accelerations { vec4 acceleration[]; };
 #endif
 
-float volume_of(uint i); // the method's: by the velocity's w
+float volume_of(uint i); // defined by the method: from the velocity's w
 
 #include "sim/tension.glsl"
 
-// What a pair takes of one of the two.
+// Data of a particle for a pair force.
 struct Side {
-    float pressure, volume, viscosity, extra, density; // pressure: p V^2; density: at rest, 0 of solids
+    float pressure, volume, viscosity, extra, density; // pressure: p V^2; density: rest density, 0 for solids
     vec3 v;
 };
 
-float extra_of(uint fluid); // the method's: what else of a fluid its pairs want; solids have 0
+float extra_of(uint fluid); // defined by the method: further data of a fluid for pairs; 0 for solids
 
 Side side_of(uint i, float term)
 {
@@ -33,9 +33,9 @@ Side side_of(uint i, float term)
     return Side(term, volume_of(i), fluids[fluid].viscosity, extra_of(fluid), fluids[fluid].density, SEEN_VELOCITY(i));
 }
 
-vec3 pair_force(Side one, Side other, vec3 d, float r2); // the method's: on `one`, which is d from `other`
+vec3 pair_force(Side one, Side other, vec3 d, float r2); // defined by the method: force on `one`; d: vector from `other` to `one`
 
-#ifndef MEET_MORE // what else a method has of two particles that are so far apart
+#ifndef MEET_MORE // further sums of a method over pairs
 #define MEET_MORE(j, d, r2, term)
 #endif
 
@@ -43,8 +43,8 @@ uint self;
 Side self_side;
 vec3 pair_sum = vec3(0), boundary_sum; // boundary_sum: of a row
 
-// Two at one place are taken for a little apart, along a direction that their ids decide.
-// A macro, so that nobody else reads ids.
+// Coincident particles are separated slightly, along a direction from their ids. A macro, so that ids are read only
+// if needed.
 #define SEPARATE(a, b, d, r2)                       \
     if (r2 < 1e-12 * support * support) {           \
         float least = 1e-6 * support;               \
@@ -100,7 +100,7 @@ void add_boundary_row()
     boundary_sum = vec3(0);
 }
 
-// All of it on particle i at x, in the cell `at`.
+// Total pair force on particle i at x, in the cell `at`.
 vec3 neighbours_force(uint i, vec3 x, ivec3 at)
 {
     self = i;

@@ -1,4 +1,4 @@
-// What a particle adds to the gauge: mirrors sim/world/gauge.h.
+// Contribution of a particle to the gauge: mirrors sim/world/gauge.h.
 
 #ifdef ENERGY_OF_METHOD
 #include ENERGY_OF_METHOD
@@ -6,7 +6,7 @@
 float compression_energy(float x) { return 0.0; }
 #endif
 
-// The sum of pressed density, the energies of motion, gravity and compression; c2: c^2.
+// Compression above rest density, and energies of motion, gravity and compression; c2: c^2.
 vec4 gauge_of(float mass, float compression, vec3 x, vec3 v, vec3 gravity, float c2)
 {
 #ifdef NEGATIVE_PRESSURE

@@ -1,4 +1,4 @@
-/* What a group of gauge.comp sums up of its particles; sim/gl/compute/gauge.c adds the groups' up. */
+/* Sums of a group of gauge.comp over its particles; sim/gl/compute/gauge.c adds the groups. */
 #ifndef SLOSH_GAUGE_PART_H
 #define SLOSH_GAUGE_PART_H
 
@@ -6,12 +6,12 @@
 
 BLOCK_STRUCT(GaugePart)
 {
-    float density_error;  /* relative, of what is pressed */
+    float density_error;  /* relative, compression only */
     float kinetic_energy; /* J */
     float potential_energy;
     float compression_energy;
     float greatest_compression;
-    float unused[3]; /* C counts them in any case */
+    float unused[3]; /* padding, present in C anyway */
 }
 BLOCK_END(GaugePart);
 

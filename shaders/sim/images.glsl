@@ -1,10 +1,11 @@
 // The walls of the box as mirrors: sim/box/wall_images.c.
 struct Image {
     vec3 x;
-    vec3 sign; // -1 along the axes in a mirror, else 1
+    vec3 sign; // -1 along mirrored axes, else 1
 };
 
-// Which walls an image stands in: base-three digits of 1 to here, of each axis 0 none, 1 the lower, 2 the upper one.
+// End of the numbers of images. A number has base-three digits per axis: 0 no wall, 1 the lower wall, 2 the upper
+// wall.
 int images_end(vec3 x)
 {
     vec3 centred = vec3(x.x, x.y - half_size.y, x.z), d = half_size - abs(centred);
@@ -16,7 +17,7 @@ int images_end(vec3 x)
     return min(d.x, min(d.y, d.z)) < support ? 27 : 1;
 }
 
-// False where the image finds no fluid within h.
+// False if the image sees no fluid within h.
 bool image_of(vec3 x, int walls, out Image image)
 {
     ivec3 side = ivec3(walls % 3, walls / 3 % 3, walls / 9);

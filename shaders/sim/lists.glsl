@@ -1,7 +1,7 @@
-// Lists of neighbours, itself among them: which particles within h the first walk after a grid found, for the other passes
-// of the step. sim/gl/compute/lists.c writes the defines. First stands a number a particle, then the lists of each 32
-// particles, interleaved so that 32 invocations read one line of memory. A pass that is the first of its step wherever it runs
-// defines LISTS_FIRST, one that never is LISTS_LATER: it makes none.
+// Neighbour lists, including the particle itself: particles within h, found by the first walk after a grid, for later
+// passes of the step. sim/gl/compute/lists.c writes the defines. First a count per particle, then the lists of each
+// 32 particles, interleaved so that 32 invocations read a line of memory. A pass that is always the first of a step
+// defines LISTS_FIRST; a pass that is never the first defines LISTS_LATER and makes no lists.
 #ifdef LISTS
 #include "shaders/sim/bindings.h"
 #define LIST_NONE 0xffffffffu
@@ -32,7 +32,8 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
         list[i] = found;
 #endif
 
-// Who has more neighbours than a list holds walks each time. One call of `meet` for both ways, since it is inlined.
+// A particle with more neighbours than a list holds walks each time. A single call of `meet` for both ways, since it
+// is inlined.
 #define WALK_LISTED(i, from, at, meet)                                                      \
     {                                                                                       \
         bool made = LIST_MADE(i);                                                           \
@@ -50,7 +51,7 @@ uint list_place(uint i, uint k) { return LIST_STRIDE + (i & ~31u) * LIST_MOST + 
         LIST_END(i)                                                                         \
     }
 
-// Whom the pass that makes the lists meets once more, from elsewhere: of particle i's own list alone.
+// A second walk from a different position by the pass that makes the lists: over particle i's own list only.
 #define WALK_KEPT(i, from, at, meet)                                                        \
     {                                                                                       \
         bool made = list[i] <= LIST_MOST;                                                   \

@@ -1,5 +1,5 @@
-/* The grids of distances of the solids that are meshes, whose values are in one buffer texture;
-   sim/gl/compute/meshes.c fills it. In the unit of a mesh's file: sim/mesh/distance.h. */
+/* Distance grids of mesh solids; values are in a buffer texture. Filled by sim/gl/compute/meshes.c. In the
+   unit of the mesh's file: sim/mesh/distance.h. */
 #ifndef SLOSH_MESH_BLOCK_H
 #define SLOSH_MESH_BLOCK_H
 
@@ -8,16 +8,16 @@
 
 BLOCK_STRUCT(MeshGrid)
 {
-    dvec3 exact_low; /* for who asks for the CPU's bits */
+    dvec3 exact_low; /* for worlds with the CPU's bits */
     double exact_cell;
     dvec3 exact_inner;
     double exact_scale;
-    vec3 low; /* where the first value stands */
+    vec3 low; /* position of the first value */
     float cell;
     vec3 inner;  /* the surface is within -inner .. inner */
     float scale; /* m */
     ivec3 size;
-    int first; /* its first value among those of all meshes */
+    int first; /* index of the first value among all meshes */
 }
 BLOCK_END(MeshGrid);
 

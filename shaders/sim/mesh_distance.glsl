@@ -1,4 +1,4 @@
-// The signed distance from a mesh, between the values of its grid. Mirrors distance_at of sim/mesh/distance.c.
+// Signed distance to a mesh, interpolated in its grid. Mirrors distance_at of sim/mesh/distance.c.
 #include "shaders/sim/mesh_block.h"
 #ifdef REPRODUCIBLE
 #define MESH_LOW(k)   meshes[k].exact_low
@@ -14,9 +14,9 @@
 layout(binding = MESH_VALUES_TEXTURE) uniform samplerBuffer mesh_values;
 
 struct MeshSpot {
-    rvec3 part; // how far along the cell
+    rvec3 part; // position in the cell, 0 .. 1
     real corner[8];
-    real beyond; // how far from the grid
+    real beyond; // distance to the grid
 };
 
 MeshSpot mesh_spot(int k, rvec3 x)

@@ -1,4 +1,4 @@
-// A direction that only the two ids decide, opposite for (a, b) and (b, a), of two dimensions in the plane:
+// A direction from the two ids alone, opposite for (a, b) and (b, a); in the plane for two dimensions:
 // sim/cpu/pair_loop.h.
 vec3 direction_of_ids(uint a, uint b)
 {

@@ -1,4 +1,4 @@
-// Of a pair: pair_viscosity of sim/matter/viscosity.h. Of one fluid's pairs it is what both have.
+// Viscosity of a pair: pair_viscosity of sim/matter/viscosity.h; a sum for a single fluid.
 float pair_viscosity(float a, float b)
 {
 #ifdef ONE_FLUID

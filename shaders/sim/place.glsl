@@ -1,4 +1,4 @@
-// Places of wide boxes, which keep what rounding leaves of them: sim/box/place.h. Elsewhere it is lost.
+// Positions in wide boxes with rounding remainders: sim/box/place.h. In smaller boxes remainders are lost.
 #ifdef WIDE
 #include "sim/own.glsl"
 
@@ -22,7 +22,7 @@ void place_move(inout vec3 x, inout vec3 left, vec3 way)
     left = rest;
 }
 
-// Of a place that was put from `before` to x.
+// For a position set from `before` to x.
 void place_put(vec3 before, vec3 x, inout vec3 left)
 {
     left = mix(left, vec3(0), notEqual(before, x));

@@ -1,4 +1,4 @@
-// Scratch of the method's own (Method.columns: COLUMN_SHADERS), which each step makes anew, as own.glsl has what it keeps:
-// scratch[SCRATCH_stiffness + i].
+// Scratch columns of the method (Method.columns: COLUMN_SHADERS), computed in each step: scratch[SCRATCH_stiffness +
+// i]. Same layout as own.glsl.
 #include "shaders/sim/bindings.h"
 layout(std430, binding = SCRATCH_BUFFER) buffer Scratch { float scratch[]; };

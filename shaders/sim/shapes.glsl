@@ -1,6 +1,6 @@
-// The kernels that solver.kernel names, by a define; none: the cubic spline. sim/cpu/pair_shape.h.
+// The kernels of solver.kernel, selected by a define; default: the cubic spline. sim/cpu/pair_shape.h.
 
-// f(q) = -w'(q) / q of the kernel, up to a factor that gradient_scale takes care of.
+// f(q) = -w'(q) / q of the kernel, up to a factor in gradient_scale.
 float shape(float q)
 {
     float t = 1.0 - q;

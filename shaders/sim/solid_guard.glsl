@@ -4,8 +4,8 @@
 #define SOLID_BEGIN(k) solids[k].begin
 #endif
 
-// The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by the distance
-// to the surface, which it can't meet sooner.
+// The first part of the way, 0 .. 1, that meets the surface; more than 1: none. Advances by the distance to the
+// surface, which cannot be met earlier.
 real meeting(int k, rvec3 from, rvec3 to, real way, real slack)
 {
     real t = 0.0;
@@ -18,8 +18,8 @@ real meeting(int k, rvec3 from, rvec3 to, real way, real slack)
     return t;
 }
 
-// Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there. False when the
-// way keeps clear of the solid.
+// Puts `to` slightly above the tangent plane of the surface at the meeting point, unless already there. False if the
+// way stays clear of the solid.
 bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
 {
     real slack = slack_share * SHAPES[k].reach, way = length(to - from), at_end = solid_distance(k, to);
@@ -29,17 +29,17 @@ bool hold(int k, rvec3 from, inout rvec3 to, out rvec3 normal)
     real t = way > 0.0 ? meeting(k, from, to, way, slack) : 0.0;
     if (t > 1.0 && at_end >= 0.0)
         return false;
-    rvec3 entry = from + min(t, 1.0) * (to - from); // a mesh's distance may be a little more than it is
+    rvec3 entry = from + min(t, 1.0) * (to - from); // a mesh's distance may be slightly too large
     normal = solid_normal(k, entry);
     real depth = dot(entry - to, normal) + slack - solid_distance(k, entry);
-    if (depth <= 0.0 && at_end >= 0.0) // it was at the surface and leaves it
+    if (depth <= 0.0 && at_end >= 0.0) // started at the surface and leaves it
         return false;
     if (depth <= 0.0) {
         normal = solid_normal(k, to);
         depth = slack - at_end;
     }
     to += depth * normal;
-    // where the surface bends towards the way its tangent plane is within it, a little; a mesh's edge takes more than one go
+    // on a surface curved towards the way, the tangent plane is slightly inside; a mesh's edge takes several rounds
     for (int i = 0; i < 8; i++) {
         depth = -solid_distance(k, to);
         if (depth <= 0.0)
@@ -56,11 +56,11 @@ bool out_of_reach(int k, vec3 before, vec3 x)
     return distance(x, solids[k].end.x) > solid_reach(k) + distance(before, x) + own;
 }
 
-#ifndef HELD_BY // what a pass does with a velocity that solid k takes from a particle
+#ifndef HELD_BY // reaction of a pass to velocity taken from a particle by solid k
 #define HELD_BY(k, at, taken)
 #endif
 
-// Whether it had to hold a particle that went from `before` to x.
+// True if a particle that moved from `before` to x was held.
 bool solids_guard(vec3 before, inout vec3 x, inout vec3 v)
 {
     bool held = false;

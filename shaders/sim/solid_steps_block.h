@@ -1,4 +1,4 @@
-/* Where the solids are over half a step, and their shapes; sim/gl/compute/boundary.c fills it. */
+/* Poses of the solids over half a step, and their shapes; filled by sim/gl/compute/boundary.c. */
 #ifndef SLOSH_SOLID_STEPS_BLOCK_H
 #define SLOSH_SOLID_STEPS_BLOCK_H
 
@@ -22,7 +22,7 @@ BLOCK_STRUCT(Solid)
     Pose begin;
     Pose end;
     vec3 velocity; /* at the end, m/s */
-    int sticks;    /* 1: viscous fluid would stick to it */
+    int sticks;    /* 1: viscous fluid sticks to the solid */
     vec3 spin;     /* rad/s */
     int kind;
     vec3 change;     /* rate of the velocity over the step, m/s2 */

@@ -1,6 +1,7 @@
-// Solids: their shapes and distances. Mirrors sim/matter/solid_step.c and sim/matter/solid.c.
-// Distances are in single precision, of which most GPUs have 32 to 64 times as much as of double. With REPRODUCIBLE they
-// are in double precision as there: what lies on a surface is held or not by the last bit, and that is the same bit then.
+// Solids: shapes and distances. Mirrors sim/matter/solid_step.c and sim/matter/solid.c. Distances are in single
+// precision, since most GPUs are 32 to 64 times slower in double precision. With REPRODUCIBLE, distances are in
+// double precision like on the CPU: the last bit decides if a particle on a surface is held, and then the bit is the
+// same.
 #include "shaders/sim/solid_steps_block.h"
 #ifdef REPRODUCIBLE
 #include "shaders/sim/exact_shapes_block.h"
@@ -8,7 +9,7 @@
 #define real double
 #define rvec2 dvec2
 #define rvec3 dvec3
-const real slack_share = 1e-6lf; // of the reach: how far above a surface a particle is put
+const real slack_share = 1e-6lf; // of the reach: height above a surface at which particles are put
 #else
 #define SHAPES solids
 #define real float
@@ -29,7 +30,7 @@ vec3 solid_to_box(Pose pose, vec3 x)
     return at;
 }
 
-// In two dimensions in the solid's plane.
+// For two dimensions in the solid's plane.
 vec3 solid_from_box(Pose pose, vec3 x)
 {
     precise vec3 d = x - pose.x, at = pose.r[0].xyz * d.x + pose.r[1].xyz * d.y + pose.r[2].xyz * d.z;
@@ -49,7 +50,7 @@ vec3 solid_acceleration_at(int k, vec3 x)
 
 float solid_reach(int k) { return solids[k].reach; }
 
-// From the nearest point of the surface to x, outside; less than 0 inside.
+// Distance to the surface for x outside; less than 0 inside.
 real solid_distance(int k, rvec3 x)
 {
     real radius = SHAPES[k].radius;
@@ -85,8 +86,8 @@ double solid_difference(int k, dvec3 x, dvec3 aside)
     return solid_distance(k, x + aside) - solid_distance(k, x - aside);
 }
 
-// Along which the distance grows fastest, by differences. No component by a variable's number: NVIDIA's compiler has that
-// for single precision alone.
+// Direction of the fastest growth of the distance, by differences. No component with a variable index: NVIDIA's
+// compiler supports that for single precision only.
 dvec3 solid_normal(int k, dvec3 x)
 {
     double step = 1e-6lf * exact_shapes[k].reach;
@@ -122,7 +123,8 @@ vec3 bowl_slope(float radius, float thickness, vec3 x)
     return abs(off) - 0.5 * thickness <= x.y ? vec3(0.0, 1.0, 0.0) : off < 0.0 ? -x : x; // the rim is nearer, or the wall
 }
 
-// Along which the distance grows fastest: a difference of two distances would have but a few digits.
+// Direction of the fastest growth of the distance. Analytic: a difference of two distances would have only a few
+// digits.
 vec3 solid_normal(int k, vec3 x)
 {
     int kind = solids[k].kind;
@@ -139,7 +141,7 @@ vec3 solid_normal(int k, vec3 x)
 }
 #endif
 
-// Of x in the box's frame, or `far` and more where it is further away than that.
+// Distance of x in the box's frame to the solid; at least `far` if it is further away.
 float solid_clearance(int k, vec3 x, float far)
 {
     float reach = solid_reach(k) + far, r = distance(x, solids[k].end.x);

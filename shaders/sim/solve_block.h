@@ -1,5 +1,5 @@
-/* Where a solver that iterates on the GPU stands; sim/gl/compute/iterate.c begins and reads it. The first
-   three are the work groups of its passes, as the driver reads them: 0 once it has ended. */
+/* State of an iterating solver on the GPU; sim/gl/compute/iterate.c initializes and reads the block. The
+   first three members are the work groups of the solver's passes, read by the driver: 0 after the end. */
 #ifndef SLOSH_SOLVE_BLOCK_H
 #define SLOSH_SOLVE_BLOCK_H
 
@@ -12,17 +12,17 @@ STORAGE_BLOCK(SolveBlock, SOLVE_BUFFER)
     uint groups_rows;
     uint groups_deep;
     uint iterations; /* done */
-    float left_mean; /* of the residual, as the last one has measured it */
+    float left_mean; /* residual, as last measured */
     float left_most;
-    float tolerance;      /* of the mean */
-    float worst;          /* where a particle has more than that, */
-    uint iterations_few;  /* there are so many at least */
-    uint iterations_most; /* that it may do */
-    uint ended;           /* 1: it has */
-    uint scaled;          /* 1: the residual counts in the mean of a column */
-    float go;             /* of conjugate gradients: how far along a direction, */
-    float turn;           /* how much of the last one is in it, */
-    float power;          /* the product of residual and direction */
+    float tolerance;      /* for the mean */
+    float worst;          /* if a particle exceeds `worst`, */
+    uint iterations_few;  /* at least so many iterations run */
+    uint iterations_most; /* limit of iterations */
+    uint ended;           /* 1: ended */
+    uint scaled;          /* 1: the residual is in units of a column's mean */
+    float go;             /* conjugate gradients: length along the direction */
+    float turn;           /* share of the last direction in the new direction */
+    float power;          /* product of residual and direction */
 }
 BLOCK_END(SolveBlock);
 

@@ -1,4 +1,4 @@
-/* What one step brings; sim/gl/compute/blocks.c fills it. */
+/* Data of a step; filled by sim/gl/compute/blocks.c. */
 #ifndef SLOSH_STEP_BLOCK_H
 #define SLOSH_STEP_BLOCK_H
 
@@ -11,7 +11,7 @@ UNIFORM_BLOCK(StepBlock, STEP_BLOCK)
     vec3 omega0;
     float drift_dt; /* s */
     vec3 omega1;
-    int still; /* 1: the box stands */
+    int still; /* 1: the box is at rest */
     vec3 shift;
     vec3 velocity_change;
     vec3 gravity;     /* of the kick */
@@ -19,7 +19,7 @@ UNIFORM_BLOCK(StepBlock, STEP_BLOCK)
     vec3 felt_origin; /* apparent gravity */
     vec3 felt_alpha;
     vec3 felt_omega;
-    vec3 kick_gravity; /* of the kick of this step, for passes before it, m/s2 */
+    vec3 kick_gravity; /* of this step's kick, for earlier passes, m/s2 */
 }
 BLOCK_END(StepBlock);
 

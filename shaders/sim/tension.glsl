@@ -1,10 +1,10 @@
-// Surface tension within each fluid: sim/cpu/pairs_tension.c. Without a model it is no force.
+// Surface tension within each fluid: sim/cpu/pairs_tension.c. No force without a model.
 #ifdef TENSION
 uint tension_fluid;
-vec4 tension_sum = vec4(0); // what its neighbours add
+vec4 tension_sum = vec4(0); // sum over the neighbours
 
 #ifdef COHESION
-// -g V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 and 2 with volumes for masses; r and h in units of u.
+// -g V_i V_j C(r) x_ij / r, Akinci 2013, eq. 1 and 2 with volumes instead of masses; r and h in units of u.
 void tension_add(vec3 d, float r2, float volume)
 {
     float least = 1e-6 * support;
@@ -16,8 +16,8 @@ void tension_add(vec3 d, float r2, float volume)
 
 vec3 tension_of_sum(float volume, float tension) { return tension * volume * tension_sum.xyz; }
 #else
-// -sigma (Laplacian of c) n / |n| a unit volume, n = grad c, where |n| > 0.3 / h: Müller 2003, eq. 15 to 19.
-// tension_sum: n, Laplacian; squares of lengths in units of u^2.
+// -sigma (Laplacian of c) n / |n| per unit volume, n = grad c, if |n| > 0.3 / h: Mueller 2003, eq. 15 to 19.
+// tension_sum: n, Laplacian; squared lengths in units of u^2.
 void tension_add(vec3 d, float r2, float volume)
 {
     float inverse2 = inverse_unit * inverse_unit, h2 = inverse2 * (support * support), s2 = inverse2 * r2;
@@ -28,7 +28,7 @@ void tension_add(vec3 d, float r2, float volume)
 
 vec3 tension_of_sum(float volume, float tension)
 {
-    tension_add(vec3(0), 0.0, volume); // itself
+    tension_add(vec3(0), 0.0, volume); // the particle itself
     vec3 n = colour_scale * tension_sum.xyz;
     float size = length(n);
     return size * support < 0.3 ? vec3(0) : -tension * colour_scale * tension_sum.w * volume / size * n;

@@ -1,4 +1,4 @@
-/* What only some scenes name: surface tension, no-slip walls; sim/gl/compute/terms.c fills it. */
+/* Data of optional terms: surface tension, no-slip walls; filled by sim/gl/compute/terms.c. */
 #ifndef SLOSH_TERM_BLOCK_H
 #define SLOSH_TERM_BLOCK_H
 
@@ -17,17 +17,18 @@ UNIFORM_BLOCK(TermBlock, TERM_BLOCK)
     float colour_scale;    /* of the colour field */
     float drag_range;      /* m */
     float friction_scale;  /* R F over f(r / h) of sim/viscosity, 1/m4 */
-    float curvature_least; /* curvature_weight of sim/matter/tension.h: no surface; a surface */
+    float curvature_least; /* curvature_weight of sim/matter/tension.h: limit without a surface; limit of a
+                              full surface */
     float curvature_whole;
-    float curvature_full; /* these four: its CurvatureScale */
+    float curvature_full; /* these four: CurvatureScale */
     float curvature_few;
     float curvature_offset;
     float curvature_most;
     FluidTerms fluid_terms[FLUIDS_MOST];
     ivec3 drag_nodes;  /* of the tables of friction of one, two, three faces */
     vec3 drag_steps;   /* their inverse steps, 1/m */
-    ivec3 drag_offset; /* where they begin */
-    vec3 lid_velocity; /* of the wall at the top, m/s */
+    ivec3 drag_offset; /* index of the first entry */
+    vec3 lid_velocity; /* of the top wall, m/s */
 }
 BLOCK_END(TermBlock);
 

@@ -1,16 +1,16 @@
-// The walk over the neighbours of a place x: what stands in the cells around `at`, the cell of x, row by row. The cells
-// stand in rows of three, nine of them, in two dimensions three: sim/cpu/pair_args.h.
+// The walk over the neighbours of a position x: particles in the cells around `at`, the cell of x, row by row. There
+// are nine rows of three cells, in two dimensions three rows: sim/cpu/pair_args.h.
 //
-// WALK(x, at, meet, meet_boundary) calls meet(j, d, w) for each particle, and meet_boundary(j, d, w) for each boundary
-// particle of solids, of whatever distance: j is its index, d = x - where it stands, w the fourth number of its place.
-// What they find goes into variables of the shader. WALK_FLUID leaves boundary particles out; WALK_ROWS does `row_done`
-// behind each row. A shader declares position[] itself; one that wants another number with each place defines PLACES,
-// where these stand.
+// WALK(x, at, meet, meet_boundary) calls meet(j, d, w) for each particle, and meet_boundary(j, d, w) for each
+// boundary particle of solids, at any distance. j: index; d: x minus the particle's position; w: fourth number of its
+// place. Results go to variables of the shader. WALK_FLUID skips boundary particles; WALK_ROWS runs `row_done` after
+// each row. A shader declares position[] itself; a shader with a different fourth number defines PLACES as the
+// array's name.
 //
-// WALK_NEIGHBOURS is for what stands at its own place in the grid, particle i: of the fluid it may leave out what is h or
-// further away. The first pass of a step walks, and makes a list; the others of the step read it: lists.glsl.
-// WALK_AGAIN is for the pass that makes the list, behind that: for the images of i, who see no one else.
-// A pass that walks though particles have moved since the grid was made defines BEHIND_DRIFT: some have gone through a side.
+// WALK_NEIGHBOURS is for particle i at its own place in the grid: may skip fluid at distance h or more. The first
+// pass of a step walks and makes a list; later passes of the step read it: lists.glsl. WALK_AGAIN is for the pass
+// that makes the list, after WALK_NEIGHBOURS: for the images of i, which see no further particles. A pass that walks
+// after particles have moved since the grid defines BEHIND_DRIFT: some particles have crossed a side.
 #ifndef PLACES
 #define PLACES position
 #endif

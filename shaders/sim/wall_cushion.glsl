@@ -1,7 +1,8 @@
-// What keeps fluid that gravity draws to a wall from lying on it: walls_cushion of sim/box/wall_cushion.c.
+// Keeps fluid drawn by gravity from lying on a wall: walls_cushion of sim/box/wall_cushion.c.
 #include "shaders/sim/box/wall_cushion_part.h"
 
-// The acceleration of a particle at x with the velocity v that feels g, over a step dt; pressure: over that of a layer.
+// Acceleration of a particle at x with velocity v and gravity g, over a step dt; pressure: over the pressure of a
+// layer.
 vec3 cushion_at(vec3 x, vec3 v, vec3 g, float dt, float pressure)
 {
     vec3 low = x + vec3(half_size.x, 0.0, half_size.z), high = 2.0 * half_size - low;

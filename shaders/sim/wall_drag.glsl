@@ -1,4 +1,4 @@
-// The friction of no-slip walls, as sim/box/wall_drag.c has it: tables over the distances to one, two, three faces.
+// Friction of no-slip walls, as in sim/box/wall_drag.c: tables over the distances to one, two, three faces.
 layout(std430, binding = DRAG_BUFFER) readonly buffer DragTables { float drag_tables[]; };
 
 float drag_of_faces(vec3 distances, int count)
@@ -23,7 +23,7 @@ float drag_of_faces(vec3 distances, int count)
     return sum;
 }
 
-// Faces less edges plus corners, 1/m2; all, or those that the wall at the top is one of.
+// Faces minus edges plus corners, 1/m2; all, or only those with the top wall.
 float wall_drag_sum(vec3 x, bool lid_only)
 {
     bool lid[6];

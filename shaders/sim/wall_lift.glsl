@@ -1,12 +1,12 @@
-// What of a particle's weight the walls of the box hold, whose images have no more pressure than their particles: walls_lift
-// of sim/box/wall_lift.h, and add_lift in sim/mueller/passes.c.
+// Share of a particle's weight held by walls whose images have their particles' pressure: walls_lift of
+// sim/box/wall_lift.h, and add_lift in sim/mueller/passes.c.
 vec3 lift_shape(vec3 d)
 {
     vec3 t = max(1.0 - d * inverse_support, 0.0), t2 = t * t;
     return t2 * t2 * t * (3.0 - 2.0 * t);
 }
 
-// The part of it along each axis.
+// The share along each axis.
 vec3 walls_lift(vec3 x)
 {
     vec3 low = x + vec3(half_size.x, 0.0, half_size.z), high = 2.0 * half_size - low;
@@ -19,7 +19,7 @@ vec3 walls_lift(vec3 x)
     return lift;
 }
 
-// The acceleration by that of a particle at x, of such a rest density and pressure p, where it feels g.
+// The resulting acceleration of a particle at x with rest density `density`, pressure p and gravity g.
 vec3 lift_at(vec3 x, vec3 g, float density, float p)
 {
     float layer = density * spacing * length(g), fade = layer > 0.0 ? clamp(p / layer, 0.0, 1.0) : 0.0;

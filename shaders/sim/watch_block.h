@@ -1,5 +1,5 @@
-/* What the kicks have found so far; sim/gl/compute/watch.c reads it. A pass that writes there (WRITES_WATCH)
-   reads there, too: it has no second block of the same buffer. */
+/* Findings of the kicks so far, read by sim/gl/compute/watch.c. A pass that writes the block (WRITES_WATCH)
+   also reads there, without a second block of the same buffer. */
 #ifndef SLOSH_WATCH_BLOCK_H
 #define SLOSH_WATCH_BLOCK_H
 
@@ -12,11 +12,11 @@ STORAGE_BLOCK(WatchBlock, WATCH_BUFFER)
 UNIFORM_BLOCK(WatchBlock, WATCH_BLOCK)
 #endif
 {
-    uint greatest_speed2; /* bits of floats, which are in their order where they are not negative */
+    uint greatest_speed2; /* bits of floats, which have the order of non-negative floats */
     uint greatest_acceleration2;
     uint greatest_density_ratio;
-    uint guarded;      /* how often a guard held a particle */
-    uint went_too_far; /* 1: a particle did */
+    uint guarded;      /* number of times a guard held a particle */
+    uint went_too_far; /* 1: a particle moved too far */
 }
 BLOCK_END(WatchBlock);
 

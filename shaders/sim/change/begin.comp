@@ -1,4 +1,4 @@
-// What a step begins with: begin_body in sim/change/change.c.
+// Keeps the velocity at the begin of a step: begin_body in sim/change/change.c.
 #include "sim/constants.glsl"
 #define OWN_ACCESS writeonly
 #include "sim/own.glsl"

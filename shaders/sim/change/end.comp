@@ -2,7 +2,7 @@
 #include "sim/constants.glsl"
 #include "sim/own.glsl"
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
-layout(location = PASS_DT_AT) uniform float dt; // s; 0: not known
+layout(location = PASS_DT_AT) uniform float dt; // s; 0: unknown
 
 void main()
 {

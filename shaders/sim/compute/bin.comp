@@ -1,4 +1,4 @@
-// The cell of each particle, and its place there, in any order.
+// The cell of each particle, and the particle's place in the cell, in any order.
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
@@ -11,7 +11,7 @@ void main()
     uint i = invocation();
     if (i >= particle_count())
         return;
-    // Clamped, so that a position that is not finite does no harm before it is reported.
+    // Clamped, so that a non-finite position does no harm before the report.
     uint c = uint(cell_place(cell_of(position[i].xyz)));
     cell[i] = c;
     rank[i] = atomicAdd(count[c], 1u);

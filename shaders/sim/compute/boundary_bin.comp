@@ -1,10 +1,11 @@
-// Where each boundary particle is now, and its cell: the last one, which nobody reads, for what is behind walls, where the
-// walls' own stand, and for matter that solids share, which counts once, for the first of them. sim/cpu/boundary.c.
+// Position and cell of each boundary particle. The last cell, which is never read, is for particles beyond walls,
+// where the walls act, and for matter of overlapping solids, which counts once, for the first solid.
+// sim/cpu/boundary.c.
 #include "sim/constants.glsl"
 #include "sim/in_box.glsl"
 #include "sim/solids.glsl"
 #include "sim/cells.glsl"
-layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: which solid
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // in the solid's frame; w: solid
 layout(std430, binding = CELLS_BUFFER) writeonly buffer Cells { uint cell[]; };
 layout(std430, binding = RANKS_BUFFER) writeonly buffer Ranks { uint rank[]; };
 layout(std430, binding = STARTS_BUFFER) buffer Counts { uint count[]; };

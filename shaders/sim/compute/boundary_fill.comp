@@ -1,4 +1,4 @@
-// What boundary particles take from the fluid next to them: Adami, Hu, Adams, "A generalized wall boundary condition for
+// Values of boundary particles from the fluid around: Adami, Hu, Adams, "A generalized wall boundary condition for
 // smoothed particle hydrodynamics", 2012, eq. 27 and 23; fill_one of sim/cpu/boundary.c.
 #include "sim/constants.glsl"
 #include "sim/solids.glsl"
@@ -52,7 +52,7 @@ void main()
 #ifndef NEGATIVE_PRESSURE
     p = max(p, 0.0);
 #endif
-    boundary_position[i].w = sticks ? volume : 0.0; // 0 where it slips: then no friction sees it
+    boundary_position[i].w = sticks ? volume : 0.0; // 0 for slip: then friction ignores the particle
     boundary_velocity[i] = sticks ? vec4(2.0 * wall - v / weight, viscosity / weight) : vec4(wall, 0.0);
     boundary_state[i].x = floatBitsToUint(p * volume * volume);
 }

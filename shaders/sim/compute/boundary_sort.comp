@@ -1,4 +1,4 @@
-// Boundary particles to their places, for who asks for the same bits each time by number within each cell: sort.comp.
+// Moves boundary particles to their places; for reproducible worlds by number within each cell: sort.comp.
 #include "sim/constants.glsl"
 #include "sim/solids.glsl"
 #define BOUNDARY_ACCESS writeonly

@@ -1,5 +1,5 @@
-// Whether a solver goes on, by what excess.comp has summed up behind its last iteration, and how far along which direction:
-// substep_iterate and `conjugate` of sim/world/iterate.c. One group.
+// Decides if a solver goes on, from the sums of excess.comp after its last iteration, and the next step of conjugate
+// gradients: substep_iterate and `conjugate` of sim/world/iterate.c. A single group.
 #include "sim/constants.glsl"
 #include "common/nan.glsl"
 #include "shaders/sim/excess_part.h"
@@ -8,7 +8,7 @@ layout(std430, binding = PARTS_BUFFER) readonly buffer Parts { ExcessPart part[]
 shared vec4 sums[64]; // sum, greatest, power, curvature
 shared float scales[64];
 
-// True while it goes on.
+// True if the solver goes on.
 bool decide(float mean, float greatest)
 {
     iterations++;
@@ -30,7 +30,7 @@ void conjugate(float next_power, float curvature)
     power = next_power;
 }
 
-// 1 over what the residual counts in.
+// 1 / (unit of the residual).
 float scale_of(float sum) { return scaled == 0u || sum == 0.0 ? 1.0 : float(particles_there()) / sum; }
 
 void main()

@@ -1,4 +1,4 @@
-// Those who stay, in their order; `before` is how many of them stand before each.
+// Gathers the remaining particles in order; `before`: number of remaining particles before each particle.
 #include "sim/constants.glsl"
 layout(std430, binding = OLD_POSITIONS_BUFFER) readonly buffer OldPositions { vec4 old_position[]; };
 layout(std430, binding = MARKS_BUFFER) readonly buffer Before { uint before[]; };

@@ -1,8 +1,8 @@
-// Who stays: fill_holds of sim/matter/seed.c, of none of the drains.
+// Marks remaining particles, outside of all drains: fill_holds of sim/matter/seed.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/flow_block.h"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
+layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // plus an extra entry, 0, for the total
 
 bool drains_away(vec3 x)
 {

@@ -1,4 +1,4 @@
-// Free flight from one pose of the box into the next (sim/box/box_step.h), then the last guard of solids and walls.
+// Free flight between two poses of the box (sim/box/box_step.h), then the last guard of solids and walls.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
@@ -6,7 +6,7 @@
 #include "sim/felt.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 
-// What guards take from the particle. What several solids take in half a step counts as the last one's.
+// Velocity taken by guards. If several solids hold a particle in half a step, all counts for the last solid.
 vec3 taken_by_walls = vec3(0), taken_by_solid = vec3(0), solid_turned = vec3(0), held_at;
 int last_solid = -1;
 
@@ -29,7 +29,7 @@ shared uint held_by_group;
 float folded(float way) { return 0.5 * spacing * way / (way + spacing); }
 #endif
 
-// How often a guard held the particle.
+// Number of times guards held the particle.
 uint fly(uint i)
 {
     uint times = 0u;

@@ -1,4 +1,4 @@
-// Those that have room, behind the particles that are there; `before` is the sum of the marks before each.
+// Appends the candidates with room to the particles; `before`: sum of the marks before each candidate.
 #include "sim/constants.glsl"
 #include "shaders/sim/flow_block.h"
 layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 position[]; };

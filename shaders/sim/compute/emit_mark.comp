@@ -1,4 +1,4 @@
-// Which points of a layer have room: has_room of sim/cpu/flow.c. Points of one layer are further apart than that.
+// Marks points of a layer with room: has_room of sim/cpu/flow.c. Points of a layer are further apart than the limit.
 #include "sim/constants.glsl"
 #include "sim/in_box.glsl"
 #include "sim/walk.glsl"
@@ -7,8 +7,8 @@
 #include "sim/solids.glsl"
 #endif
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
-layout(std430, binding = LAYER_BUFFER) readonly buffer Layer { float candidates[]; }; // x y z of each
-layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // one more, 0, for the sum of all
+layout(std430, binding = LAYER_BUFFER) readonly buffer Layer { float candidates[]; }; // x y z per point
+layout(std430, binding = MARKS_BUFFER) writeonly buffer Marks { uint mark[]; }; // plus an extra entry, 0, for the total
 
 bool taken = false;
 
@@ -22,7 +22,7 @@ bool has_room(vec3 x)
 {
     ivec3 at = cell_of(x);
     WALK(x, at, meet, meet)
-    for (uint j = gridded; j < particle_count(); j++) // those that came since
+    for (uint j = gridded; j < particle_count(); j++) // particles added since the grid
         meet(j, nearest(x - position[j].xyz), 0.0);
 #ifdef SOLIDS
     float half_spacing = 0.5 * spacing;

@@ -1,10 +1,10 @@
-// What of a column of scratch is above 0, and with a residual of conjugate gradients the sums of two more: each invocation
-// adds up every 4096th particle, each group its invocations.
+// Sums the positive part of a scratch column, and for a residual of conjugate gradients two further columns. Each
+// invocation adds every 4096th particle, each group its invocations.
 #include "sim/constants.glsl"
 #include "sim/scratch.glsl"
 #include "shaders/sim/excess_part.h"
 layout(std430, binding = PARTS_BUFFER) writeonly buffer Parts { ExcessPart part[]; };
-layout(location = COLUMN_AT) uniform uvec4 column; // where parts begin stands second
+layout(location = COLUMN_AT) uniform uvec4 column; // y: index of the first part
 shared vec4 sums[64];                              // sum, greatest, power, curvature
 
 void main()

@@ -1,4 +1,4 @@
-// What is plotted of a state: each invocation adds up every 4096th particle, each group its invocations.
+// Plotted sums of a state: each invocation adds every 4096th particle, each group its invocations.
 #include "sim/constants.glsl"
 #include "sim/gauge.glsl"
 #include "shaders/sim/gauge_part.h"

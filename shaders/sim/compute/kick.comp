@@ -1,10 +1,10 @@
-// v += (acceleration + gravity) dt, and the greatest of what the sentinel wants to know: bits of floats that are not
-// negative are in their order, and those of NaN are above all.
+// v += (acceleration + gravity) dt, and the maxima for the sentinel. Bits of non-negative floats have the order of
+// the floats, and the bits of NaN are above all.
 #define WRITES_WATCH
 #include "sim/constants.glsl"
 #include "shaders/sim/term_block.h"
 #include "common/nan.glsl"
-#if defined NO_SLIP && defined RUBS // else sim/viscosity has it
+#if defined NO_SLIP && defined RUBS // otherwise sim/viscosity
 #include "sim/wall_drag.glsl"
 #define NAMED
 #endif
@@ -27,7 +27,7 @@ void main()
 #ifdef FELT
     vec3 pushed = vec3(0), turned = vec3(0);
 #endif
-    if (i < particles_there()) { // whatever others of this pass find
+    if (i < particles_there()) { // independent of findings of the same pass
         vec3 a = acceleration[i].xyz + gravity;
 #if defined NO_SLIP && defined RUBS
         // Drag with the velocity at the end of the step: hold_by_walls in sim/cpu/integrate.c.
@@ -46,7 +46,7 @@ void main()
         turned = cross(position[i].xyz, pushed);
 #endif
 #ifdef LEAPS
-        float fastest = 1e18; // its square is finite
+        float fastest = 1e18; // with a finite square
 #else
         float fastest = support / kick_dt;
 #endif
@@ -66,7 +66,8 @@ void main()
     }
     if (lane > 0u)
         return;
-    // Most groups find less than is known: what they read may be of before, and then they only ask once too often.
+    // Most groups find less than the known maxima. A read may be out of date, which only causes a superfluous
+    // atomicMax.
     if (greatest[0].x > greatest_speed2)
         atomicMax(greatest_speed2, greatest[0].x);
     if (greatest[0].y > greatest_acceleration2)

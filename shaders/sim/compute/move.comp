@@ -1,4 +1,4 @@
-// Particles into the order of their cells; behind a step that blew up nobody has made it, and they stay where they are.
+// Moves particles into the order of their cells; after a step that blew up there is no order, and particles stay.
 #include "sim/constants.glsl"
 #include "sim/lists.glsl"
 layout(std430, binding = ORDERS_BUFFER) readonly buffer Orders { uint order[]; };

@@ -1,4 +1,4 @@
-// The method's own columns of those who stay: drain_gather.comp.
+// The method's columns of remaining particles: drain_gather.comp.
 #define OWN_ACCESS writeonly
 #include "sim/constants.glsl"
 #include "sim/own.glsl"

@@ -1,4 +1,4 @@
-// The method's own columns after their particles: move.comp.
+// Moves the method's columns like their particles: move.comp.
 #define OWN_ACCESS writeonly
 #include "sim/constants.glsl"
 #include "sim/own.glsl"

@@ -1,4 +1,4 @@
-// Old places of the particles in the order of their cells.
+// Old indices of the particles in the order of cells.
 #include "sim/constants.glsl"
 layout(std430, binding = CELLS_BUFFER) readonly buffer Cells { uint cell[]; };
 layout(std430, binding = RANKS_BUFFER) readonly buffer Ranks { uint rank[]; };

@@ -1,4 +1,4 @@
-// Adds what stands before each block of 1024.
+// Adds the total before each block of 1024.
 #include "shaders/shared/scan.h"
 layout(local_size_x = 256) in;
 layout(std430, binding = SCAN_VALUES_STORAGE) buffer Values { uint value[]; };

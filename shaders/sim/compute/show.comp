@@ -1,11 +1,11 @@
-// What the views want to know of each particle besides place and velocity.
+// Values of each particle for the views besides position and velocity.
 #include "sim/constants.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
 layout(std430, binding = PRESSURES_BUFFER) readonly buffer Pressures { vec2 pressure[]; };
 layout(std430, binding = VALUES_BUFFER) writeonly buffer Values { uint word[]; };
-layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_STATE_COUNT: the fluid as a number; one more: the id
+layout(location = SHOWN_SCALAR_AT) uniform int scalar; // sim/base/scalar.h; SCALAR_STATE_COUNT: fluid as a number; then the id
 
 #ifdef CARRIES_DENSITY
 float compression_of(uint i) { return velocity[i].w; }

@@ -1,6 +1,6 @@
-// The place of each particle among those of its cell, by id, so that sums have one order whatever the atomic counters
-// did. Counted by each for itself: in a cell of many a sort would be a long loop, and llvmpipe ends one after 65,535
-// rounds.
+// The place of each particle in its cell, by id, so that sums have a fixed order for any result of the atomic
+// counters. Each invocation counts for itself: a sort in a cell of many particles would be a long loop, and llvmpipe
+// stops loops after 65,535 rounds.
 #include "sim/constants.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; }; // id, fluid
 layout(std430, binding = CELLS_BUFFER) readonly buffer Cells { uint cell[]; };

@@ -1,4 +1,4 @@
-// The colour mask picks the place.
+// The colour mask selects the place.
 flat in uint number;
 layout(location = 0) out uvec4 place;
 

@@ -1,5 +1,5 @@
-// A particle becomes one point in the texel of its cell, as deep as its id: after Harada, Koshizuka and Kawaguchi
-// 2007. Whole numbers up to 2^24 times 2^-24 are exact in the depth buffer.
+// A particle becomes a point in the texel of its cell, with its id as depth: after Harada, Koshizuka and Kawaguchi
+// 2007. Integers up to 2^24 times 2^-24 are exact in the depth buffer.
 #include "sim/fragment/particles.glsl"
 #include "sim/fragment/cells.glsl"
 layout(location = 0) in uint listed; // index + 1: 0 is an empty place

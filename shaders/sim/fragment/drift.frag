@@ -1,9 +1,9 @@
-// Free flight from one pose of the box into the next (sim/box/box_step.h), then the walls' last guard.
+// Free flight between two poses of the box (sim/box/box_step.h), then the last guard of walls.
 #include "sim/fragment/own.glsl"
-uniform usampler2D held; // how often the guard held each particle
+uniform usampler2D held; // number of times the guard held each particle
 uniform vec3 rotation[3], omega0, omega1, shift, velocity_change;
 uniform float dt;
-uniform int still; // 1: the box stands
+uniform int still; // 1: the box is at rest
 layout(location = 0) out vec4 new_position;
 layout(location = 1) out vec4 new_velocity;
 layout(location = 2) out uint new_held;

@@ -1,5 +1,5 @@
-// What is plotted of a state: each texel sums up 8 x 8 of the texture before, until one is left, like watch.frag. Floats
-// as bits, since the targets are those of the watch.
+// Plotted sums of a state: each texel sums 8 x 8 texels of the texture before, down to a single texel, like
+// watch.frag. Floats as bits, since the targets are shared with the watch.
 #include "sim/fragment/particles.glsl"
 #include "sim/gauge.glsl"
 layout(location = 0) out uvec4 found; // sums: see gauge.glsl

@@ -1,11 +1,11 @@
-// The neighbours of a particle, from the buckets of the cells around its own: nine rows of three cells, in two
-// dimensions three rows. Places fill up from the first on, so that an empty one ends a cell.
+// Neighbours of a particle, from the buckets of its cell and the cells around: nine rows of three cells, in two
+// dimensions three rows. Places fill up from the first on, so an empty place ends a cell.
 #include "sim/fragment/cells.glsl"
 #include "sim/images.glsl"
-uniform usampler2DArray buckets; // four particles a texel: their indices + 1; 0: none
+uniform usampler2DArray buckets; // four particles per texel: index + 1; 0: none
 
-void meet(int j); // what the pass makes of particle j, another one, of any distance
-void meet_images(int j); // what it makes of j, itself among them, that its images see
+void meet(int j); // defined by the pass: handles particle j (never the particle itself) at any distance
+void meet_images(int j); // defined by the pass: handles j for the images, including the particle itself
 
 // The images of the particle in the walls.
 Image images[26];
@@ -21,7 +21,7 @@ void images_make(vec3 x)
     }
 }
 
-// Whether particle i at x stands in the buckets itself.
+// True if particle i at x is in the buckets.
 bool meet_neighbours(int i, vec3 x)
 {
     int middle = cell_index(cell_of(x));

@@ -1,4 +1,4 @@
-// A particle becomes one point in the texel of its id, for where it is.
+// A particle becomes a point in the texel of its id; the point's value is the particle's own texel.
 #include "sim/fragment/particles.glsl"
 flat out uint number;
 

@@ -1,4 +1,4 @@
-// Each particle into its place of a list.
+// Moves each particle to its place in a list.
 #include "sim/fragment/own.glsl"
 uniform usampler2D held;
 uniform usamplerBuffer by_cell; // index + 1

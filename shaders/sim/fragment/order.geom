@@ -1,9 +1,9 @@
-// Lists particles by cell: those of a texel of the buckets; then, with `placeless`, the particle itself where it has no place
-// there. Transform feedback keeps their order.
+// Lists particles by cell: the particles of a texel of the buckets; then, with `placeless`, particles without a place
+// in the buckets. Transform feedback keeps the order.
 #include "sim/fragment/particles.glsl"
 #include "sim/fragment/cells.glsl"
 uniform usampler2DArray buckets;
-uniform sampler2D fields; // of density.frag, behind the same grid
+uniform sampler2D fields; // of density.frag, after the same grid
 uniform int placeless;
 layout(points) in;
 layout(points, max_vertices = 4) out;

@@ -1,4 +1,4 @@
 #include "sim/fragment/particles.glsl"
 
-// The texel's own particle; the last row may go on past the last one.
+// The particle of the texel; the last row may continue past the last particle.
 int own_particle() { return (int(gl_FragCoord.y) << particle_bits) + int(gl_FragCoord.x); }

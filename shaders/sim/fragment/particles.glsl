@@ -1,6 +1,6 @@
-// Particles are texels: particle i is texel (i mod width, i / width), of a width of 2^particle_bits, of each of these textures,
-// until sim/gl/fragment/order.c moves them.
-// sim/gl/fragment/constants.c writes particle_count, particle_bits and what else is constant before the shader.
+// Particles are texels: particle i is texel (i mod width, i / width) of each of these textures, with width
+// 2^particle_bits, until sim/gl/fragment/order.c moves particles. sim/gl/fragment/constants.c writes particle_count,
+// particle_bits and further constants before the shader.
 uniform sampler2D position; // x y z, id
 uniform sampler2D velocity; // x y z, fluid
 uniform vec4 fluid_numbers[FLUIDS];

@@ -1,4 +1,4 @@
-// Positions as the views want them: x y z, volume, m3.
+// Positions for the views: x y z, volume, m3.
 #include "sim/fragment/own.glsl"
 uniform sampler2D fields;
 layout(location = 0) out vec4 place;

@@ -1,5 +1,5 @@
-// Lists the particles that a layer of the buckets has left: its last place holds one before them. Transform feedback
-// keeps their order.
+// Lists the particles left over by a layer of the buckets: the layer's last place holds an earlier particle.
+// Transform feedback keeps the order.
 #include "sim/fragment/particles.glsl"
 #include "sim/fragment/cells.glsl"
 uniform usampler2DArray buckets;

@@ -1,5 +1,5 @@
-// What the step found over all particles: each texel sums up 8 x 8 of the texture before, until one is left. Bits of
-// floats that are not negative are in their order, and those of NaN are above all.
+// Findings of the step over all particles: each texel reduces 8 x 8 texels of the texture before, down to a single
+// texel. Bits of non-negative floats have the order of the floats, and the bits of NaN are above all.
 #include "sim/fragment/particles.glsl"
 layout(location = 0) out uvec4 found; // greatest speed^2, acceleration^2, n / n0; lost: particles without a place
 layout(location = 1) out uint held_sum;

@@ -1,4 +1,4 @@
-// The steps since the last reading as one: texel 0 the greatest of what they found, texel 1 how often the guard held.
+// Combines the steps since the last reading: texel 0 has the maxima, texel 1 the number of times the guard held.
 uniform usampler2D finer, held, before;
 layout(location = 0) out uvec4 watch;
 

@@ -1,8 +1,8 @@
 // Number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
-layout(location = 0) out vec4 fields; // volume, p, 0; 1 for a particle that has no place in the buckets, else 0
-layout(location = 1) out vec4 near; // what force.frag reads of others: x y z, p V^2
+layout(location = 0) out vec4 fields; // volume, p, 0; 1 for a particle without a place in the buckets, else 0
+layout(location = 1) out vec4 near; // read of neighbours by force.frag: x y z, p V^2
 #ifdef VISCOUS
 layout(location = 2) out vec4 moving; // velocity, volume
 #endif
@@ -37,7 +37,7 @@ void main()
         discard;
     vec4 own = of_particle(position, i), speed = of_particle(velocity, i);
     here = own.xyz;
-    sum = 1.0; // itself, whether it has a place or not
+    sum = 1.0; // the particle itself, with or without a place
     bool placed = meet_neighbours(i, here);
     float n = kernel_scale * sum;
     float p = fluid_of(speed.w).stiffness * (n / rest_number_density - 1.0);

@@ -8,7 +8,7 @@ float volume_of(uint i) { return velocity[i].w; }
 
 float extra_of(uint fluid) { return 0.0; }
 
-// That of pressure, over d.
+// Force of pressure, over d.
 float push_of(float terms, float r)
 {
     float t = 1.0 - r * inverse_support;
@@ -46,7 +46,7 @@ void meet_image(uint j, vec3 d, float term)
 void meet_boundary_image(uint j, vec3 d, float volume) { meet_image(j, d, uintBitsToFloat(boundary_state[j].x)); }
 #endif
 
-// On the images of particle i at x, in the cell `at`.
+// Force on the images of particle i at x, in the cell `at`.
 vec3 images_force(uint i, vec3 x, ivec3 at)
 {
     int end = images_end(x);

@@ -18,7 +18,7 @@ vec3 speed;
 float viscosity, drag_scale;
 #endif
 
-// Of pressure, over the distance.
+// Force of pressure, over the distance.
 float push_of(float term, float r)
 {
     float t = max(1.0 - r * inverse_support, 0.0);

@@ -1,4 +1,4 @@
-// wcsph: what a shift carries of velocity: sim/wcsph/carry.c, sim/wcsph/pairs_carry.c.
+// wcsph: velocity changes for shifts: sim/wcsph/carry.c, sim/wcsph/pairs_carry.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"
@@ -8,7 +8,7 @@ layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 ve
 layout(std430, binding = UNEVENS_BUFFER) buffer Unevens { vec4 uneven[]; }; // see shift.comp
 
 vec3 own_velocity, diagonal = vec3(0), mixed = vec3(0);
-mat3 slopes = mat3(0); // sum of F x_ij over the column, v_i - v_j along it
+mat3 slopes = mat3(0); // sum of F x_ij over columns, v_i - v_j over rows
 
 void meet(uint j, vec3 d, float volume)
 {

@@ -1,4 +1,4 @@
-// wcsph: the rate of density by the equation of continuity with diffusion and the walls' images, then density by it, volume
+// wcsph: rate of density by the equation of continuity, with diffusion and the walls' images; then density, volume
 // and pressure: rate_range in sim/wcsph/pairs.c, rate_body in sim/wcsph/density.c, sim/wcsph/pairs_images.c.
 #define BEHIND_DRIFT
 #define OWN_ACCESS writeonly
@@ -8,12 +8,12 @@
 #include "sim/own.glsl"
 #ifdef SOLIDS
 #include "sim/solids.glsl"
-layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: which solid
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: solid
 #endif
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }; // w: volume, m3
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };  // p, p V^2
-layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, its own alone
+layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };           // w: rho / rho0 - 1, read of itself only
 #ifdef DIFFUSION
 layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; };         // w: rho / rho0 - 1, by state.comp
 #endif
@@ -23,12 +23,12 @@ layout(std430, binding = SLOPES_BUFFER) readonly buffer Slopes { vec4 slope[]; }
 #endif
 layout(location = PASS_DT_AT) uniform float dt;
 
-// The particle, and the one of its images that looks for neighbours: velocities, and sums of F v_ij . x_ij.
+// The particle, and the current image: velocities, and sums of F v_ij . x_ij.
 uint self, own_fluid;
 vec3 own_velocity, image_velocity, image_sign;
 float sum = 0.0, image_sum = 0.0;
 
-// x_ij as the particle's corrected gradient has it; the same of its image.
+// x_ij with the particle's corrected gradient; the same for an image.
 vec3 along(vec3 d)
 {
 #ifdef CORRECTED
@@ -39,7 +39,7 @@ vec3 along(vec3 d)
 
 vec3 along_image(vec3 d) { return image_sign * along(image_sign * d); }
 
-// Takes from the flow between two particles of one fluid what diffusion does.
+// Subtracts diffusion from the flow between two particles of a fluid.
 void diffuse(uint j, vec3 d, inout float flow)
 {
 #ifdef DIFFUSION
@@ -70,7 +70,7 @@ void meet_image(uint j, vec3 d, float volume)
 }
 
 #ifdef SOLIDS
-// Its solid's own velocity there, not the mirrored one.
+// The solid's own velocity there, not the mirrored velocity.
 vec3 solid_velocity_of(uint j) { return solid_velocity_at(int(rest[boundary_state[j].y].w), boundary_position[j].xyz); }
 
 void meet_boundary(uint j, vec3 d, float volume)
@@ -88,7 +88,7 @@ void meet_boundary_image(uint j, vec3 d, float volume)
 }
 #endif
 
-// What the images of the particle at x, in the cell `at`, find.
+// Sums over the neighbours of the images of the particle at x, in the cell `at`.
 void walk_images(vec3 x, ivec3 at)
 {
     int end = images_end(x);

@@ -1,7 +1,7 @@
-// Corrections of the gradients, two vec4 a particle, xx yy zz and xy yz zx: sim/wcsph/corrected.c.
+// Corrections of the gradients, two vec4 per particle, xx yy zz and xy yz zx: sim/wcsph/corrected.c.
 layout(std430, binding = CORRECTIONS_BUFFER) CORRECTION_ACCESS buffer Corrections { vec4 correction[]; };
 
-// C x, of particle i.
+// C x, with C of particle i.
 vec3 corrected(uint i, vec3 x)
 {
     vec3 m = correction[2u * i + 1u].xyz;

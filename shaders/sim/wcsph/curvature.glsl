@@ -1,9 +1,9 @@
-// The force of surface tension by curvature: wcsph_curvature of sim/wcsph/pairs_surface.c. Without it, nothing.
+// Force of surface tension by curvature: wcsph_curvature of sim/wcsph/pairs_surface.c. No force without CURVATURE.
 #ifdef CURVATURE
 #define OUTWARD_ACCESS readonly
 #include "sim/wcsph/surface.glsl"
 
-// A normal, and its weight apart.
+// A unit normal and its weight.
 vec4 front_of(vec3 n)
 {
     float weight = length(n);
@@ -11,7 +11,7 @@ vec4 front_of(vec3 n)
 }
 
 uint bend_fluid;
-vec4 bend_front;                     // of the particle, or of one of its images
+vec4 bend_front;                     // of the particle, or of an image
 float bend_sum = 0.0, along_sum = 0.0; // sum w (n_i - n_j) . x_ij, sum w t^2
 
 void bend_meet(uint j, vec3 d, float term)
@@ -25,7 +25,7 @@ void bend_meet(uint j, vec3 d, float term)
     along_sum += w * (r2 - across * across);
 }
 
-// What walls add: their images; the sum of (1 - d/h)^2 over walls that are d away.
+// Adds the wall images; returns the sum of (1 - d/h)^2 over walls at distance d.
 float bend_by_walls(vec3 x, ivec3 at, vec4 front)
 {
     float next = 0.0;
@@ -37,7 +37,7 @@ float bend_by_walls(vec3 x, ivec3 at, vec4 front)
         bend_front = vec4(image.sign * front.xyz, front.w);
         WALK_FLUID(image.x, at, bend_meet)
         float t = max(1.0 - 0.5 * length(x - image.x) * inverse_support, 0.0);
-        next += dot(image.sign, vec3(1)) > 0.0 ? t * t : 0.0; // not of images of images
+        next += dot(image.sign, vec3(1)) > 0.0 ? t * t : 0.0; // not for images of images
     }
     return next;
 }
@@ -55,7 +55,7 @@ vec3 curvature_force(uint i, vec3 x, ivec3 at)
     return -fluid_terms[bend_fluid].tension * curvature * (1.0 - curvature_offset * curvature) * outward[i].xyz;
 }
 
-// Next to a wall nothing is shifted out through the surface: keep_notches of sim/wcsph/force.c.
+// Near a wall no shift goes out through the surface: keep_notches of sim/wcsph/force.c.
 vec3 keep_notch(uint i, vec3 shift)
 {
     vec3 n = outward[i].xyz, x = near[i].xyz;

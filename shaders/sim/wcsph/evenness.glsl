@@ -1,8 +1,8 @@
-// What shifting goes by, summed up along with the forces: wcsph_range of sim/wcsph/pairs.c. Without shifting, nothing.
+// Sums for shifting, computed together with the forces: wcsph_range of sim/wcsph/pairs.c. Nothing without SHIFTING.
 #ifdef SHIFTING
 layout(std430, binding = UNEVENS_BUFFER) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
 
-// Sums of F x_ij and F r^2, those of an image, and of W.
+// Sums of F x_ij and F r^2, the same for an image, and sum of W.
 vec4 even_sum = vec4(0), even_image = vec4(0);
 float dense_sum = 1.0;
 

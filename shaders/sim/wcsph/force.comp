@@ -17,16 +17,16 @@ void correct_meet(uint j, vec3 d, float r2, float term);
 #include "sim/wcsph/curvature.glsl"
 #include "sim/wcsph/evenness.glsl"
 
-// Friction takes fluid for no thinner than that.
+// Volume for friction: fluid counts as at least THINNEST dense.
 float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_number_density)); }
 
 #ifdef CORRECTED
 #define CORRECTION_ACCESS readonly
 #include "sim/wcsph/correction.glsl"
 
-// push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, those of an image, and of p_j V_j^2 C_j F x_ij.
+// push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, the same for an image, and of p_j V_j^2 C_j F x_ij.
 vec3 even_push = vec3(0), even_image_push, correction_push = vec3(0);
-vec3 contrast_push = vec3(0), contrast_image_push; // the same with w, of sim/wcsph/pairs_interface.c
+vec3 contrast_push = vec3(0), contrast_image_push; // the same sums times w of sim/wcsph/pairs_interface.c
 
 #ifdef SHIFTING
 vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
@@ -69,7 +69,7 @@ float volume_of(uint i) { return volume_at(velocity[i].w); }
 float extra_of(uint fluid) { return wcsph_fluids[fluid].artificial_viscosity; }
 
 
-// Laminar viscosity; f: the kernel's slope there.
+// Laminar viscosity; f: the kernel's slope of the pair.
 vec3 rub(Side own, Side other, vec3 d, float f)
 {
 #if defined RUBS && defined RADIAL
@@ -81,7 +81,7 @@ vec3 rub(Side own, Side other, vec3 d, float f)
 #endif
 }
 
-// Pressure and laminar or artificial viscosity.
+// Pressure, and laminar or artificial viscosity.
 vec3 pair_force(Side own, Side other, vec3 d, float r2)
 {
     float f = gradient_scale * shape(sqrt(r2) * inverse_support), w = contrast(own.density, other.density);
@@ -101,12 +101,12 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
     return rub(own, other, d, f) + f * push * d;
 }
 
-// What pressure does on an image: of the hydrostatic part the rise from a particle to its own image is rise0 + 2 rise . d,
-// d from the other image to this one; rise_of of sim/wcsph/pairs_images.c.
+// Pressure on an image. Of the hydrostatic part, the rise from a particle to its own image is rise0 + 2 rise . d,
+// with d from the particle to the current image; rise_of of sim/wcsph/pairs_images.c.
 vec3 image_push, rise;
 float rise0, inverse_layer;
 
-// p V0^2 of the image of a particle of such a term: image_term of sim/wcsph/pairs_images.c.
+// p V0^2 of the image of a particle with this `term`: image_term of sim/wcsph/pairs_images.c.
 float image_term(float term, vec3 d)
 {
     float share = clamp(term * inverse_layer, 0.0, 1.0);
@@ -127,15 +127,14 @@ void push_image(float term, vec3 d, float w)
 #endif
 }
 
-// Friction of walls that let fluid slip: image_rub of sim/wcsph/pairs_images.c. A macro, so that a side is not read for
-// nothing.
+// Friction of slip walls: image_rub of sim/wcsph/pairs_images.c. A macro, so that a side is read only if needed.
 #if defined RUBS && !defined NO_SLIP
 #ifdef RADIAL
 #define RUB_NEAREST 1e-6
 #else
 #define RUB_NEAREST (0.5 * spacing * inverse_support)
 #endif
-Side image_side; // self_side, its velocity in the mirror
+Side image_side; // self_side with the mirrored velocity
 #define RUB_IMAGE(other, d)                                                                        \
     if (dot(d, d) < support * support)                                                             \
         image_push += rub(image_side, other, d, shape(max(length(d) * inverse_support, RUB_NEAREST)));
@@ -175,7 +174,7 @@ void meet_boundary_image(uint j, vec3 d, float volume)
 }
 #endif
 
-// Pressure and friction of the images behind the walls on the particle at x, in the cell `at`, of the fluid's rest density.
+// Pressure and friction of the wall images on the particle at x, in the cell `at`, with the fluid's rest density.
 vec3 images_force(vec3 x, ivec3 at, float density)
 {
     float weight = density / (rest_number_density * rest_number_density);

@@ -1,10 +1,10 @@
-// Particles down the gradient of their number density: shift_body of sim/wcsph/shift.c.
+// Moves particles down the gradient of their number density: shift_body of sim/wcsph/shift.c.
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
 #include "shaders/sim/wcsph/wcsph_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };       // w: rho / rho0 - 1
-layout(std430, binding = UNEVENS_BUFFER) readonly buffer Unevens { vec4 uneven[]; };   // two a particle: sum of F x_ij, share; n / n0 - 1, carried
+layout(std430, binding = UNEVENS_BUFFER) readonly buffer Unevens { vec4 uneven[]; };   // two per particle: sum of F x_ij, share; n / n0 - 1, carried
 layout(location = PASS_DT_AT) uniform float dt;
 
 void main()

@@ -1,4 +1,4 @@
-// wcsph: the gradient of relative density within a fluid, exact where that is linear (Antuono 2010): slope_range in
+// wcsph: gradient of relative density within a fluid, exact for linear fields (Antuono 2010): slope_range in
 // sim/wcsph/pairs.c.
 #define BEHIND_DRIFT
 #include "sim/constants.glsl"
@@ -12,7 +12,7 @@ layout(std430, binding = SLOPES_BUFFER) buffer Slopes { vec4 slope[]; }; // w: t
 uint own_fluid;
 float own_relative;
 vec3 diagonal = vec3(0), mixed = vec3(0), b = vec3(0);
-bool next_to_solid = false; // there diffusion has to level the gaps that the fluid's order leaves
+bool next_to_solid = false; // diffusion there must level the gaps in the fluid's arrangement
 
 void meet(uint j, vec3 d, float volume)
 {

@@ -1,5 +1,5 @@
-// wcsph: density by its rate, volume and pressure; what forces read of others; what diffusion goes by: state_body in
-// sim/wcsph/density.c.
+// wcsph: density from its rate, volume and pressure; data read of neighbours by forces; data for diffusion:
+// state_body in sim/wcsph/density.c.
 #define OWN_ACCESS readonly
 #include "sim/constants.glsl"
 #include "sim/own.glsl"

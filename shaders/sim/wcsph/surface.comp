@@ -1,4 +1,4 @@
-// wcsph with surface tension by curvature: normals of the surfaces, of the length of their weight: wcsph_normals of
+// wcsph with surface tension by curvature: normals of the surfaces; their length is their weight: wcsph_normals of
 // sim/wcsph/pairs_surface.c. The first walk of a step.
 #define LISTS_FIRST
 #define OUTWARD_ACCESS writeonly
@@ -11,7 +11,7 @@ layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 posi
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 
 uint own_fluid;
-vec3 slopes = vec3(0); // of the particle, or of one of its images
+vec3 slopes = vec3(0); // of the particle, or of an image
 
 void meet(uint j, vec3 d, float volume)
 {
@@ -50,7 +50,7 @@ void main()
     ivec3 at = cell_of(x);
     own_fluid = FLUID_OF(i);
     WALK_OWN_FLUID(i, x, at, meet)
-    vec3 n = slopes; // before the images write over it
+    vec3 n = slopes; // copied before the images overwrite `slopes`
     n += slopes_of_images(x, at);
     float size = length(n);
     outward[i] = vec4(weight_of(curvature_full * size) / max(size, 1e-20) * n, 0.0);

@@ -1,17 +1,17 @@
-// What the passes of wcsph share: sim/wcsph/pairs.c, sim/wcsph/density.c.
+// Shared code of the passes of wcsph: sim/wcsph/pairs.c, sim/wcsph/density.c.
 #include "shaders/sim/wcsph/wcsph_block.h"
 #include "sim/shapes.glsl"
 #include "sim/images.glsl"
 
-// Of a pair r apart: not less than that of a spacing over r.
+// Kernel slope over q for an image at distance r; below a spacing, the slope at a spacing.
 float image_shape(float r)
 {
     float q = max(r * inverse_support, 1e-6), wide = max(q, spacing * inverse_support);
     return shape(wide) * (wide / q);
 }
 
-// Between fluids of different density, sim/wcsph/pairs_interface.c: w of two rest densities, 0 of solids; what a pair
-// has by the p V^2 of both.
+// Pressure between fluids of different density, sim/wcsph/pairs_interface.c. contrast: w of two rest densities, 0 for
+// solids. BOTH_PRESS: pressure of a pair from the p V^2 of both.
 #ifdef LAYERS
 float contrast(float mine, float theirs)
 {
@@ -40,10 +40,10 @@ struct State {
     vec2 pressure; // p, p V^2
 };
 
-// V = V0 rho0 / rho of e = rho / rho0 - 1.
+// V = V0 rho0 / rho, for e = rho / rho0 - 1.
 float volume_at(float e) { return 1.0 / ((1.0 + e) * rest_number_density); }
 
-// Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, of e = rho / rho0 - 1, by its powers.
+// Tait's p = B ((rho / rho0)^7 - 1), Monaghan 1994, for e = rho / rho0 - 1, expanded in powers.
 State state_of(float e, uint fluid)
 {
     float b = wcsph_fluids[fluid].tait;

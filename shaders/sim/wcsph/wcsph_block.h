@@ -1,30 +1,31 @@
-/* The constants of wcsph, of which C and shaders read the same; wcsph_set of sim/wcsph/wcsph.c fills it. */
+/* Constants of wcsph, shared by C and shaders; filled by wcsph_set of sim/wcsph/wcsph.c. */
 #ifndef SLOSH_WCSPH_BLOCK_H
 #define SLOSH_WCSPH_BLOCK_H
 
 #include "shaders/shared/block.h"
 #include "shaders/sim/bindings.h"
 
-/* Storage buffers, beside those of shaders/sim/bindings.h */
+/* Storage buffers besides those of shaders/sim/bindings.h */
 #define SLOPES_BUFFER      5
 #define UNEVENS_BUFFER     7
 #define CORRECTIONS_BUFFER 9
 #define OUTWARDS_BUFFER    10
 
-/* Of rho0: friction takes fluid for no thinner, since what carries less has lost count in a splash, and would
-   not stand the step that others do: docs/failures.md. */
+/* Least density for friction, over rho0: a particle that carries less has a wrong density after a splash,
+   and would not be stable at the usual step: docs/failures.md. */
 #define THINNEST 0.9f
 
-/* Two fluids of a greater contrast share their pressures by density: sim/wcsph/pairs_interface.c. */
+/* Fluids with a greater density contrast share pressure by density: sim/wcsph/pairs_interface.c. */
 #define CONTRAST_LEAST 4.0f
 
-/* How near to a solid diffusion goes by differences alone, over h. */
+/* Distance to solids, over h, below which diffusion uses differences alone. */
 #define NEXT_TO_SOLID 0.95f
 
 BLOCK_STRUCT(WcsphFluid)
 {
     float tait;                 /* B = rho0 c^2 / 7, Pa: p = B ((rho / rho0)^7 - 1) */
-    float artificial_viscosity; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid that has as much itself */
+    float artificial_viscosity; /* alpha c (h / 2) rho0 / 2, Pa s; 0 for a fluid with at least that
+                                   viscosity */
 }
 BLOCK_END(WcsphFluid);
 
