@@ -1,6 +1,6 @@
 /* Keeps fluid drawn by gravity from lying on a wall. Images in a wall push with their fluid's pressure, and
-   not harder at a smaller distance. At the edge of a free surface the pressure is nearly 0 and neighbours
-   are on a single side, so the outermost row would come to lie on the wall (1 % of a spinning bucket's
+   not harder at a smaller distance. At the edge of a free surface the pressure is nearly 0 and neighbours are
+   on a single side. So the outermost row would come to lie on the wall (1 % of a spinning bucket's
    particles). Within a third of a spacing of the wall, such a particle rests on a spring:
 
      a = CUSHION_PUSH |g_n| (1 - d / reach) along the normal, if gravity draws the particle to the wall.

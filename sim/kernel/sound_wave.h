@@ -1,7 +1,7 @@
 /* The stiffest sound wave on the lattice at rest: bounds the step of explicit schemes with sound.
 
    A small displacement u exp(i k x) of all particles changes each density by the density kernel's sum along
-   the wave, and the resulting pressure pushes by the pressure kernel's sum. With
+   the wave. The resulting pressure pushes by the pressure kernel's sum. With
      D(k) = s sum W'(r) / r x sin(k x), P(k) = V g sum W'(r) / r x sin(k x)
    over the neighbours x of a site, the equation of motion is u'' = -c^2 P (D u). The only moving wave has
    omega^2 = c^2 P D, which is (c k)^2 for long waves. The wave is longitudinal along D; shears have no

@@ -5,8 +5,8 @@
    floats at 0, 2 normalised shorts (GL_SHORT) at 12, 1 unsigned integer at 16, 1 float at 20.
 
    Sets (L_R of Tanaka et al. 2012): point i belongs to set i mod sets. So an array can be split into any
-   number of sets, adjacent points are in different sets, and a walk's consecutive points, which are close
-   in space, are adjacent in the array. */
+   number of sets. Adjacent points are in different sets, and a walk's consecutive points, which are close in
+   space, are adjacent in the array. */
 #ifndef SLOSH_SURFACE_POINTS_H
 #define SLOSH_SURFACE_POINTS_H
 

@@ -190,8 +190,8 @@ static bool keep_points(const SurfaceRequest *request, size_t kept, SurfacePoint
     return true;
 }
 
-/* n of `made` points. The spheres are wrong by factors if a surface is folded so finely that a sphere holds
-   several sheets, or if the chosen spheres are those with few points, or if walkers begin at the centres of
+/* n of `made` points. The spheres are wrong by factors in three cases: a finely folded surface has several
+   sheets in a sphere, the chosen spheres are those with few points, or walkers begin at the centres of
    spheres for lack of further crossings. The area from lines is independent of these errors, and accurate
    to some hundredths. */
 static double count_in_circle(const Sampling *sampling, double great_circle, size_t made)
