@@ -9,16 +9,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A command line on its way into Args. */
+/* Parser state: reads a command line into Args. */
 typedef struct Parser {
-    int argc, at; /* `at`: the next argument */
+    int argc, at; /* `at`: index of the next argument */
     char *const *argv;
     const CommandRow *row;
     Args *args;
     Error *error;
 } Parser;
 
-/* "slosh render: message" */
+/* Sets the error "slosh render: message"; returns false. */
 __attribute__((format(printf, 2, 3))) static bool fail(const Parser *parser, const char *format, ...)
 {
     char what[512];
@@ -35,7 +35,8 @@ static void *field(const Parser *parser, const OptionRow *option)
     return (char *)parser->args + option->offset;
 }
 
-/* A copy that lives as long as the Args: NULL when the pool is full. */
+/* Copies a text into the pool of the Args; the copy lives as long as the Args. Returns NULL if the pool is
+   full. */
 static char *keep(Args *args, const char *text, size_t length)
 {
     if (length >= sizeof args->pool - args->pool_used)
@@ -47,7 +48,7 @@ static char *keep(Args *args, const char *text, size_t length)
     return copy;
 }
 
-/* "--backend cuda" */
+/* Keeps the text "--backend cuda". */
 static const char *keep_said(Args *args, const char *option, const char *value)
 {
     char said[512];
@@ -93,7 +94,7 @@ static bool parse_size(const Parser *parser, const OptionRow *option, const char
     return true;
 }
 
-/* One of the names in "a|b|c". */
+/* Parses one name of "a|b|c"; stores `min` plus the index of the name. */
 static bool parse_choice(const Parser *parser, const OptionRow *option, const char *text)
 {
     const char *name = option->value;
@@ -131,7 +132,7 @@ static bool parse_setting(const Parser *parser, const OptionRow *option, const c
     return true;
 }
 
-/* "backend" stands for "solver.backend", as --backend does. */
+/* Full path of a sweep key: "backend" stands for "solver.backend", as in --backend. */
 static const char *sweep_key(const char *name)
 {
     for (const OptionRow *option = option_rows; option->name; option++)
@@ -140,7 +141,7 @@ static const char *sweep_key(const char *name)
     return name;
 }
 
-/* Length of the value at the start of "a,b,c"; commas within brackets are the value's own. */
+/* Length of the first value of "a,b,c"; commas within brackets belong to the value. */
 static size_t value_length(const char *text)
 {
     int depth = 0;
@@ -248,7 +249,7 @@ static const OptionRow *option_find(const Parser *parser, const char *name)
     return NULL;
 }
 
-/* "render, run" */
+/* Lists the commands that take the option: "render, run". */
 static void who_takes(const char *name, char commands[128])
 {
     size_t used = 0;
@@ -275,7 +276,7 @@ static bool unknown_option(const Parser *parser, const char *name)
     return fail(parser, "unknown option '%.60s'; `slosh help %s` lists them", name, parser->row->name);
 }
 
-/* The argument just taken is an option: "--name", "--name=value" or "--name" before its value. */
+/* Parses an option from the argument just read: "--name", "--name=value" or "--name" before its value. */
 static bool parse_option(Parser *parser, const char *argument)
 {
     char name[64];
@@ -300,7 +301,7 @@ static bool parse_option(Parser *parser, const char *argument)
     return parse_value(parser, option, equals ? equals + 1 : parser->argv[parser->at++]);
 }
 
-/* What the arguments of a command are. */
+/* Noun for the arguments of a command. */
 static const char *takes(const CommandRow *row)
 {
     return row->command == COMMAND_REPLAY     ? "recording"
@@ -373,7 +374,7 @@ static bool parse_help(Parser *parser)
     return true;
 }
 
-/* The name of a scene that comes with slosh: "dam_break". */
+/* True if the word names a scene of slosh: "dam_break". */
 static bool is_scene(const char *word)
 {
     char path[SCENE_PATH_SIZE];
@@ -382,7 +383,7 @@ static bool is_scene(const char *word)
     return dot && strcmp(dot, ".yaml") == 0;
 }
 
-/* An option or a scene in place of a command. */
+/* True if the word is an option or a scene in place of a command. */
 static bool is_for_play(const char *word)
 {
     return word[0] == '-' || strchr(word, '/') || strchr(word, '.') || is_scene(word);
@@ -442,7 +443,7 @@ bool args_parse(int argc, char *const argv[], Args *args, Error *error)
     args->every = 1.0 / 30;
     args->fps = 30;
     args->seconds = 20;
-    args->past = 256; /* a minute and more of 8,000 particles (docs/window.md) */
+    args->past = 256; /* over a minute of 8,000 particles (docs/window.md) */
     args->gpu = -1;
     Parser parser = {.argc = argc, .at = 1, .argv = argv, .args = args, .error = error};
     if (!parse_command(&parser))

@@ -1,4 +1,4 @@
-/* The command line, parsed: plain data. One table of commands and options (app/session/args_table.h) serves
+/* The parsed command line: plain data. One table of commands and options (app/session/args_table.h) serves
    the parser and the help. */
 #ifndef SLOSH_ARGS_H
 #define SLOSH_ARGS_H
@@ -20,7 +20,7 @@ enum {
 };
 
 typedef enum Command {
-    COMMAND_HELP, /* also --help: of `help_for`, or of the program where that is COMMAND_HELP */
+    COMMAND_HELP, /* also --help: help on `help_for`, or on the program if `help_for` is COMMAND_HELP */
     COMMAND_VERSION,
     COMMAND_PLAY, /* also without a command */
     COMMAND_RENDER,
@@ -34,15 +34,15 @@ typedef enum Command {
     COMMAND_EXPORT, /* `scenes` holds the snapshots */
     COMMAND_DEVICES,
     COMMAND_SCENES, /* `scenes` holds the folder */
-    COMMAND_NEW,    /* `scenes` holds the file that is written */
+    COMMAND_NEW,    /* `scenes` holds the file to write */
     COMMAND_INFO,
     COMMAND_COUNT
 } Command;
 
-/* In the order of --clock's names, after none of them. */
+/* AUTO: not given; then in the order of --clock's names. */
 typedef enum ClockChoice { CLOCK_CHOICE_AUTO, CLOCK_CHOICE_GL, CLOCK_CHOICE_FINISH } ClockChoice;
 
-/* In the order of --color-by's names, after none of them. */
+/* AUTO: not given; then in the order of --color-by's names. */
 typedef enum ColorChoice {
     COLOR_CHOICE_AUTO,
     COLOR_CHOICE_FLUID,
@@ -52,33 +52,32 @@ typedef enum ColorChoice {
 } ColorChoice;
 
 /* --sweep KEY=a,b,c of bench, --compare KEY=a,b of render: `key` is "particles" or the path of a scene key
-   (backend, method, view and threads are written out: solver.backend, ...). */
+   (short names such as backend, method, view and threads become full paths: solver.backend, ...). */
 typedef struct Sweep {
     const char *key;
     int count;
     const char *values[ARGS_SWEEP_VALUES_MAX];
-    const char *typed; /* the key as the user wrote it; NULL: as it is */
+    const char *typed; /* the key as typed by the user; NULL: same as `key` */
 } Sweep;
 
-/* Holds pointers into itself and into argv: it isn't to be copied. */
+/* Do not copy: holds pointers into itself and into argv. */
 typedef struct Args {
     Command command, help_for;
-    const struct HelpTopic *help_topic; /* help of no command; NULL: of help_for */
+    const struct HelpTopic *help_topic; /* topic of `slosh help TOPIC`; NULL: help on `help_for` */
     int scene_count;
     const char *scenes[ARGS_SCENES_MAX];
-    SceneSettings
-        settings;        /* --set, --particles, and what --backend, --method, --view, --threads stand for */
-    bool quiet;          /* no progress and no table */
-    const char *json;    /* FILE, or NULL */
-    const char *save;    /* info: FILE, or NULL */
-    const char *output;  /* -o, or NULL */
-    const char *forces;  /* run: FILE, or NULL */
-    const char *probes;  /* run: FILE, or NULL */
-    const char *shaders; /* DIR, or NULL: those in the program */
+    SceneSettings settings; /* --set, --particles, --backend, --method, --view, --threads */
+    bool quiet;             /* no progress and no table */
+    const char *json;       /* FILE, or NULL */
+    const char *save;       /* info: FILE, or NULL */
+    const char *output;     /* -o, or NULL */
+    const char *forces;     /* run: FILE, or NULL */
+    const char *probes;     /* run: FILE, or NULL */
+    const char *shaders;    /* DIR, or NULL: the built-in shaders */
     bool time_given;
     double time;      /* s, at least 0; default 5 */
     bool interpolate; /* render: pictures between two states of a fixed step */
-    bool resume;      /* run: go on behind the last snapshot of the output */
+    bool resume;      /* run: continue after the last snapshot of the output */
     double every;     /* s, more than 0; default 1/30 */
     double fps;       /* more than 0; default 30 */
     int frames;       /* at least 1; 0: not given */
@@ -86,44 +85,45 @@ typedef struct Args {
     int width, height; /* pixels, 1 to 16384; default 1280 x 720, of bench 512 x 512 */
     int gpu;           /* number of the EGL device; -1: not given */
     ClockChoice clock;
-    SnapshotFrame frame;    /* export: that positions and velocities are in */
+    SnapshotFrame frame;    /* export: frame of positions and velocities */
     bool surface;           /* export: the fluid's surface instead of the particles */
-    bool fluids;            /* export: of each fluid its own surface */
-    bool solids;            /* export: beside them the solids */
-    double level, cell;     /* of it; 0: not given */
+    bool fluids;            /* export: a separate surface for each fluid */
+    bool solids;            /* export: also the solids */
+    double level, cell;     /* of the surface; 0: not given */
     ColorChoice color_by;   /* export: of a .ply or a .obj */
     double error, frame_ms; /* fit: percent, ms; 0: not given */
-    const char *slice;  /* export: "{point: ..., normal: ...}"; NULL: no slice, and none of the next three */
-    const char *trails; /* export: "{stride: 20, ...}"; NULL: no trails */
+    const char
+        *slice; /* export: "{point: ..., normal: ...}"; NULL: no slice; the next three are for the slice */
+    const char *trails;          /* export: "{stride: 20, ...}"; NULL: no trails */
     const char *scalar, *kernel; /* NULL: not given */
     bool raw;
-    bool full, coarse; /* validate: finer or coarser than its default set */
+    bool full, coarse; /* validate: finer or coarser than the default set */
     const char *table; /* bench: NAME, or NULL */
     bool play;         /* bench: the live window */
     bool micro;        /* bench: each pass alone */
     bool views;        /* chart: pictures instead of runs */
-    bool ablate;       /* bench: the scene without each of its terms */
+    bool ablate;       /* bench: the scene without each of its terms in turn */
     bool seconds_given;
-    double seconds;     /* of play or micro; more than 0; default 20 */
+    double seconds;     /* of --play or --micro; more than 0; default 20 */
     const char *record; /* FILE, or NULL; of devices: raw reports */
-    double past;        /* MiB of states to step back to; default 256 */
+    double past;        /* MiB of states for going back in time; default 256 */
     bool past_given;
-    const char *device;        /* "file:PATH", or NULL: what is plugged in */
+    const char *device;        /* "file:PATH", or NULL: the plugged in devices */
     bool watch;                /* devices: live values */
-    const char *mapping;       /* FILE, or NULL: the user's own, or what is built in */
+    const char *mapping;       /* FILE, or NULL: the user's mapping file, or the built-in mapping */
     const char *write_mapping; /* devices: FILE, or NULL */
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
     int axis_count;
     const char *axes[ARGS_AXES_MAX]; /* stability: "KEY=a:b" */
     size_t pool_used;
-    char pool[ARGS_POOL_BYTES]; /* texts that settings and sweeps point at */
+    char pool[ARGS_POOL_BYTES]; /* texts used by settings and sweeps */
 } Args;
 
-/* argv as main has it. False with "slosh COMMAND: what is wrong; what would be right": exit code 2. */
+/* Parses main's argv. Returns false with "slosh COMMAND: the fault; the remedy": exit code 2. */
 bool args_parse(int argc, char *const argv[], Args *args, Error *error);
 
-/* The help of one command, or of the program for COMMAND_HELP and COMMAND_VERSION. */
+/* Prints the help of one command; for COMMAND_HELP and COMMAND_VERSION, of the program. */
 void args_help(Command command, FILE *file);
 
 #endif

@@ -1,4 +1,4 @@
-/* The commands and their options, each once. */
+/* The tables of commands and options. */
 #ifndef SLOSH_ARGS_TABLE_H
 #define SLOSH_ARGS_TABLE_H
 
@@ -8,7 +8,7 @@ typedef struct CommandRow {
     Command command;
     const char *name, *usage, *help;
     int scenes_min, scenes_max;
-    const char *output; /* what -o must name; NULL: none needed */
+    const char *output; /* required meaning of -o; NULL: -o is not required */
     int width, height;  /* default of --size */
 } CommandRow;
 
@@ -19,48 +19,48 @@ typedef enum OptionKind {
     OPTION_COUNT,     /* int */
     OPTION_SIZE,      /* WxH: width and height */
     OPTION_PARTICLES, /* size_t */
-    OPTION_CHOICE,    /* enum or int: `min` and the place of the name in `value`, "a|b|c" */
-    OPTION_SETTING,   /* path=value for the scene: all of it, or the value for the row's `path` */
+    OPTION_CHOICE,    /* enum or int: `min` plus the index of the name in `value`, "a|b|c" */
+    OPTION_SETTING,   /* path=value for the scene: the full text, or the value for the row's `path` */
     OPTION_SWEEP,     /* KEY=a,b,c */
     OPTION_AXIS,      /* KEY=a:b */
     OPTION_DEVICE,    /* const char *: file:PATH */
-    OPTION_REFUSED,   /* not for these commands: `help` says why, after "--device is " */
+    OPTION_REFUSED,   /* refused by these commands: `help` gives the reason, after "--device is " */
     OPTION_HELP
 } OptionKind;
 
-enum { OPTION_OPEN_LOW = 1 }; /* the least value itself is refused */
+enum { OPTION_OPEN_LOW = 1 }; /* `min` itself is refused */
 
 typedef struct OptionRow {
     const char *name;  /* "--time", "-o" */
-    const char *value; /* name or names of the value; NULL: takes none */
+    const char *value; /* name or names of the value; NULL: no value */
     unsigned commands; /* bits 1 << Command */
     OptionKind kind;
     size_t offset;   /* in Args */
     double min, max; /* of a number; min: also of a choice */
     unsigned flags;
-    const char *path; /* of a setting; short name of it: the option without its dashes */
+    const char *path; /* path of the setting; the option without its dashes is the short name */
     const char *help;
-    const char *(*names)(int index); /* what the value may be, for the help: NULL after the last */
+    const char *(*names)(int index); /* possible values, for the help; returns NULL after the last */
 } OptionRow;
 
-/* What `slosh help NAME` prints besides commands: a table as Markdown, which docs/ holds too, or, without a
-   help of its own, what is installed for other programs. */
+/* Help topics of `slosh help NAME` besides commands: a table as Markdown, also in docs/, or, if `help` is
+   NULL, files for installation for other programs. */
 typedef struct HelpTopic {
     const char *name, *help;
     void (*print)(FILE *file);
 } HelpTopic;
 
-/* Each ended by a row without a name. */
+/* Each table ends with a row without a name. */
 extern const CommandRow command_rows[];
 extern const OptionRow option_rows[];
 extern const HelpTopic help_topics[];
 
 const CommandRow *command_row(Command command);
 
-/* Whether the command takes the option, and its help lists it. */
+/* True if the command takes the option, and the command's help lists the option. */
 bool option_listed(const OptionRow *option, Command command);
 
-/* The option's help, with what it may be. */
+/* Writes the option's help with the possible values. */
 enum { OPTION_WORDS_SIZE = 1024 };
 void option_words(const CommandRow *row, const OptionRow *option, char *text, size_t size);
 

@@ -47,10 +47,11 @@ bool still_read(Still *still, World *world, unsigned attributes)
     return true;
 }
 
-/* Where between the states: s from 0 to 1, the length of the step in seconds, and Hermite's four weights. */
+/* Position between the states: s from 0 to 1, length of the step in seconds, and the four Hermite weights. */
 typedef struct Blend {
     double s, dt;
-    double from, leave, to, arrive; /* of position, velocity before; position, velocity after */
+    double from, leave, to,
+        arrive; /* weights of position and velocity before, of position and velocity after */
 } Blend;
 
 static Blend blend_at(double before, double after, double time)
@@ -65,7 +66,7 @@ static Blend blend_at(double before, double after, double time)
                    .arrive = -dt * s * s * (1 - s)};
 }
 
-/* One more particle in `out`: number i of `still`. */
+/* Appends particle i of `still` to `out`; returns the new index. */
 static size_t take(const Still *still, size_t i, Still *out)
 {
     const size_t at = out->state.count++;
@@ -79,7 +80,7 @@ static size_t take(const Still *still, size_t i, Still *out)
     return at;
 }
 
-/* The place nearest to `near` that is the same across a periodic side. */
+/* The periodic image of x nearest to `near`. */
 static double unwrap(double x, double near, double size)
 {
     return x - size * round((x - near) / size);
@@ -112,7 +113,7 @@ static void blend_particle(const Still *before, size_t i, const Blend *blend, co
                                                 s * (double)out->arrays.scalar[c][at]);
 }
 
-/* A particle of one state alone, `seconds` from it. */
+/* Moves a particle that exists in one state only by its velocity for `seconds`. */
 static void move_on(Still *out, size_t at, double seconds, const bool periodic[3], const double size[3])
 {
     float *x = out->arrays.position + 4 * at;
@@ -122,7 +123,8 @@ static void move_on(Still *out, size_t at, double seconds, const bool periodic[3
     }
 }
 
-/* The shorter arc, in proportion: steps turn the box by little. */
+/* Interpolates the box; the orientation linearly along the shorter arc, as a step turns the box only
+   slightly. */
 static void blend_box(const Still *before, const Still *after, const Blend *blend, Still *out)
 {
     const BoxState *a = &before->state.box, *b = &after->state.box;
@@ -146,7 +148,7 @@ static void blend_box(const Still *before, const Still *after, const Blend *blen
     }
 }
 
-/* Place of each id in a state, plus one; 0: it has none of that id. */
+/* Index of each id in a state, plus one; 0: id absent. Caller frees; NULL if memory is short. */
 static uint32_t *places(const Still *still, size_t *ids)
 {
     uint32_t most = 0;

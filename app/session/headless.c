@@ -20,7 +20,7 @@ static bool is_software(EGLDeviceEXT device)
     return extensions && strstr(extensions, "EGL_MESA_device_software");
 }
 
-/* Hardware before software, each in the order of the driver. */
+/* Lists hardware devices before software devices, each in the order of the driver. */
 static int list_devices(EGLDeviceEXT sorted[HEADLESS_GPUS_MAX])
 {
     EGLDeviceEXT devices[HEADLESS_GPUS_MAX];
@@ -57,8 +57,8 @@ static EGLContext create_context(EGLDisplay display)
     return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wanted);
 }
 
-/* Displays belong to the process: EGL hands the same one out each time, and Mesa 22 leaks when one is
- * terminated. */
+/* A display belongs to the process: EGL returns the same display each time, and Mesa 22 leaks on
+   eglTerminate. */
 static Headless *open_display(EGLDisplay display)
 {
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, NULL, NULL))
@@ -78,7 +78,7 @@ static Headless *open_display(EGLDisplay display)
     return NULL;
 }
 
-/* libepoxy's core eglGetPlatformDisplay aborts while no display exists; the extension's entry does not. */
+/* Uses the extension's entry: libepoxy's core eglGetPlatformDisplay aborts while no display exists. */
 static Headless *open_device(EGLDeviceEXT device)
 {
     return open_display(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, NULL));
@@ -127,7 +127,7 @@ void headless_destroy(Headless *headless)
 {
     if (!headless)
         return;
-    gl_debug_errors(); /* codes that no message told */
+    gl_debug_errors(); /* errors without a debug message */
     eglMakeCurrent(headless->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(headless->display, headless->context);
     eglReleaseThread();

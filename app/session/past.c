@@ -10,13 +10,13 @@
 
 enum { PIECE = 64 };
 
-/* Of a scene, from byte `at` on; what is beyond its end is 0. */
+/* Bytes of a scene from byte `at` on; 0 beyond the scene's end. */
 typedef struct Piece {
     size_t at;
     unsigned char bytes[PIECE];
 } Piece;
 
-/* States from one change to the next have the same settings: what differs from the past's base. */
+/* Settings of the states from one change to the next: the pieces that differ from the past's base scene. */
 typedef struct Settings {
     size_t users, count;
     Piece piece[];
@@ -25,27 +25,27 @@ typedef struct Settings {
 typedef struct Kept {
     uint64_t place;
     size_t next, bytes;
-    double work_ms; /* of the frames since the state before */
+    double work_ms; /* frame time since the previous state */
     Settings *settings;
     WorldState state;
 } Kept;
 
 struct Past {
     size_t bytes_most, bytes; /* of states, base, settings and places */
-    size_t state_bytes;       /* of the last one */
+    size_t state_bytes;       /* of the last state */
     bool dropped;
-    double work_ms;  /* of the frames since the last state */
-    int copies;      /* of states; */
-    double byte_ms;  /* the fastest of them took so long a byte */
-    uint64_t before; /* places that were forgotten */
+    double work_ms;  /* frame time since the last state */
+    int copies;      /* count of copied states */
+    double byte_ms;  /* fastest copy, ms per byte */
+    uint64_t before; /* count of forgotten places */
     size_t place_count, place_room;
     PastPlace *places;
-    Scene *base;        /* NULL: there is none, and no state */
-    size_t count, room; /* of the states, oldest first */
+    Scene *base;        /* NULL: no base and no states */
+    size_t count, room; /* of the states; the oldest is first */
     Kept **kept;
 };
 
-/* Room for one more of `size` bytes; false without memory. */
+/* Makes room for one more element of `size` bytes. Returns false if memory is short. */
 static bool grow(void **array, size_t count, size_t *room, size_t size)
 {
     if (count < *room)
@@ -133,7 +133,7 @@ PastPlace past_place(const Past *past, uint64_t place)
     return past->places[place - past->before];
 }
 
-/* Those that can no longer be reached, once they are half of all. */
+/* Removes unreachable places, once they are half of all. */
 static void forget_places(Past *past)
 {
     const size_t gone = (size_t)(past_first(past) - past->before);
@@ -148,7 +148,7 @@ static void forget_places(Past *past)
 static void add_place(Past *past, const WorldInfo *info)
 {
     if (!grow((void **)&past->places, past->place_count, &past->place_room, sizeof *past->places)) {
-        forget_states(past, 0); /* of all that is known, the present place remains */
+        forget_states(past, 0); /* without memory only the present place remains */
         past->bytes -= past->place_count * sizeof *past->places;
         past->before += past->place_count;
         past->place_count = 0;
@@ -182,7 +182,7 @@ static double reach(const Past *past)
     return past_place(past, past_last(past)).time - past_place(past, past_first(past)).time;
 }
 
-/* Takes the state out of the list. */
+/* Removes the state from the list and returns it. */
 static Kept *take_out(Past *past, size_t at)
 {
     Kept *out = past->kept[at];
@@ -191,7 +191,7 @@ static Kept *take_out(Past *past, size_t at)
     return out;
 }
 
-/* The first one without which a jump between its neighbours is shortest; 0: none may go. */
+/* Index of the first state whose removal leaves the shortest jump between its neighbours; 0: none may go. */
 static size_t find_needless(const Past *past)
 {
     double least = reach(past) < PAST_WISH_S ? PAST_GAP_SHORT_MS : PAST_GAP_MOST_MS;
@@ -206,7 +206,7 @@ static size_t find_needless(const Past *past)
     return needless;
 }
 
-/* A state that may go, taken out; NULL: there is none. */
+/* Removes a dispensable state and returns it; NULL: no states. */
 static Kept *thin_out(Past *past)
 {
     const size_t needless = find_needless(past);
@@ -219,7 +219,7 @@ static Kept *thin_out(Past *past)
     return out;
 }
 
-/* Until so much more fits; gives one of the states for use again, or NULL. */
+/* Removes states until `more` bytes fit. Returns one removed state for reuse, or NULL. */
 static Kept *make_room(Past *past, size_t more)
 {
     Kept *again = NULL;
@@ -240,7 +240,7 @@ void past_mark(Past *past, const WorldInfo *info, double frame_ms)
     kept_free(past, make_room(past, 0));
 }
 
-/* Padding that differs costs a piece. */
+/* Differing padding only costs a piece. */
 static bool same_bytes(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
@@ -251,7 +251,7 @@ static size_t piece_size(size_t at)
     return sizeof(Scene) - at < PIECE ? sizeof(Scene) - at : PIECE;
 }
 
-/* The pieces of `scene` that are others than the base's; how many. `to` may be NULL. */
+/* Counts the pieces of `scene` that differ from the base; `to` gets the pieces and may be NULL. */
 static size_t differing(const Scene *base, const Scene *scene, Piece *to)
 {
     const unsigned char *a = (const unsigned char *)base, *b = (const unsigned char *)scene;
@@ -294,7 +294,7 @@ static void settings_apply(const Past *past, const Settings *settings, Scene *sc
     }
 }
 
-/* The first scene is the base of those that come. */
+/* Keeps the first scene as base for the following scenes. */
 static bool follow_base(Past *past, const Scene *scene)
 {
     if (past->base)
@@ -302,7 +302,7 @@ static bool follow_base(Past *past, const Scene *scene)
     past->base = malloc(sizeof *past->base);
     if (!past->base)
         return false;
-    memcpy(past->base, scene, sizeof *scene); /* its padding too, for comparisons */
+    memcpy(past->base, scene, sizeof *scene); /* with padding, for comparisons */
     past->bytes += sizeof *scene;
     return true;
 }
@@ -320,8 +320,8 @@ static Settings *settings_of(Past *past, const Scene *scene)
     return settings;
 }
 
-/* A fiftieth of the frames' time goes into copies at most: those of a million particles take as long as some
-   frames on a GPU. What is else going on makes the first ones slow. */
+/* Copies take at most a fiftieth of the frame time: a copy of a million particles takes as long as some
+   frames on a GPU. The first copies are slow due to other work, so their times are not used. */
 static bool is_time(const Past *past, size_t bytes)
 {
     static const double FRAMES = 50;
@@ -365,7 +365,8 @@ static bool is_due(const Past *past, bool now)
 
 void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool now)
 {
-    if (!is_due(past, now) || !world_sound(world)) /* waits, so that the copy's time is its own */
+    if (!is_due(past, now) ||
+        !world_sound(world)) /* world_sound waits for a GPU, so that the copy is timed alone */
         return;
     WorldInfo info;
     world_info(world, &info);
@@ -374,7 +375,7 @@ void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool n
         forget_base(past);
     const size_t own = past->state_bytes + sizeof(Settings), whole = sizeof(Scene);
     const size_t needed = own + whole + past->place_count * sizeof *past->places;
-    if (needed > past->bytes_most) { /* not even one */
+    if (needed > past->bytes_most) { /* too large for even one state */
         past->dropped = true;
         return;
     }
@@ -387,7 +388,7 @@ void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool n
     }
     past->kept[past->count++] = kept;
     past->work_ms = 0;
-    kept_free(past, make_room(past, 0)); /* one that is larger than the one before */
+    kept_free(past, make_room(past, 0)); /* in case the new state is larger than the previous one */
 }
 
 uint64_t past_find(const Past *past, double time)
@@ -433,7 +434,7 @@ bool past_load(const Past *past, uint64_t place, World **world, Scene *scene, si
     settings_apply(past, kept->settings, &then);
     if (!world_load_shapes(world, &then.world, &kept->state, error))
         return false;
-    memcpy(scene, &then, sizeof then); /* its padding too, for comparisons */
+    memcpy(scene, &then, sizeof then); /* with padding, for comparisons */
     *next = kept->next;
     return true;
 }
@@ -447,7 +448,7 @@ void past_cut(Past *past, uint64_t place)
     const size_t left = (size_t)(place - past->before) + 1;
     past->bytes -= (past->place_count - left) * sizeof *past->places;
     past->place_count = left;
-    past->work_ms = PAST_GAP_MS; /* since the last state is not known */
+    past->work_ms = PAST_GAP_MS; /* the frame time since the last state is unknown */
 }
 
 PastFigures past_figures(const Past *past)

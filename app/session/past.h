@@ -1,15 +1,15 @@
-/* The past of a running simulation: states that it was in, within a limit of memory, for who steps back.
+/* The past of a running simulation: earlier states within a memory limit, for going back in time.
 
-   A place is the begin of a frame, and has a number: 0 where the scene began, one more each frame. Of each
-   place step and time are known, of some the whole state (world_save: all that the next step reads), with the
-   scene's settings and the number of commands that had been obeyed. A place between two states is reached by
-   loading the one before and simulating on with the recorded commands, which gives the same bits; so a jump
-   takes at most as long as the frames from one state to the next did. A state is kept every PAST_GAP_MS of
-   that, or less often where copies of states would take more than a fiftieth of the time.
+   A place is the begin of a frame and has a number: 0 at the start of the scene, then one more per frame.
+   Step and time are known of each place. Some places also have the full state (world_save: all inputs of the
+   next step), the scene's settings and the count of obeyed commands. To reach a place between two states,
+   load the state before and simulate on with the recorded commands, which gives the same bits. So a jump
+   takes at most the time of the frames between two states. A state is kept every PAST_GAP_MS of frame time,
+   or less often if copies would take more than a fiftieth of the time.
 
-   When the memory is full, first every other state goes where a jump stays short, the oldest such one first;
-   else the oldest state, and with it all places before the next one: where less than PAST_WISH_S is left,
-   jumps may get longer before that. Not for several threads at once. */
+   When memory is full, every other state goes where jumps stay short, oldest first. Otherwise the oldest
+   state goes, with all places before the next state. If less than PAST_WISH_S of past remains, jumps may get
+   longer before the oldest state goes. Not thread-safe. */
 #ifndef SLOSH_PAST_H
 #define SLOSH_PAST_H
 
@@ -21,8 +21,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* ms of frames from one state to the next: while there is memory; then at most, and at most where the past is
-   shorter than this many seconds. A jump is to take 200 ms, of which loading and showing need some too. */
+/* Frame time between two states, ms: while memory lasts; then the maximum; then the maximum if the past is
+   shorter than PAST_WISH_S seconds. The target for a jump is 200 ms, with loading and drawing included. */
 #define PAST_GAP_MS       50.0
 #define PAST_GAP_MOST_MS  150.0
 #define PAST_GAP_SHORT_MS 1000.0
@@ -35,46 +35,46 @@ typedef struct PastPlace {
     double time; /* s */
 } PastPlace;
 
-/* For at most that many bytes. NULL without memory. */
+/* Creates a past of at most bytes_most. Returns NULL if memory is short. */
 Past *past_create(size_t bytes_most);
 void past_destroy(Past *past); /* NULL is allowed */
 
-/* Forgets all; the world's present state becomes place 0 (past_mark). */
+/* Forgets all places; the world's present state becomes place 0 (past_mark). */
 void past_begin(Past *past, const WorldInfo *info);
 
-/* A frame has ended, which took so many ms: the next place. */
+/* Adds the next place after a frame of frame_ms. */
 void past_mark(Past *past, const WorldInfo *info, double frame_ms);
 
-/* The last place is the world's present state: keeps it, if it is time for one, or `now`. `scene` is as the
-   commands have changed it, of which `next` were obeyed. Without memory, or when the state is not sound, it
-   is not kept. Waits for a GPU, as the begin of the next frame would. */
+/* Keeps the world's present state at the last place if a state is due, or if `now`. `scene`: with the changes
+   by commands, of which `next` were obeyed. The state is not kept if memory is short or the state is unsound.
+   Waits for a GPU, as the begin of the next frame would. */
 void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool now);
 
-/* The oldest place that can be reached, and the last one; the last alone when no state is kept. */
+/* The oldest reachable place, and the last place; both are the last if no state is kept. */
 uint64_t past_first(const Past *past);
 uint64_t past_last(const Past *past);
 
-/* Step and time of a place from the first to the last. */
+/* Step and time of a place between first and last. */
 PastPlace past_place(const Past *past, uint64_t place);
 
-/* The place at that time or the last one before it, of those that can be reached. Where the simulation failed
-   its last place is at the time that it went back to: found is the one before it. */
+/* The last reachable place at or before `time`. After a failure the last place has the time to which the
+   simulation returned: the result is then the place before. */
 uint64_t past_find(const Past *past, double time);
 
-/* Which place's state is loaded for `place`: its own, or the last one kept before it. */
+/* The place whose state is loaded for `place`: the place itself, or the last kept state before. */
 uint64_t past_before(const Past *past, uint64_t place);
 
-/* Loads that state into the world; `scene` and *next become what they were there. False with the reason: all
-   is as it was. */
+/* Loads the state of past_before(place) into the world; sets `scene` and *next accordingly. Returns false
+   with the reason, with no changes. */
 bool past_load(const Past *past, uint64_t place, World **world, Scene *scene, size_t *next, Error *error);
 
-/* Forgets what comes after the place, which becomes the last one. */
+/* Forgets the places after `place`, which becomes the last. */
 void past_cut(Past *past, uint64_t place);
 
 typedef struct PastFigures {
-    size_t bytes, bytes_most, state_bytes; /* held, allowed; of the last state */
+    size_t bytes, bytes_most, state_bytes; /* held; allowed; of the last state */
     size_t states;
-    bool dropped; /* states were, for want of memory, though less than PAST_WISH_S was left */
+    bool dropped; /* states were dropped for lack of memory, with less than PAST_WISH_S left */
 } PastFigures;
 PastFigures past_figures(const Past *past);
 

@@ -9,7 +9,7 @@ static bool no_memory(Error *error)
     return error_set(error, "no memory for the probes; use fewer of them, or a larger spacing");
 }
 
-/* A mean of the last step, which is also kept for whoever asks later. */
+/* Reads the mean forces of the last step, and adds them to the sum for later callers. */
 static const Forces *feel_now(ProbeSeries *series, const Session *session, Forces *now)
 {
     if (!series->feels)
@@ -30,7 +30,7 @@ static bool read_now(ProbeSeries *series, const Session *session, Error *error)
     return probe_table_add(&series->table, session->info.time, series->value) || no_memory(error);
 }
 
-/* What a user should know of a table that is opened. */
+/* Reports facts on the opened table: waits for a GPU, missing rows. */
 static void tell(const ProbeSeries *series, const Session *session, const char *path, bool resumed,
                  bool there)
 {
@@ -63,7 +63,7 @@ bool probe_series_begin(ProbeSeries *series, Session *session, const char *path,
     return resumed || (read_now(series, session, error) && probe_table_write(&series->table, error));
 }
 
-/* What a frame read that the world takes back. */
+/* Drops the readings of a frame that the world has taken back. */
 static void drop(ProbeSeries *series)
 {
     probe_table_drop(&series->table);
@@ -98,7 +98,7 @@ bool probe_series_frame(ProbeSeries *series, const Session *session, Error *erro
 {
     if (!series->probes)
         return true;
-    if (!world_sound(session->world)) /* the next step goes back to the begin of this frame */
+    if (!world_sound(session->world)) /* the next step returns to the begin of this frame */
         drop(series);
     return probe_table_write(&series->table, error);
 }

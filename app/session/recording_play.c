@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* What changes no bit: how the fluid is drawn, and how many processors compute. */
+/* True for settings without effect on the bits: drawing, and the count of processors. */
 static bool is_allowed(const char *setting)
 {
     static const char *const keys[] = {"view.",  "view=",           "touch.",
@@ -43,7 +43,7 @@ bool recording_play_scene(const Recording *recording, const SceneSettings *more,
     return scene_parse(recording->path, recording->text, recording->size, &settings, scene, notes, error);
 }
 
-/* Whether the session came to a backend on a GPU while it ran. */
+/* True if the session moved to a GPU backend. */
 static bool moves_to_gpu(const Recording *recording)
 {
     bool moves = false;

@@ -15,10 +15,10 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Times are sums and products of decimal fractions: a state this small part of a frame early is on time. */
+/* Times are sums and products of decimal fractions: a state early by this fraction of a frame is on time. */
 static const double ROUNDING = 1e-6;
 
-/* A run that goes on from its file: its tables may be gone, and its world begins as the file does. */
+/* Resumes a run from its file: the world starts from the file, as tables may be gone. */
 static int start_again(Session *session, const Args *args, Error *error)
 {
     SnapshotFirst first = {.position = NULL};
@@ -96,16 +96,17 @@ bool session_reached(const Session *session, double time)
     return session->info.time >= time - ROUNDING * session->scene.world.dt && world_sound(session->world);
 }
 
-/* A scene says 0.0166667 where 1/60 is meant. Of frames that are longer than they should be the right ones
-   are on time until they are late by a whole one; of shorter ones the first is early, and the next is taken.
- */
+/* True if products of a scene with dt = 0.0166667 for 1/60 fall out of step within the span. With too long
+   frames, the right frames are on time until late by a whole frame. With too short frames, the right frame
+   comes early, and the next frame is taken. */
 static bool falls_out(double interval, double dt, double frames, double span)
 {
-    const double early = span / interval * (interval / dt - frames); /* of the last, frames */
+    const double early =
+        span / interval * (interval / dt - frames); /* earliness of the last product, in frames */
     return early > ROUNDING || early < ROUNDING - 1;
 }
 
-/* Up to six digits, no less than the value. */
+/* Rounds up to six digits. */
 static double rounded_up(double value)
 {
     const double unit = pow(10, floor(log10(value)) - 5);
@@ -128,7 +129,7 @@ static void tell(const Session *session, const char *words)
     fprintf(stderr, "%s%s\n", session->prefix, words);
 }
 
-/* After a step: what is there now, and what the sentinel did. */
+/* After a step: updates the info, and reports troubles of the step. */
 static void look(Session *session)
 {
     char words[256];
@@ -239,8 +240,9 @@ static double wall_seconds(const Session *session)
     return fmax((wall_ms() - session->began_ms) / 1000, 1e-6);
 }
 
-/* A carried density is bent below half of that at rest, so that it stays above 0, and no picture and no
-   outcome shows it. Drops that leave come to a third; at a quarter density would be 0. */
+/* Warns of very thin fluid, which no picture or outcome shows. Methods with carried density bend densities
+   below half the rest density to stay above 0. Separating drops come to a third of rest density; a density of
+   a quarter would be 0. */
 static void report_thinnest(const Session *session, double least)
 {
     const WorldDef *def = &session->scene.world;
@@ -345,7 +347,7 @@ int session_fail(const Session *session, const Args *args, const Summary *summar
     json_t *json = session->world ? session_json(session, args, summary) : NULL;
     if (json)
         json_object_set_new(json, "error", json_string(error->message));
-    else /* no world, or one with numbers that are none */
+    else /* no world, or non-finite numbers */
         json = failure_json(summary->command, "scene", args->scenes[0], args->output, error);
     failure_json_write(json, args->json);
     return EXIT_FAILED;

@@ -1,4 +1,4 @@
-/* A scene and its world, as `run` and `render` open and advance them. */
+/* A scene and its world, as opened and advanced by `run` and `render`. */
 #ifndef SLOSH_SESSION_H
 #define SLOSH_SESSION_H
 
@@ -16,102 +16,104 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* What of the sentinel was told: each kind of trouble with each halving once. */
+/* Troubles of the sentinel already reported: each kind of trouble with each halving once. */
 typedef struct TroubleTold {
-    unsigned count;                        /* of a world's troubles, that were seen */
+    unsigned count;                        /* of the world's troubles seen so far */
     unsigned halvings[STEP_TROUBLE_COUNT]; /* bit n: with 1 / 2^n of the step */
 } TroubleTold;
 
 typedef struct Session {
     Scene scene;
-    char prefix[160];  /* of its messages among those of others, "particles 2000: "; "": none */
-    Headless *context; /* current; NULL where neither solver nor pictures need one */
-    bool borrows;      /* the context is another session's, which closes it */
+    char prefix[160];  /* prefix of messages in a group of sessions, "particles 2000: "; "": none */
+    Headless *context; /* current; NULL if neither solver nor pictures need a context */
+    bool borrows;      /* the context belongs to a different session, which closes it */
     World *world;
     HandReplay *hand; /* of --device: moves the box before each step; NULL: none */
     WorldInfo info;   /* of the present state */
     double began_ms;  /* wall time of the start */
     TroubleTold told_trouble;
-    bool told_full;       /* that emitters wait */
-    uint64_t told_barred; /* gates of emitters, that they find no room */
-    bool told_lost;       /* that particles find no place in the grid */
+    bool told_full;       /* reported: emitters wait */
+    uint64_t told_barred; /* bits of emitter gates already reported as blocked */
+    bool told_lost;       /* reported: particles have no cell in the grid */
     bool told_unlisted;
     FluidWatch watch;
 } Session;
 
-/* Loads the only scene of the command line and the recording of --device, says on standard error what
-   --particles did to dt, makes the world, and a context where its backend needs one; nothing is drawn.
-   Creates no file. With --resume the world begins as its file does, where tables would say how (app/scene/
-   tables.h): they may be gone. 0 or the exit code: EXIT_USAGE where the command line or the scene is wrong,
-   EXIT_FAILED where the GPU can't. */
+/* Opens the session: loads the command line's only scene and the recording of --device, and reports the
+   effect of --particles on dt on standard error. Makes the world, and a context if the backend needs one;
+   draws nothing and creates no file. With --resume the world starts from its file even where tables give the
+   start (app/scene/tables.h), as tables may be gone. Returns 0 or the exit code: EXIT_USAGE for a wrong
+   command line or scene, EXIT_FAILED for a failing GPU. */
 int session_open(Session *session, const Args *args, Error *error);
 
-/* The same for a scene that is loaded, and draws. Several sessions in one process have one context: the first
-   one makes it (NULL) and is to be closed last. `name`: of this one among them, or "". */
+/* Opens a session for drawing a loaded scene. Several sessions in a process share a context: the first
+   session creates the context (NULL), and must be closed last. `name`: the session's name in the group, or
+   "". */
 int session_open_scene(Session *session, const Args *args, const Scene *scene, const char *name,
                        Headless *context, Error *error);
 
 /* Makes context and world of session->scene: the second half of session_open. `gpu` as of headless_create;
-   `draws`: a context is needed whatever the backend. */
+   `draws`: needs a context for any backend. */
 int session_start(Session *session, int gpu, bool draws, Error *error);
 
 void session_close(Session *session);
 
-/* Whether the present state is the first sound one at or after `time` (s) or a later one. */
+/* True if the present state is sound and at or after `time` (s). */
 bool session_reached(const Session *session, double time);
 
-/* One frame on, what the sentinel did said on standard error; false when the simulation broke. */
+/* Advances one frame and reports the sentinel's actions on standard error. Returns false if the simulation
+   broke. */
 bool session_step(Session *session, Error *error);
 bool session_substep(Session *session, Error *error); /* one step of a frame */
 
-/* Says on standard error where `what`, one each `interval` s for `span` s, will be at uneven times: mode
-   fixed, and a frame that does not divide the interval, by so much that it shows in that time. */
+/* Warns on standard error if `what`, one per `interval` s for `span` s, will be at uneven times: in mode
+   fixed, when the frame does not divide the interval and the error shows within the span. */
 void session_tell_uneven(const Session *session, const char *what, double interval, double span);
 
-/* Whether there is trouble that was not told yet; it is then. */
+/* True once per new trouble; marks the trouble as reported. */
 bool session_trouble_is_new(TroubleTold *told, const WorldTrouble *trouble);
 
-/* What the sentinel did, in words. */
+/* The sentinel's action, in words. */
 const char *session_trouble_text(const WorldTrouble *trouble, char words[256]);
 
-/* That emitters wait, in words. */
+/* Waiting emitters, in words. */
 const char *session_full_text(const WorldInfo *info, char words[256]);
 
-/* The same of emitters that find no room, but for those of `told`, which gets them. */
+/* Blocked emitters, in words, without the emitters in `told`; adds the new emitters to `told`. */
 const char *session_barred_text(const WorldInfo *info, uint64_t *told, char words[256]);
 
-/* That particles find no place in the grid, in words. */
+/* Particles without a cell in the grid, in words. */
 const char *session_lost_text(const WorldInfo *info, char words[256]);
 
-/* That there is no memory for what makes steps fast, in words. */
+/* Lack of memory for the data that make steps fast, in words. */
 const char *session_unlisted_text(const WorldInfo *info, char words[256]);
 
-/* What a command says when it is done, on standard error and in --json FILE. */
+/* Final figures of a command, for standard error and --json FILE. */
 typedef struct Summary {
     const char *command;
     const char *product; /* "snapshots" or "pictures" */
     size_t products;
     const char *renderer;                  /* NULL: nothing was drawn */
     double step_seconds;                   /* wall time of the steps alone; 0: not measured */
-    const CompressionFigures *compression; /* of the states that were looked at; NULL: none */
-    const struct ForcesLog *forces;        /* NULL: they were not asked for */
-    const struct ProbeTable *probes;       /* the same */
+    const CompressionFigures *compression; /* of the observed states; NULL: none */
+    const struct ForcesLog *forces;        /* NULL: not requested */
+    const struct ProbeTable *probes;       /* NULL: not requested */
     bool stopped;                          /* by a signal */
 } Summary;
 
-/* The closing line, unless quiet, and the line about a signal. */
+/* Prints the closing line, unless quiet, and the line about a signal. */
 void session_report(const Session *session, const Args *args, const Summary *summary);
 
-/* Of it what is of the steps alone, with the session's name before each line. */
+/* Prints the part about steps, with the session's name before each line. */
 void session_report_steps(const Session *session, const Args *args);
 
-/* What session_write_json writes. NULL: no memory. */
+/* The JSON of session_write_json; caller owns. NULL: memory is short. */
 json_t *session_json(const Session *session, const Args *args, const Summary *summary);
 
-/* Writes --json FILE, if asked for. */
+/* Writes --json FILE, if given. */
 bool session_write_json(const Session *session, const Args *args, const Summary *summary, Error *error);
 
-/* Says what failed, and writes --json FILE, if asked for, with as much as there is and that as "error".
+/* Reports the error, and writes --json FILE, if given, with all known figures and the message as "error".
    Returns EXIT_FAILED. */
 int session_fail(const Session *session, const Args *args, const Summary *summary, const Error *error);
 

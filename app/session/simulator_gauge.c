@@ -1,7 +1,7 @@
-/* What the panel plots over time, as long as somebody looks. */
+/* Gauges that the panel plots over time, while watched. */
 #include "app/session/simulator_state.h"
 
-static const double EVERY_MS = 50; /* finer than a column of the plots, at the pace of a picture or two */
+static const double EVERY_MS = 50; /* finer than a column of the plots; about one or two pictures */
 
 void simulator_watch(Simulator *simulator, bool gauges, bool probes)
 {
@@ -11,7 +11,7 @@ void simulator_watch(Simulator *simulator, bool gauges, bool probes)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* Asks for the gauge of the present state, with the step before it. */
+/* Requests the gauge of the present state, and notes the step before it. */
 static void ask(Simulator *simulator)
 {
     WorldInfo info;
@@ -21,7 +21,7 @@ static void ask(Simulator *simulator)
     world_gauge_ask(simulator->world);
 }
 
-/* With the lock held. */
+/* Call with the lock held. */
 static void keep(Simulator *simulator)
 {
     SimulatorStatus *status = &simulator->status;
@@ -31,7 +31,7 @@ static void keep(Simulator *simulator)
         status->gauge_count++;
 }
 
-/* One that was asked for before the simulation went back is of no use. */
+/* Takes a finished gauge; drops a gauge requested before the simulation went back in time. */
 static void take(Simulator *simulator)
 {
     WorldInfo info;
@@ -45,7 +45,7 @@ static void take(Simulator *simulator)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* On a GPU what was asked for a frame ago is there by now, as a rule; on the CPU it is at once. */
+/* On a GPU a gauge requested one frame ago is usually ready; on the CPU it is ready at once. */
 void simulator_gauge(Simulator *simulator)
 {
     pthread_mutex_lock(&simulator->lock);

@@ -1,11 +1,10 @@
-/* Simulators that follow another one, on its thread: each goes on to its first frame at or after that one's
-   time. */
+/* Following simulators, stepped on the leader's thread: each goes on to its first frame at or after the
+   leader's time. */
 #include "app/session/simulator_state.h"
 
 #include <stdio.h>
 
-/* Times are sums of decimal fractions: a frame this small part of it early is on time
- * (app/session/session.c). */
+/* Times are sums of decimal fractions: a frame early by this fraction is on time (app/session/session.c). */
 static const double ROUNDING = 1e-6;
 
 void simulator_hold(Simulator *simulator)
@@ -33,7 +32,7 @@ static bool quits(Simulator *simulator)
     return quit;
 }
 
-/* Frames, as far as the leader has come. One that fails stays where it is. */
+/* Steps the follower's frames up to the leader's time. A failed follower stays at its time. */
 static void catch_up(Simulator *leader, Simulator *follower)
 {
     const double time = time_of(leader);
@@ -70,7 +69,7 @@ bool simulator_show(Simulator *simulator, Error *error)
     return ok;
 }
 
-/* Where they begin, all of one time; what has no world is left out. */
+/* Shows the begin, all simulators at one time; simulators without a world are left out. */
 static void show_begin(Simulator *simulator)
 {
     if (simulator->follower_count == 0)
@@ -104,7 +103,7 @@ void simulator_lead_restart(Simulator *simulator)
     show_begin(simulator);
 }
 
-/* Once: it stands ahead of the others there. */
+/* Reports once that the follower's past is too short, so the follower stays ahead. */
 static void tell_kept(Simulator *follower, double time)
 {
     char words[128];
@@ -121,7 +120,7 @@ void simulator_lead_travel(Simulator *simulator)
 {
     Error error = {{0}};
     if (simulator->follower_count == 0 || !simulator->world || !simulator->past || simulator->recording_lost)
-        return; /* it has not travelled either */
+        return; /* the leader has not travelled either */
     for (int i = 0; i < simulator->follower_count; i++) {
         Simulator *follower = simulator->followers[i];
         if (!follower->world)

@@ -1,5 +1,5 @@
-/* Back and forth in time: what is kept of the past, and the way there. Behind the newest state time follows
-   the recording, until the user acts. */
+/* Travel in time: keeps the past and goes to earlier places. Behind the newest state time follows the
+   recording, until the user acts. */
 #include "app/scene/live.h"
 #include "app/session/session.h"
 #include "app/session/simulator_state.h"
@@ -21,7 +21,7 @@ void simulator_past_begin(Simulator *simulator)
     past_begin(simulator->past, &info);
 }
 
-/* Once: how far back it goes where memory ends it. */
+/* Reports once the reach of the past when memory limits it. */
 static void tell_short(Simulator *simulator)
 {
     const Past *past = simulator->past;
@@ -38,7 +38,7 @@ static void tell_short(Simulator *simulator)
     simulator_tell(simulator, false, words);
 }
 
-/* Whether the world stands at the begin of frame `at`. */
+/* True if the world is at the begin of frame `at`. */
 static bool at_its_place(const Simulator *simulator)
 {
     WorldInfo info;
@@ -58,15 +58,15 @@ void simulator_past_keep(Simulator *simulator)
         keep(simulator, false);
 }
 
-/* The last recorded commands, which were given where it ended: it is live again. */
+/* Obeys the last recorded commands, given at the newest state: the simulation is live again. */
 static void come_to_newest(Simulator *simulator)
 {
     simulator_obey_recorded(simulator);
     simulator->behind = false;
 }
 
-/* Behind the newest state frames end where they did. They do not on a backend that is not reproducible; then
-   the recording holds from here on. */
+/* Behind the newest state frames end at the recorded steps, except on a backend that is not reproducible:
+   then the rest of the recording is cut off. */
 static void follow(Simulator *simulator, const WorldInfo *info)
 {
     simulator->at++;
@@ -110,7 +110,7 @@ void simulator_past_status(Simulator *simulator, const WorldInfo *info)
     status->states = figures.states;
 }
 
-/* Where the hand last wanted the box. */
+/* The hand's last target of the box. */
 static BoxTarget target_at(const Simulator *simulator)
 {
     const Recording *recording = &simulator->recording;
@@ -144,7 +144,7 @@ void simulator_obey_recorded(Simulator *simulator)
         if (command->step > info.step)
             break;
         if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error))
-            simulator_tell(simulator, false, error.message); /* no memory */
+            simulator_tell(simulator, false, error.message); /* memory is short */
     }
     if (simulator->next > from)
         simulator_tell_travel(simulator);
@@ -177,7 +177,7 @@ void simulator_cut(Simulator *simulator)
     simulator_lift_finger(simulator);
     if (!simulator->follows)
         simulator_tell(simulator, false, words);
-    for (int i = 0; i < simulator->follower_count; i++) /* also where the setting is not theirs */
+    for (int i = 0; i < simulator->follower_count; i++) /* even if the setting does not apply to a follower */
         if (simulator->followers[i]->world)
             simulator_cut(simulator->followers[i]);
 }
@@ -192,12 +192,12 @@ void simulator_cut_for(Simulator *simulator, const SimCommand commands[], int co
         }
 }
 
-/* Leaves the newest state: a save while behind it is still of all that was done. */
+/* Leaves the newest state, and notes its hash: a later save still covers the whole session. */
 static void leave(Simulator *simulator)
 {
     WorldInfo info;
     world_info(simulator->world, &info);
-    if (!simulator->status.failed) /* else it is to fail again */
+    if (!simulator->status.failed) /* otherwise the failed frame must fail again */
         keep(simulator, true);
     simulator->newest = (Newest){info.step, world_hash(simulator->world), info.time};
     simulator->next = simulator->recording.count;
@@ -207,7 +207,7 @@ static void leave(Simulator *simulator)
 static bool load(Simulator *simulator, uint64_t place)
 {
     Error error = {{0}};
-    const bool accelerations = simulator->scene.world.acceleration; /* once kept they stay */
+    const bool accelerations = simulator->scene.world.acceleration; /* accelerations stay on once kept */
     if (!past_load(simulator->past, place, &simulator->world, &simulator->scene, &simulator->next, &error)) {
         simulator_tell(simulator, false, error.message);
         return false;
@@ -217,7 +217,7 @@ static bool load(Simulator *simulator, uint64_t place)
     return true;
 }
 
-/* A frame again, that nobody sees. */
+/* Repeats a frame without showing it. */
 static bool frame_again(Simulator *simulator)
 {
     Error error = {{0}};
@@ -234,7 +234,7 @@ static bool frame_again(Simulator *simulator)
     return ok;
 }
 
-/* From the present state where it lies on the way, else from one that was kept. */
+/* Goes to the place: from the present state if on the way, otherwise from a kept state. */
 static bool go(Simulator *simulator, uint64_t place)
 {
     const uint64_t last = past_last(simulator->past), from = past_before(simulator->past, place);
@@ -254,7 +254,7 @@ static bool same_bits(const Simulator *simulator)
     return strcmp(def->backend, "compute") != 0 || def->reproducible;
 }
 
-/* Shown as any state is, but that no time has passed. */
+/* Shows the state; counts no simulated time. */
 static void arrive(Simulator *simulator)
 {
     Error error = {{0}};
@@ -264,7 +264,8 @@ static void arrive(Simulator *simulator)
     simulator->status.time = info.time;
     pthread_mutex_unlock(&simulator->lock);
     simulator_tell_travel(simulator);
-    if (!simulator->follows && simulator->follower_count == 0 && /* else all at once: simulator_lead_travel */
+    if (!simulator->follows &&
+        simulator->follower_count == 0 && /* otherwise simulator_lead_travel shows all states together */
         !simulator_publish(simulator, &error))
         simulator_tell(simulator, true, error.message);
     simulator_gauge_back(simulator, info.time);
@@ -277,7 +278,7 @@ static uint64_t place_of(const Simulator *simulator, const Wish *wish)
     const uint64_t first = past_first(past), at = simulator->at, back = (uint64_t)wish->frames;
     if (!wish->by_frames && isinf(wish->time) && wish->time > 0)
         return past_last(past);
-    if (!wish->by_frames) { /* times are told as fractions of a bar: a place this near is meant */
+    if (!wish->by_frames) { /* times come as fractions of a bar: accept a place this near */
         const uint64_t place = past_find(past, wish->time + 1e-9);
         return place +
                (wish->after && place < past_last(past) && past_place(past, place).time < wish->time - 1e-9);
@@ -300,7 +301,7 @@ static void tell_once(Simulator *simulator, bool *told, const char *words)
     *told = true;
 }
 
-/* The settings that wait, which were asked for before; what is left of a frame. */
+/* Before a jump: obeys waiting settings and completes the present frame. */
 static void finish_present(Simulator *simulator, Work *work)
 {
     WorldInfo info;
@@ -310,7 +311,7 @@ static void finish_present(Simulator *simulator, Work *work)
         work->commands.commands[i].step = info.step;
         simulator_obey(simulator, &work->commands.commands[i]);
     }
-    if (!simulator->behind && !simulator->scripted) /* a script goes on where it was */
+    if (!simulator->behind && !simulator->scripted) /* a script continues at its old place */
         simulator_lift_finger(simulator);
     if (!at_its_place(simulator))
         frame_again(simulator);
@@ -342,7 +343,7 @@ void simulator_travel(Simulator *simulator, Work *work)
                   "what is simulated again differs in the last bits; solver.reproducible: true in the "
                   "scene gives the same ones");
     pthread_mutex_lock(&simulator->lock);
-    simulator->status.failed &= place == simulator->at; /* else that comes after, or again */
+    simulator->status.failed &= place == simulator->at; /* a failure after that place may happen again */
     pthread_mutex_unlock(&simulator->lock);
     go(simulator, place);
     arrive(simulator);

@@ -1,9 +1,9 @@
-/* What the panel shows of the scene's probes, as long as somebody looks. */
+/* Probe readings for the panel, while watched. */
 #include "app/session/simulator_state.h"
 
 #include <stdlib.h>
 
-static const double EVERY_MS = 50; /* as of the gauges */
+static const double EVERY_MS = 50; /* as for the gauges */
 
 void simulator_probes_end(Simulator *simulator)
 {
@@ -14,7 +14,7 @@ void simulator_probes_end(Simulator *simulator)
     simulator->read = NULL;
 }
 
-/* Without memory there are none. */
+/* Starts the probes; without memory there are none. */
 void simulator_probes_begin(Simulator *simulator)
 {
     const Scene *scene = &simulator->scene;
@@ -25,7 +25,7 @@ void simulator_probes_begin(Simulator *simulator)
     simulator->probes_ms = 0;
     if (scene->probes.count == 0 || !simulator->world)
         return;
-    Error none; /* a backend that sums none: the panel shows no number (advise_probes tells) */
+    Error none; /* backend without force sums: the panel shows no number (advise_probes warns) */
     simulator->feels = probe_list_feels(&scene->probes) && world_feel(simulator->world, &none);
     simulator->probes = probes_create(&scene->probes, &scene->world);
     if (simulator->probes)
@@ -47,7 +47,7 @@ static void choose(const ProbeList *list, const float read[], float shown[PROBES
     }
 }
 
-/* With the lock held. */
+/* Call with the lock held. */
 static void keep(Simulator *simulator, const ProbeSample *sample)
 {
     SimulatorStatus *status = &simulator->status;
@@ -80,7 +80,8 @@ void simulator_probes(Simulator *simulator)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* Means over time begin anew, for they were of what is to come. */
+/* After a jump: drops later readings, and restarts means over time, as the old means include dropped
+   steps. */
 void simulator_probes_back(Simulator *simulator, double time)
 {
     Forces none;
@@ -95,7 +96,7 @@ void simulator_probes_back(Simulator *simulator, double time)
     if (!simulator->probes)
         return;
     if (simulator->feels)
-        world_forces(simulator->world, &none); /* of steps on the way there */
+        world_forces(simulator->world, &none); /* drops the sums of steps on the way */
     probes_destroy(simulator->probes);
     simulator->probes = probes_create(&simulator->scene.probes, &simulator->scene.world);
     simulator->probes_ms = 0;

@@ -8,8 +8,7 @@ static bool same_key(const char *a, const char *b)
     return key == strcspn(b, "=") && strncmp(a, b, key) == 0;
 }
 
-/* Whether `newer` may stand in the place of `older`. A finger that comes back elsewhere was gone in between.
- */
+/* True if `newer` may replace `older`. A finger that returns in a different way was absent in between. */
 static bool replaces(const SimCommand *newer, const SimCommand *older)
 {
     return newer->kind == older->kind &&
@@ -47,8 +46,8 @@ void command_queue_drop_hand(CommandQueue *queue)
     drop(queue, is_of_hand);
 }
 
-/* The place in the queue of what did something to solids last, where `newer` says anew where the same one
-   goes; -1: nowhere. Numbers of solids depend on what was put and taken before. */
+/* Index of the queue's last solid command if `newer` moves the same solid again; -1: none. Solid numbers
+   depend on earlier puts and takes. */
 static int same_solid(const CommandQueue *queue, const SimCommand *newer)
 {
     int last = queue->count - 1;

@@ -1,5 +1,5 @@
-/* A recorded session, done again: its commands are obeyed as if somebody gave them, and so become part of the
-   session that is recorded; one can go back in it as in any other. The first one who acts takes over. */
+/* Plays a recorded session: its commands are obeyed as if given by the user, and so join the new recording;
+   going back in time works as in any session. The first command of the user takes over. */
 #include "app/session/simulator_state.h"
 
 static void set_state(Simulator *simulator, ScriptState state)
@@ -43,12 +43,12 @@ static void obey_due(Simulator *simulator, uint64_t step)
     if (simulator->script_next == from)
         return;
     pthread_mutex_lock(&simulator->lock);
-    simulator->status.unsaved = unsaved; /* it is on the disk already */
+    simulator->status.unsaved = unsaved; /* already on disk */
     pthread_mutex_unlock(&simulator->lock);
     simulator_tell_travel(simulator);
 }
 
-/* Behind the newest state its commands are those of the recording. */
+/* Does nothing behind the newest state: there the recording already has the script's commands. */
 void simulator_script_obey(Simulator *simulator)
 {
     const Recording *script = &simulator->script;

@@ -1,4 +1,4 @@
-/* What the thread that steps does: the world, its commands, its frames, its recording. */
+/* Work of the stepping thread: the world, commands, frames and the recording. */
 #include "app/session/session.h"
 #include "app/session/simulator_state.h"
 
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double PACE_MS = 1000; /* the real-time factor is of this long */
+static const double PACE_MS = 1000; /* period of the real-time factor */
 
 void simulator_tell(Simulator *simulator, bool failed, const char *message)
 {
@@ -18,13 +18,13 @@ void simulator_tell(Simulator *simulator, bool failed, const char *message)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* Padding that differs counts as a change. */
+/* Differing padding counts as a change. */
 static bool same_bytes(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
 }
 
-/* Of a view that draws solids and box. */
+/* Updates the solids and the box for views. */
 static void describe_solids(Simulator *simulator)
 {
     const WorldDef *now = &simulator->scene.world;
@@ -38,7 +38,7 @@ static void describe_solids(Simulator *simulator)
     simulator->status.solids++;
 }
 
-/* With the lock held, after each state: what a view may want to know of it. */
+/* Describes each new state for views. Call with the lock held. */
 static void describe(Simulator *simulator, const WorldInfo *info)
 {
     SimulatorStatus *status = &simulator->status;
@@ -61,7 +61,7 @@ static void describe(Simulator *simulator, const WorldInfo *info)
     simulator->obeyed_next = (simulator->obeyed_next + 1) % OBEYED_MAX;
 }
 
-/* Describes the state, then shows it: in this order, so that who sees it can ask for its commands. */
+/* Describes the state, then shows it: in this order, so that a viewer can ask for the state's commands. */
 bool simulator_publish(Simulator *simulator, Error *error)
 {
     WorldInfo info;
@@ -79,13 +79,14 @@ static void awaken(const Simulator *simulator)
         simulator->wake();
 }
 
-/* The world at the scene's start, or a message. */
+/* Makes the world at the scene's start, or reports the error. */
 void simulator_make_world(Simulator *simulator)
 {
     Error error = {{0}};
     snprintf(simulator->start.world.backend, sizeof simulator->start.world.backend, "%s",
-             simulator->scene.world.backend); /* the one at hand, which this thread can do */
-    simulator->start.world.acceleration |= simulator->scene.world.acceleration; /* once kept they stay */
+             simulator->scene.world.backend); /* the present backend, which this thread supports */
+    simulator->start.world.acceleration |=
+        simulator->scene.world.acceleration; /* accelerations stay on once kept */
     simulator->scene = simulator->start;
     simulator_stop_resizing(simulator);
     world_destroy(simulator->world);
@@ -99,7 +100,7 @@ void simulator_make_world(Simulator *simulator)
     simulator_probes_begin(simulator);
     simulator_script_begin(simulator);
     const bool alone =
-        !simulator->follows && simulator->follower_count == 0; /* else simulator_lead.c shows all */
+        !simulator->follows && simulator->follower_count == 0; /* otherwise simulator_lead.c shows all */
     if (!simulator->world || (alone && !simulator_publish(simulator, &error)))
         simulator_tell(simulator, true, error.message);
     awaken(simulator);
@@ -112,7 +113,7 @@ static void set_unsaved(Simulator *simulator, bool unsaved)
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* Another thread may want to save it meanwhile: simulator_save_cut. */
+/* Takes the lock, as another thread may save the recording: simulator_save_cut. */
 static bool record(Simulator *simulator, const SimCommand *command)
 {
     pthread_mutex_lock(&simulator->lock);
@@ -126,7 +127,7 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
     Error error = {{0}};
     if (!sim_command_apply(command, &simulator->world, &simulator->scene, &error)) {
         simulator_tell(simulator, false, error.message);
-    } else if (simulator->behind) { /* simulator_cut_for: what comes after stays, and so its commands */
+    } else if (simulator->behind) { /* later commands stay (see simulator_cut_for) */
         return;
     } else if (!simulator->recording_lost && !record(simulator, command)) {
         simulator->recording_lost = true;
@@ -138,7 +139,7 @@ void simulator_obey(Simulator *simulator, const SimCommand *command)
     }
 }
 
-/* The new session begins with what the hand has set in the old one: settings stay, poses do not. */
+/* Restarts the session with the settings of the old session, without its poses. */
 void simulator_restart(Simulator *simulator, Work *work)
 {
     Recording before = simulator->recording;
@@ -156,7 +157,7 @@ void simulator_restart(Simulator *simulator, Work *work)
     pthread_mutex_unlock(&simulator->lock);
     static const CommandQueue none;
     work->commands = none;
-    for (size_t i = 0; i < obeyed && !simulator->scripted; i++) /* a session that begins anew has its own */
+    for (size_t i = 0; i < obeyed && !simulator->scripted; i++) /* a restarted script has its own settings */
         if (before.commands[i].kind == SIM_SET)
             command_queue_add(&work->commands, &before.commands[i]);
     for (int i = 0; i < work->commands.count && simulator->world; i++) {
@@ -202,7 +203,7 @@ void simulator_save_session(Simulator *simulator, const char *path)
     awaken(simulator);
 }
 
-/* With the lock held: the real-time factor of about the last second. */
+/* Updates the real-time factor over about the last second. Call with the lock held. */
 static void pace(Simulator *simulator, double now)
 {
     const double ms = now - simulator->pace_began_ms, time = simulator->status.time;
@@ -232,8 +233,8 @@ static void count_frame(Simulator *simulator, double spent, double simulated, co
     pthread_mutex_unlock(&simulator->lock);
 }
 
-/* The commands that wait apply at once, between two substeps: sooner by most of a frame than at its start.
-   False when the end has come. */
+/* Applies waiting commands between two substeps: sooner by most of a frame than at the frame's start. Returns
+   false at the end of the thread. */
 static bool obey_all(Simulator *simulator, Work *work)
 {
     WorldInfo info;
@@ -256,7 +257,7 @@ static bool obey_all(Simulator *simulator, Work *work)
     return go_on;
 }
 
-/* The sentinel went back, emitters wait, or particles are lost: that is worth a word. */
+/* Reports a sentinel step back, waiting emitters or lost particles. */
 static void tell_news(Simulator *simulator, const WorldInfo *info)
 {
     char words[256];
@@ -298,7 +299,7 @@ void simulator_frame_end(Simulator *simulator)
     awaken(simulator);
 }
 
-/* The fluid loses volume, clumps or leaks: that, too. */
+/* Reports fluid that loses volume, clumps or leaks. */
 static void watch_fluid(Simulator *simulator)
 {
     char words[FLUID_WATCH_WORDS];
@@ -306,13 +307,13 @@ static void watch_fluid(Simulator *simulator)
         simulator_tell(simulator, false, words);
 }
 
-/* States between two frames are shown only where nobody follows, or is to be shown with another one. */
+/* States within a frame are shown only without a leader and followers. */
 static bool shows(const Simulator *simulator, const WorldInfo *info)
 {
     return !simulator->follows && (simulator->follower_count == 0 || !info->within_frame);
 }
 
-/* Brings the followers along at the end of a frame. Returns what it took, ms. */
+/* Steps the followers at the end of a frame. Returns the time taken, ms. */
 static double lead(Simulator *simulator, bool ok, const WorldInfo *info)
 {
     const double began = wall_ms();
@@ -322,8 +323,8 @@ static double lead(Simulator *simulator, bool ok, const WorldInfo *info)
     return wall_ms() - began;
 }
 
-/* One step of the frame in hand. On a GPU without a clock of its own nothing is measured: what the CPU sees
-   of such a step says nothing of it. */
+/* Does one step of the present frame. On a GPU without a GPU timer nothing is measured: CPU times say nothing
+   about a GPU step. */
 void simulator_frame_step(Simulator *simulator)
 {
     StageClock *clock = simulator->on_gpu && !simulator->timer ? NULL : &simulator->frame.clock;
@@ -338,7 +339,8 @@ void simulator_frame_step(Simulator *simulator)
     world_info(simulator->world, &info);
     tell_news(simulator, &info);
     if (ok)
-        watch_fluid(simulator); /* before the state is shown: a frame is as good as over then */
+        watch_fluid(
+            simulator); /* before the state is shown, as viewers may take the frame as finished then */
     const double led = lead(simulator, ok, &info);
     if (ok && shows(simulator, &info)) {
         if (simulator->on_gpu)
@@ -350,7 +352,7 @@ void simulator_frame_step(Simulator *simulator)
     awaken(simulator);
     simulator->frame.spent_ms += wall_ms() - began - led;
     if (!ok)
-        simulator_tell(simulator, true, error.message); /* before its end, which would look sound */
+        simulator_tell(simulator, true, error.message); /* before the frame's end, which would look sound */
     if (!ok || !info.within_frame)
         simulator_frame_end(simulator);
 }

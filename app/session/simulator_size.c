@@ -1,6 +1,6 @@
-/* The box on its way to the size that is wanted: a command at a time, as a hand would give it, so slowly that
-   the fluid gets out of the walls' way. Where a change costs no more than a copy of the state the walls move
-   with each step, which makes no sound; else in few steps. */
+/* Resizes the box step by step, with one command at a time as if by hand, so slowly that the fluid can move
+   out of the walls' way. If a change costs only a copy of the state, the walls move with each step, which
+   makes no sound wave; otherwise in few larger changes. */
 #include "app/recording/box_command.h"
 #include "app/session/simulator_state.h"
 #include "sim/world/world_state.h"
@@ -26,7 +26,7 @@ void simulator_stop_resizing(Simulator *simulator)
     simulator->resized_time = -INFINITY;
 }
 
-/* What is wanted, as far as the walls come now; false: they are there. */
+/* Limits `size` to the present reach of the walls. Returns false when the walls have arrived. */
 static bool next_size(const Simulator *simulator, double most, double size[3])
 {
     const WorldDef *def = &simulator->scene.world;
@@ -66,6 +66,6 @@ void simulator_go_on_resizing(Simulator *simulator)
     simulator->resized_time = info.time;
     simulator_cut_for(simulator, &command, 1);
     simulator_obey(simulator, &command);
-    if (simulator->status.messages != messages) /* it says why not */
+    if (simulator->status.messages != messages) /* the message has the reason */
         simulator_stop_resizing(simulator);
 }

@@ -1,4 +1,4 @@
-/* What is due, and where it is done: on a thread of its own, or when the window asks. */
+/* Picks the due work and its thread: the solver's own thread, or the window's thread on request. */
 #include "app/scene/live.h"
 #include "app/session/simulator_state.h"
 
@@ -9,8 +9,8 @@
 #include <string.h>
 #include <time.h>
 
-static const double BEHIND_MS = 100; /* less is caught up with; more is left out */
-static const double MOVE_MS = 2000;  /* a step lasts less, or the simulation is stuck */
+static const double BEHIND_MS = 100; /* shorter delays are caught up; longer ones are skipped */
+static const double MOVE_MS = 2000;  /* limit for one step; beyond, the simulation is stuck */
 
 static void wait_until(Simulator *simulator, double ms)
 {
@@ -20,7 +20,8 @@ static void wait_until(Simulator *simulator, double ms)
     pthread_cond_timedwait(&simulator->changed, &simulator->lock, &until);
 }
 
-/* With the lock held: whether a frame is due now; else until when there is nothing to do, wall time, ms. */
+/* True if a frame is due now; otherwise `until` gets the wall time of the next work, ms. Call with the lock
+   held. */
 static bool frame_due(Simulator *simulator, double *until)
 {
     const double now = wall_ms();
@@ -52,7 +53,8 @@ static void take_save(Simulator *simulator, Work *work)
     memcpy(work->save_path, simulator->save_path, sizeof work->save_path);
 }
 
-/* With the settings that wait, which were asked for before it. Where no step can follow they wait on. */
+/* Takes the wish with the waiting settings, requested before. The settings keep waiting after a failure, as
+   no step can follow. */
 void simulator_take_wish(Simulator *simulator, Work *work)
 {
     command_queue_drop_hand(&simulator->queue);
@@ -65,11 +67,11 @@ void simulator_take_wish(Simulator *simulator, Work *work)
         simulator->taken = simulator->sent;
     }
     simulator->wish = (Wish){.pending = false};
-    simulator->idle = true; /* time runs on from there */
+    simulator->idle = true; /* time continues from the new place */
 }
 
-/* With the lock held: one thing to do, in the order in which it was asked for; a save is done even at the
-   end. False when there is nothing: until then, wall time, ms. */
+/* Finds one piece of work, in the order of requests; a save is done even at the end. Returns false if there
+   is none; `until` gets the wall time to wait for, ms. Call with the lock held. */
 static bool find_work(Simulator *simulator, Work *work, double *until)
 {
     work->reset = work->save = work->frame = work->travel = false;
@@ -92,7 +94,7 @@ static bool find_work(Simulator *simulator, Work *work, double *until)
     return found;
 }
 
-/* Waits for it; false at the end. */
+/* Waits for work; returns false at the end. */
 static bool take_work(Simulator *simulator, Work *work)
 {
     double until;
@@ -129,7 +131,7 @@ static void begin(Simulator *simulator)
         simulator_make_world(simulator);
     simulator_lead_begin(simulator);
     pthread_mutex_lock(&simulator->lock);
-    simulator->idle = true; /* what has passed until now is not caught up with */
+    simulator->idle = true; /* past time is not caught up */
     pthread_mutex_unlock(&simulator->lock);
 }
 
@@ -149,7 +151,7 @@ static void *simulate(void *argument)
     return NULL;
 }
 
-/* Signals are for the thread of the window. */
+/* Blocks signals in the new thread: the window's thread handles them. */
 static bool start_thread(Simulator *simulator)
 {
     sigset_t all, before;
@@ -160,7 +162,7 @@ static bool start_thread(Simulator *simulator)
     return started;
 }
 
-/* The thread, or the world here. */
+/* Starts the thread, or the world on this thread. */
 static bool start(Simulator *simulator, Error *error)
 {
     simulator->here = simulator->on_gpu = world_on_gpu(&simulator->scene.world);
@@ -229,7 +231,7 @@ Simulator *simulator_create(const SimulatorSetup *setup, Error *error)
     return NULL;
 }
 
-/* What was asked for before is done. */
+/* Completes all earlier requests. */
 static void end_here(Simulator *simulator)
 {
     double until;
@@ -241,8 +243,8 @@ static void end_here(Simulator *simulator)
     simulator->ended = true;
 }
 
-/* Asks the thread to end and waits for it, that long; where it still runs then and that is not `for_good`, it
-   goes on. */
+/* Asks the thread to end and waits at most patience_ms. If the thread still runs and not `for_good`, the
+   thread continues. */
 static bool end(Simulator *simulator, double patience_ms, bool for_good)
 {
     const double until = wall_ms() + patience_ms;
@@ -296,7 +298,7 @@ double simulator_work(Simulator *simulator, double budget_ms)
     return 0;
 }
 
-/* No world could be made: the session begins with that setting. */
+/* Without a world: the session starts with the setting. */
 static void start_with(Simulator *simulator, const char *setting, Error *error)
 {
     simulator->status.failed = false;
@@ -325,7 +327,8 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
         simulator_cut_for(simulator, &now, 1);
         simulator_obey(simulator, &now);
         simulator->on_gpu = world_on_gpu(&simulator->scene.world);
-        if (strcmp(before, simulator->scene.world.backend) != 0) { /* no way back from there */
+        if (strcmp(before, simulator->scene.world.backend) !=
+            0) { /* no way back across a change of backend */
             simulator_past_begin(simulator);
             simulator_past_keep(simulator);
         }

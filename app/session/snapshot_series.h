@@ -1,4 +1,4 @@
-/* Snapshots of a session at regular times: what `run` and `replay` write. */
+/* Snapshots of a session at regular times: output of `run` and `replay`. */
 #ifndef SLOSH_SNAPSHOT_SERIES_H
 #define SLOSH_SNAPSHOT_SERIES_H
 
@@ -6,22 +6,22 @@
 #include "app/session/session.h"
 
 typedef struct SnapshotSeries {
-    Snapshot *file; /* not owned; NULL: none is written */
+    Snapshot *file; /* not owned; NULL: no snapshots */
     double every;   /* s, more than 0 */
-    double next;    /* multiple of `every` that is due next */
+    double next;    /* next due multiple of `every` */
 } SnapshotSeries;
 
-/* Appends the present state if it is the first one at or after the multiple of `every` that is due. False
-   with the reason: the file could not take it. */
+/* Appends the present state if it is the first at or after the due multiple of `every`. Returns false with
+   the reason if writing fails. */
 bool snapshot_series_add(SnapshotSeries *series, const Session *session, Error *error);
 
-/* After a failure: says on standard error what whole snapshots `path` holds. NULL is allowed. */
+/* After a failure: reports the whole snapshots in `path` on standard error. NULL is allowed. */
 void snapshot_series_left(const Snapshot *file, const char *path);
 
-/* Whether `path` is a name for snapshots, FILE.h5part: ParaView knows the format by it. */
+/* True if `path` is a valid name for snapshots, FILE.h5part: ParaView finds the format by this suffix. */
 bool snapshot_series_name(const char *path, Error *error);
 
-/* Goes on behind the present state, which the file has. */
+/* Continues after the present state, which the file already has. */
 void snapshot_series_resume(SnapshotSeries *series, const Session *session);
 
 #endif

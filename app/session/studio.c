@@ -19,7 +19,7 @@ void studio_close(Studio *studio)
     renderer_destroy(studio->renderer);
 }
 
-/* The world's state as the view reads it. */
+/* Gets the world's state for the view. */
 static bool take(Studio *studio, World *world, StageClock *clock, GlTimer *timer, ParticleBuffers *particles,
                  Error *error)
 {
