@@ -34,7 +34,7 @@ void advise(const Tree *tree, const char *path, Notes *notes, const char *format
 
 enum { NEED_SIZE = 128 };
 
-/* A method without sound reads no speed of it; those that do, where the scene's is such a one. */
+/* True for solver.sound_speed if the scene's method has no sound; `need` gets the methods that read it. */
 static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZE])
 {
     const Method *own = method_find(scene->world.method);
@@ -49,7 +49,7 @@ static bool lacks_sound(const Scene *scene, const char *path, char need[NEED_SIZ
     return true;
 }
 
-/* What of the picture by a scalar a key is about: a flag of ViewKind.curves; else 0. */
+/* Flag of ViewKind.curves for a key of opacities or sizes; 0 for other keys. */
 static unsigned curve_of(const char *path)
 {
     return strncmp(path, "view.opacity.", strlen("view.opacity.")) == 0 ? VIEW_OPACITY
@@ -66,7 +66,7 @@ static void views_that_draw(unsigned curve, char need[NEED_SIZE])
                                length > 0 ? " or " : "view.kind: ", view_at(i)->name);
 }
 
-/* Some views have no use for sizes or opacities of particles. */
+/* True if the view does not use sizes or opacities of particles, as set by the key. */
 static bool lacks_view(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
     const unsigned curve = curve_of(path);
@@ -85,7 +85,7 @@ static bool lacks_view(const Scene *scene, const char *path, bool said, char nee
 
 static bool lacks_in_views(const Scene *scene, const char *path, bool said, char need[NEED_SIZE]);
 
-/* Whether the key at `path` has no effect, and what the scene lacks for it. */
+/* True if the key at `path` has no effect; `need` gets the missing condition. */
 static bool lacks(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
     const Key *key = scene_key_find(path);
@@ -100,7 +100,7 @@ static bool lacks(const Scene *scene, const char *path, bool said, char need[NEE
     return true;
 }
 
-/* Of an entry of views: as if that were the view. */
+/* Treats an entry of views as the scene's only view. */
 static bool lacks_in_views(const Scene *scene, const char *path, bool said, char need[NEED_SIZE])
 {
     const int index = (int)strtol(strchr(path, '[') + 1, NULL, 10);
@@ -128,7 +128,7 @@ void scene_unused(const Scene *scene, const char *path, Notes *notes)
         notes_add(notes, NO_EFFECT, path, need);
 }
 
-/* Down to each key that holds a value, with its path as people write it. */
+/* Visits each key with a value; paths are as people write them. */
 static void walk(const Tree *tree, const Node *node, const char *path, const Scene *scene, Notes *notes)
 {
     int index = 0;

@@ -1,5 +1,4 @@
-/* What a scene says that has no effect or will not hold, though nothing in it is wrong: lines for the user.
- */
+/* Advice for the user: valid settings of a scene that have no effect or will not hold. */
 #ifndef SLOSH_SCENE_ADVISE_H
 #define SLOSH_SCENE_ADVISE_H
 
@@ -7,29 +6,29 @@
 #include "app/scene/scene.h"
 #include "app/yaml/tree.h"
 
-/* Adds a line to `notes` for each such setting of a scene that was read and checked. `tree` is what it was
-   read from, so that a line begins with "file:line:column: "; NULL, for a scene whose keys changed while it
-   runs: then lines begin with the key's path. */
+/* Adds a line to `notes` for each such setting of a scene that was read and checked. `tree` is the source of
+   the scene, for lines that begin with "file:line:column: ". A NULL tree, for keys changed at run time, gives
+   lines that begin with the key's path. */
 void scene_advise(const Tree *tree, const Scene *scene, Notes *notes);
 
-/* Puts a speed of sound and substeps that fit the scene in the place of defaults that do not, and says so.
-   What the scene, the command line or a preset names stays. The spacing is the final one. */
+/* Replaces defaults of the sound speed and the substeps that do not fit the scene, and reports the change.
+   Values set by the scene, the command line or a preset stay. The spacing must be final. */
 void scene_fit_step(const Tree *tree, Scene *scene, Notes *notes);
 
-/* The same of settings without effect, since what reads them is not in use: the keys that stand in `tree`,
-   with their rows' owners. These lines come first in `notes`, and last as long as the scene does. */
+/* Adds lines for settings without effect because their owner is not in use: the keys in `tree`, with the
+   owners of their rows. Such lines come first in `notes`, and live as long as the scene. */
 void scene_advise_unused(const Tree *tree, const Scene *scene, Notes *notes);
 
-/* The same of one key that is set while the scene runs. */
+/* Adds a line if a key set at run time has no effect. */
 void scene_unused(const Scene *scene, const char *path, Notes *notes);
 
-/* A check: asks the scene and adds its lines. */
+/* A check: examines the scene and adds lines. */
 typedef void Advice(const Tree *tree, const Scene *scene, Notes *notes);
 
-/* Fills of few layers, and fluids of which the lattice has another mass than their fills. */
+/* Warns of thin fills, and of fluids with a mass different from their fills' mass. */
 Advice advise_fills;
 
-/* For the checks: a line about the setting at `path`, with its place where the tree has it. */
+/* For the checks: adds a line about the setting at `path`, with its place if the tree has the key. */
 void advise(const Tree *tree, const char *path, Notes *notes, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 

@@ -1,4 +1,4 @@
-/* What fills became: particles of a lattice. */
+/* Checks the lattice of particles made from fills. */
 #include "app/scene/advise.h"
 #include "sim/base/formula.h"
 #include "sim/matter/balance.h"
@@ -12,7 +12,7 @@
 
 enum { LAYERS_FEW = 4 };
 
-/* What is not worth a line; of balls and cylinders no lattice has the mass to the last particle. */
+/* Relative mass errors not worth a line; balls and cylinders never match a lattice to the last particle. */
 static const double mass_off = 1e-3, mass_off_round = 1e-2;
 
 static bool bounds_meet(const WorldDef *world, const double low[3], const double high[3], const Fill *other)
@@ -39,8 +39,8 @@ static bool meets_solid(const WorldDef *world, const double low[3], const double
     return false;
 }
 
-/* What the fills of a fluid hold, m3 or m2; 0: they share their place with other fills or solids, or end at a
-   formula, and nobody has said. */
+/* Volume of a fluid's fills, m3 or m2; 0 if unknown: fills that overlap fills or solids, or that end at a
+   formula. */
 static double volume_of(const WorldDef *world, int f)
 {
     double volume = 0;
@@ -81,7 +81,7 @@ static void advise_mass(const Tree *tree, const WorldDef *world, int f, size_t c
                fluid->name, 100 * fabs(more), more > 0 ? "more" : "less", count);
 }
 
-/* How thick a block is along its thinnest axis and along its longest, in spacings. */
+/* Thickness of a block along its thinnest and its longest axis, in spacings. */
 static void thickness(const WorldDef *world, const Fill *block, double *least, double *most)
 {
     *least = INFINITY;
@@ -93,7 +93,7 @@ static void thickness(const WorldDef *world, const Fill *block, double *least, d
     }
 }
 
-/* Not of a block of one particle: who places that means it. */
+/* Warns of thin blocks, except a block of a single particle, which is surely intended. */
 static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *notes)
 {
     for (int i = 0; i < world->fluids[f].fill_count; i++) {
@@ -112,13 +112,13 @@ static void advise_thin(const Tree *tree, const WorldDef *world, int f, Notes *n
     }
 }
 
-/* Where the table's edges have to stand for what is beyond them. */
+/* Warns if the fluid extends beyond the table: edge values apply there. */
 static void advise_beyond(const Tree *tree, const char *path, const WorldDef *world, const FieldTable *table,
                           const double low[3], const double high[3], Notes *notes)
 {
     for (int k = 0; k < 3; k++) {
         if (k >= world->dimensions || table->count[k] < 2)
-            continue; /* nothing depends on it */
+            continue; /* no dependence on this axis */
         const double first = table->place[k][0], last = table->place[k][table->count[k] - 1];
         /* the outermost particles are half a spacing from the faces */
         if (low[k] + 0.5 * world->spacing < first - 1e-6 * world->spacing ||
@@ -165,7 +165,7 @@ static void advise_start(const Tree *tree, const WorldDef *world, const size_t c
                "%zu particles start at rest, not in balance: that is for %d at most", count, BALANCE_MOST);
 }
 
-/* All that there is, and nothing comes. */
+/* Warns of a single particle without emitters. */
 static void advise_lone(const Tree *tree, const WorldDef *world, const size_t counts[], Notes *notes)
 {
     size_t count = 0;
@@ -184,7 +184,7 @@ void advise_fills(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *world = &scene->world;
     size_t counts[FLUIDS_MAX];
-    if (!tree || !notes) /* of the start alone */
+    if (!tree || !notes) /* for the start only */
         return;
     seed_counts(world, counts);
     advise_start(tree, world, counts, notes);

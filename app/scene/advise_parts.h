@@ -1,10 +1,10 @@
-/* The checks that scene_advise lists. */
+/* Checks called by scene_advise. */
 #ifndef SLOSH_SCENE_ADVISE_PARTS_H
 #define SLOSH_SCENE_ADVISE_PARTS_H
 
 #include "app/scene/advise.h"
 
-/* That fluid may come to, by what it starts with and its fall, m/s. */
+/* Greatest expected speed of the fluid, from the start and the fall, m/s. */
 double scene_greatest_speed(const WorldDef *def);
 
 void advise_step(const Tree *tree, const Scene *scene, Notes *notes);

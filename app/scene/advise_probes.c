@@ -1,4 +1,4 @@
-/* Sensors that are finer than the fluid; forces that a backend does not sum. */
+/* Warns of sensors finer than the fluid, and of forces that a backend does not sum. */
 #include "app/scene/advise_parts.h"
 #include "sim/world/backend.h"
 

@@ -1,4 +1,4 @@
-/* Solids that fluid may be on the other side of within a step; what is in the way of something else. */
+/* Warns of solids that fluid may cross within a step, and of overlaps. */
 #include "app/scene/advise_parts.h"
 #include "app/scene/check.h"
 #include "sim/body/bodies.h"
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* How fast the scene's motions shake, rock and spin the box at most, at its corners, m/s. */
+/* Greatest speed of the box's corners by the scene's shake, rock and spin motions, m/s. */
 static double greatest_shaking(const WorldDef *def)
 {
     const double *size = def->box_size,
@@ -21,7 +21,7 @@ static double greatest_shaking(const WorldDef *def)
     return sum;
 }
 
-/* What the force on a solid leaves out: sim/matter/forces.h. */
+/* Warns of parts left out of the force on a solid: sim/matter/forces.h. */
 static void advise_floating(const Tree *tree, const WorldDef *def, Notes *notes)
 {
     for (int k = 0; k < def->solid_count; k++) {
@@ -35,7 +35,8 @@ static void advise_floating(const Tree *tree, const WorldDef *def, Notes *notes)
     }
 }
 
-/* On a hinge an overlap stays, and is mostly meant: an axle in its bearing. */
+/* Warns of an overlap at the start. Not for hinged solids: their overlap stays, and is mostly intended, like
+   an axle in its bearing. */
 static void advise_overlap(const Tree *tree, const SolidDef *solid, int k, const BodyOverlap *overlap,
                            Notes *notes)
 {
@@ -64,7 +65,8 @@ static void advise_overlaps(const Tree *tree, const WorldDef *def, Notes *notes)
         BodyOverlap overlap;
         const double *axis = def->solids[k].hinge_axis;
         if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0 && bodies_overlap(bodies, k, &overlap) &&
-            !(overlap.other > k && solid_floats(&def->solids[overlap.other]))) /* which says it */
+            !(overlap.other > k &&
+              solid_floats(&def->solids[overlap.other]))) /* the other solid reports this overlap */
             advise_overlap(tree, &def->solids[k], k, &overlap, notes);
     }
     bodies_destroy(bodies);
@@ -83,8 +85,8 @@ static void advise_emitters(const Tree *tree, const WorldDef *def, Notes *notes)
                 }
 }
 
-/* A solid holds what it finds within itself at the end of a step; what a step has carried over it, it does
-   not see. The box's walls are the end of the world, and hold whatever comes. */
+/* A solid acts only on particles within itself at the end of a step, so fluid carried across a thin solid in
+   one step is missed. The box's walls hold all fluid, as nothing is beyond. */
 void advise_solids(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *def = &scene->world;

@@ -1,4 +1,4 @@
-/* Whether the step fits what a scene asks for: friction, sound and tension, by sim/world/step_control.h. */
+/* Checks the step against friction, sound and tension, by sim/world/step_control.h. */
 #include "app/scene/advise_parts.h"
 #include "sim/matter/fall.h"
 #include "sim/matter/fill.h"
@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* What binds the step by friction, as a key and its value. */
+/* Writes the setting whose friction limits the step, as key and value. */
 static void name_friction(const WorldDef *most, const StepFriction *friction, char name[64])
 {
     const StepFriction laminar = {.laminar = friction->laminar};
@@ -26,7 +26,7 @@ static double substeps_for(const WorldDef *def, double step)
     return ceil(def->dt / step * (1 - 1e-9));
 }
 
-/* Friction, where it is what binds. */
+/* Warns if the step exceeds the limit by friction. */
 static void advise_viscous(const Tree *tree, const WorldDef *def, const StepFriction *friction, Notes *notes)
 {
     const double step = def->dt / def->substeps, stands = STEP_VISCOUS_STANDS * step_viscous(def, friction);
@@ -100,7 +100,7 @@ static double greatest_start(const WorldDef *def)
     return speed;
 }
 
-/* Where the fills of a fluid end against gravity, and with it, as the product with `up`, m. */
+/* Lowest and highest ends of a fluid's fills along `up`, m. */
 static void ends_along(const FluidDef *fluid, const double up[3], double *bottom, double *top)
 {
     *bottom = INFINITY;
@@ -117,7 +117,8 @@ static void ends_along(const FluidDef *fluid, const double up[3], double *bottom
     }
 }
 
-/* Pa, that heavier fluids may put on a fluid: where it reaches lower than they do. */
+/* Greatest pressure of heavier fluids on a fluid, Pa: of their columns higher than the bottom of the
+   fluid. */
 static double borne(const WorldDef *def, int f, const double gravity[3])
 {
     const double g = sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
@@ -153,7 +154,8 @@ void advise_borne(const Tree *tree, const Scene *scene, Notes *notes)
     }
 }
 
-/* Cohesion pulls within the fluid too, by some 5 sigma / spacing: drops of 552 particles, at 0.4 to 6 %. */
+/* Cohesion also compresses the fluid itself, by about 5 sigma / spacing: drops of 552 particles, compressed
+   by 0.4 to 6 %. */
 void advise_cohesion(const Tree *tree, const Scene *scene, Notes *notes)
 {
     static const double pull = 5, much = 0.03, good = 0.01; /* of sigma / spacing; compressions */
@@ -180,7 +182,7 @@ double scene_greatest_speed(const WorldDef *def)
     return sqrt(start * start + 2 * g * greatest_fall(def));
 }
 
-/* The step, or what mode cfl will make of it, s. */
+/* The step, or the expected step of mode cfl, s. */
 static double step_expected(const WorldDef *def, double speed)
 {
     return def->step_mode == STEP_FIXED
@@ -188,11 +190,11 @@ static double step_expected(const WorldDef *def, double speed)
                : fmin(def->cfl_number * def->support * def->spacing / (step_sound(def) + speed), def->max_dt);
 }
 
-/* A place is in single precision from the box's origin, and moves by v dt / 2 at a time: less than half of
-   what its last bit is worth rounds to nothing. */
+/* Positions are in single precision from the box's origin, and move by v dt / 2 at a time: moves of less than
+   half the last bit round to nothing. */
 void advise_places(const Tree *tree, const Scene *scene, Notes *notes)
 {
-    static const double much = 0.01; /* of the flow's speed */
+    static const double much = 0.01; /* as a fraction of the flow's speed */
     const WorldDef *def = &scene->world;
     const double *size = def->box_size, speed = scene_greatest_speed(def), step = step_expected(def, speed);
     const double far = fmax(size[1], 0.5 * fmax(size[0], def->dimensions == 2 ? 0 : size[2]));
@@ -207,7 +209,8 @@ void advise_places(const Tree *tree, const Scene *scene, Notes *notes)
 
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
 {
-    static const double least = 1.75, good = 3; /* of c over the speed of the flow: pressed by 18 and 6 % */
+    static const double least = 1.75,
+                        good = 3; /* c over the speed of the flow, for compressions of 18 and 6 % */
     const WorldDef *def = &scene->world;
     const double c = def->sound_speed, speed = scene_greatest_speed(def);
     if (!method_find(def->method)->incompressible && c < least * speed)

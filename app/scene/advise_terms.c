@@ -1,4 +1,4 @@
-/* Settings that do not go together: walls that hold what has no friction, and what the method says. */
+/* Warns of incompatible settings: frictional walls with a frictionless fluid, and warnings of the method. */
 #include "app/scene/advise_parts.h"
 #include "app/scene/preset.h"
 #include "sim/world/method.h"
@@ -31,7 +31,7 @@ void advise_slip(const Tree *tree, const Scene *scene, Notes *notes)
     }
 }
 
-/* A scene to which the method's advice is given. */
+/* Context of the method's advice. */
 typedef struct Asked {
     const Tree *tree;
     const Scene *scene;

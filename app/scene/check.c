@@ -19,8 +19,8 @@ static bool check_range(const Check *check, const char *view, const char *key, b
     return true;
 }
 
-/* The first scalar that the view reads and no state of the world has; SCALAR_COUNT: none. Accelerations are
-   there where somebody asks. */
+/* The first scalar read by the view that no state of the world has; SCALAR_COUNT: none. Accelerations always
+   exist, as they are computed on request. */
 static Scalar missing_scalar(const ViewDef *view, const WorldDef *world)
 {
     const uint32_t lacks = renderer_attributes(view) & (PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1) &
@@ -32,7 +32,7 @@ static Scalar missing_scalar(const ViewDef *view, const WorldDef *world)
     return s < SCALAR_STATE_COUNT ? (Scalar)s : SCALAR_COUNT;
 }
 
-/* Which key names it. */
+/* The view's key that names the scalar. */
 static const char *key_of(const ViewDef *view, Scalar scalar)
 {
     return view_color_by(view) == scalar                                        ? "color_by"
@@ -72,7 +72,7 @@ static bool check_view(const Check *check, const char *path, const ViewDef *view
     return true;
 }
 
-/* What an entry among several alone may say: whose states it shows. */
+/* Checks the keys for the source of states, allowed only in entries of `views`. */
 static bool check_source(const Check *check, const char *path, const ViewDef *view)
 {
     char key[64];
@@ -108,7 +108,7 @@ static bool check_sources(const Check *check)
                 "each entry of views has a `file`; leave it out of one, which shows the scene");
 }
 
-/* The keyframes of a camera, one after another. */
+/* Checks the camera's keyframes in order. */
 static bool check_path(const Check *check, const char *path, const ViewDef *view)
 {
     for (int i = 0; i < view->camera_path_count; i++) {

@@ -58,7 +58,7 @@ bool scene_check_motion(const Check *check, const char *list, int m, const Motio
     return true;
 }
 
-/* Periodic sides: wide enough, without turns, with solids clear of them. */
+/* Checks periodic sides: wide enough, no turns of the box, no solids across. */
 bool scene_check_periodic(const Check *check)
 {
     const WorldDef *world = &check->scene->world;

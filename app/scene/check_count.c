@@ -1,4 +1,4 @@
-/* What the machine can hold, and what there is to hold. */
+/* Checks counts of particles and cells against the machine's memory. */
 #include "app/base/physical.h"
 #include "app/scene/check_parts.h"
 #include "render/frame/overlay.h"
@@ -23,7 +23,7 @@ double scene_fluid_volume(const Scene *scene)
     return volume;
 }
 
-/* Points of the lattice that counting walks over: those of the block around each fill. */
+/* Count of lattice points visited by counting: the points of the block around each fill. */
 static double points_walked(const WorldDef *world, double spacing)
 {
     double sum = 0;
@@ -53,7 +53,7 @@ bool scene_fits_memory(double particles)
     return particles < 0x1p31 && particles * BYTES_A_PARTICLE < physical_bytes();
 }
 
-/* The grid of cells of side h covers the whole box, however little of it is filled. */
+/* Checks the count of cells of side h, which cover the whole box, filled or not. */
 static bool check_cells(const Check *check)
 {
     const WorldDef *world = &check->scene->world;
@@ -77,14 +77,15 @@ bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Er
         for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
             most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions));
     most /= pow(spacing, scene->world.dimensions);
-    if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can only lose so much of this many */
+    if (!scene_fits_memory(
+            0.5 * most)) /* half: rounding to the lattice can lose at most half of so many particles */
         return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
-    if (points_walked(&scene->world, spacing) > 0x1p30) /* a wide fill thinner than a spacing, say */
+    if (points_walked(&scene->world, spacing) > 0x1p30) /* for example a wide fill thinner than a spacing */
         return too_many(&check, points_walked(&scene->world, spacing));
     return true;
 }
 
-/* Boundary particles stand in memory as the `fluid` ones do. */
+/* Checks memory for boundary particles, stored with the `fluid` particles. */
 static bool check_boundary(const Check *check, size_t fluid)
 {
     const WorldDef *world = &check->scene->world;
@@ -100,7 +101,7 @@ static bool check_boundary(const Check *check, size_t fluid)
                sum);
 }
 
-/* `path`: of the view in the scene, where its own keys say "view". */
+/* Checks a view; `path` is the view's place in the scene, for its keys, which begin with "view". */
 static bool check_view(const Check *check, const char *path, const ViewDef *view)
 {
     const ViewKind *kind = view_find(view->kind);

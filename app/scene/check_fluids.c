@@ -30,7 +30,7 @@ static bool check_block(const Check *check, const Fill *fill, const char *path)
     return true;
 }
 
-/* A ball, a cylinder or a mesh. */
+/* Checks a ball, a cylinder or a mesh. */
 static bool check_round(const Check *check, const Fill *fill, const char *path)
 {
     const char *shape = fill->kind == FILL_BALL ? "ball" : fill->kind == FILL_MESH ? "mesh" : "cylinder";
@@ -45,7 +45,7 @@ static bool check_round(const Check *check, const Fill *fill, const char *path)
     return true;
 }
 
-/* Of the solids that stand still. */
+/* Checks that a point is outside all solids at rest. */
 static bool check_out_of_solids(const Check *check, const char *path, const double x[3])
 {
     const WorldDef *world = &check->scene->world;
@@ -91,7 +91,7 @@ static bool check_formula(const Check *check, const char *path, const char *text
            FAIL(check, path, "%s", error.message);
 }
 
-/* Heights and velocities. */
+/* Checks formulas of heights and velocities. */
 static bool check_formulas(const Check *check, int f)
 {
     const FluidDef *fluid = &check->scene->world.fluids[f];

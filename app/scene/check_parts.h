@@ -1,46 +1,46 @@
-/* Inside scene_check: the check of each part of a scene, one file each. */
+/* Private to scene_check: checks of the parts of a scene, one file each. */
 #ifndef SLOSH_SCENE_CHECK_PARTS_H
 #define SLOSH_SCENE_CHECK_PARTS_H
 
 #include "app/scene/check.h"
 
-/* A scene under examination. */
+/* A scene to check. */
 typedef struct Check {
     const Tree *tree;
     const Scene *scene;
     Error *error;
 } Check;
 
-/* Points at the node of `path`, or at the nearest that is there. */
+/* Reports an error at the node of `path`, or at the nearest existing node. */
 #define FAIL(check, path, ...)                                                                               \
     tree_error((check)->tree, tree_near((check)->tree, path), (check)->error, __VA_ARGS__)
 
-/* check_box.c: places and directions in the box, its motions, its periodic sides, its lid. */
+/* check_box.c: places and directions in the box, motions, periodic sides, the lid. */
 char scene_axis_name(int k);
-/* Whether low..high on axis k lies between the walls, up to rounding. */
+/* True if low..high on axis k lies between the walls, up to rounding. */
 bool scene_between_walls(const Check *check, const char *path, int k, double low, double high);
 bool scene_check_axis(const Check *check, const char *path, const double axis[3]);
-/* In two dimensions nothing may point out of the plane. */
+/* In two dimensions vectors must lie in the plane. */
 bool scene_check_plane(const Check *check, const char *path, const double v[3]);
 double scene_clamp_to_box(const Check *check, int k, double x);
-/* How far the point is from the box, m. */
+/* Distance of the point from the box, m. */
 double scene_outside_box(const Check *check, const double x[3]);
 bool scene_check_motion(const Check *check, const char *list, int m, const Motion *motion);
 bool scene_check_periodic(const Check *check);
 bool scene_check_lid(const Check *check);
 
-/* check_fluids.c: what fluids fill, where they come in and go. */
+/* check_fluids.c: fills, emitters and drains. */
 bool scene_check_fluid(const Check *check, int f);
 bool scene_check_drain(const Check *check, int index);
 
 /* check_solids.c */
 bool scene_check_solid(const Check *check, int index);
-/* Fluid on both sides of what is thinner than a spacing would be one fluid. */
+/* Solids must not be thinner than a spacing: fluid on both sides would act as one fluid. */
 bool scene_check_widths(const Check *check);
 
 /* check_probes.c */
 bool scene_check_probe(const Check *check, int index);
-/* Metrics that read probes need some. */
+/* Metrics of probes need probes. */
 bool scene_check_metrics(const Check *check);
 
 #endif

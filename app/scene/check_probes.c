@@ -1,4 +1,4 @@
-/* Probes: names that columns can be called by, places where fluid can be. */
+/* Checks probes: column names, and places reachable by fluid. */
 #include "app/metric/metric_list.h"
 #include "app/probe/probe.h"
 #include "app/scene/check_parts.h"
@@ -29,7 +29,8 @@ static bool has_column(const ProbeDef *probe, const char *name)
     return false;
 }
 
-/* Place 1 of a line `wall` is called wall_1, as something else may be. */
+/* Column names must differ: place 1 of a line `wall` is named wall_1, a possible name of a different
+   probe. */
 static bool check_columns(const Check *check, const char *path, int index)
 {
     const ProbeDef *own = &check->scene->probes.probe[index];
@@ -64,7 +65,7 @@ static bool check_name(const Check *check, int index)
     return check_columns(check, path, index);
 }
 
-/* How deep in a solid that does not move, m; less than 0: in none. */
+/* Depth of the point in a solid at rest, m; less than 0: outside all solids. */
 static double depth_in_solids(const WorldDef *world, const double x[3])
 {
     const float at[3] = {(float)x[0], (float)x[1], (float)x[2]};
@@ -97,7 +98,7 @@ static bool check_place(const Check *check, const char *path, const double x[3])
     return true;
 }
 
-/* The corners of a plane; its middle, by whose key it is told. */
+/* Checks the corners of a plane; errors point at the key of its middle. */
 static bool check_plane(const Check *check, const char *path, const ProbeDef *probe)
 {
     char side[80];

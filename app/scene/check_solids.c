@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* In two dimensions solids stay in the plane. */
+/* In two dimensions solids must lie in the plane. */
 static bool check_solid_plane(const Check *check, const SolidDef *solid, const char *path)
 {
     char key[96];
@@ -22,7 +22,7 @@ static bool check_solid_plane(const Check *check, const SolidDef *solid, const c
     return scene_check_plane(check, key, solid->centre);
 }
 
-/* What moves by the fluid has no other motion, and a hinge holds nothing else. */
+/* A floating solid must not have its own motion, and only a floating solid may have a hinge. */
 static bool check_floating(const Check *check, const SolidDef *solid, const char *path)
 {
     const WorldDef *world = &check->scene->world;

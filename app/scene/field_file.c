@@ -10,7 +10,7 @@ enum { AXES = 3, COLUMNS = AXES + FIELD_TABLE_COLUMNS, CELL_SIZE = 64, ROWS_MAX 
 const FieldFileKind field_file_heights = {"xz", {"height"}, "m", "x, z; height"};
 const FieldFileKind field_file_velocities = {"xyz", {"vx", "vy", "vz"}, "m/s", "x, y, z; vx, vy, vz"};
 
-/* Coordinates first, then quantities. */
+/* Coordinates, then quantities. */
 typedef struct Row {
     int line;
     double cell[COLUMNS];
@@ -20,7 +20,7 @@ typedef struct Reader {
     const char *path, *at, *end;
     const FieldFileKind *kind;
     int line;
-    int columns, meaning[COLUMNS]; /* of each column: its place in a row */
+    int columns, meaning[COLUMNS]; /* index in a row for each column */
     bool has[COLUMNS];
     Row *rows;
     size_t count, room;
@@ -35,7 +35,7 @@ static bool no_memory(const Reader *r)
     return error_set(r->error, "%.300s: no memory for its table; name a smaller one", r->path);
 }
 
-/* The next line that counts, without its end; false behind the last one. */
+/* Finds the next line with content, without its end; false after the last line. */
 static bool next_line(Reader *r, const char **line, const char **end)
 {
     while (r->at < r->end) {
@@ -52,7 +52,7 @@ static bool next_line(Reader *r, const char **line, const char **end)
     return false;
 }
 
-/* The cell at `*at`, without spaces about it, and *at behind its comma: NULL behind the last one. */
+/* Copies the cell at `*at` without outer spaces, and moves *at after its comma; NULL after the last cell. */
 static bool next_cell(const Reader *r, const char **at, const char *end, char cell[CELL_SIZE])
 {
     const char *comma = memchr(*at, ',', (size_t)(end - *at)), *begin = *at, *stop = comma ? comma : end;
@@ -72,7 +72,7 @@ static bool next_cell(const Reader *r, const char **at, const char *end, char ce
 
 /* --- the names of the columns --- */
 
-/* The place of a named column in a row; -1: the kind has none of that name. */
+/* Index of a named column in a row; -1: unknown name. */
 static int meaning_of(const FieldFileKind *kind, const char *name)
 {
     if (name[0] && !name[1] && strchr(kind->axes, name[0]))
@@ -83,7 +83,7 @@ static int meaning_of(const FieldFileKind *kind, const char *name)
     return -1;
 }
 
-/* "x (m)" or "x". */
+/* Adds a column named "x (m)" or "x". */
 static bool add_column(Reader *r, char *cell)
 {
     char *open = strchr(cell, '('), *close = open ? strchr(open, ')') : NULL;
@@ -178,7 +178,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* The planes across an axis: each place that some row has. */
+/* Collects the planes across an axis: each distinct coordinate of a row. */
 static bool find_planes(const Reader *r, FieldTable *table, int axis)
 {
     double *place = malloc((r->count + 1) * sizeof *place);
@@ -212,7 +212,7 @@ static size_t index_of(const FieldTable *table, const Row *row)
     return index;
 }
 
-/* Of the coordinates that the table has: "x 0.5, z 0". */
+/* Writes the coordinates of the table's axes: "x 0.5, z 0". */
 static void place_words(const Reader *r, const double at[AXES], char words[128])
 {
     int used = 0;
@@ -231,7 +231,7 @@ static bool missing(const Reader *r, const double at[AXES], const int planes[AXE
                      words, planes[0], planes[1], planes[2]);
 }
 
-/* False with the first place that has no row. */
+/* Returns false and reports the first place without a row. */
 static bool is_full(const Reader *r, const FieldTable *table, const int *line)
 {
     for (int z = 0; z < table->count[2]; z++)
@@ -243,7 +243,7 @@ static bool is_full(const Reader *r, const FieldTable *table, const int *line)
     return true;
 }
 
-/* Rows to their places; `line` is of the row at each, 0: none yet. */
+/* Stores rows at their places; `line` has the line number of each place's row, 0: none yet. */
 static bool place_rows(const Reader *r, FieldTable *table, int *line)
 {
     char words[128];
@@ -270,7 +270,7 @@ static bool make_grid(const Reader *r, FieldTable *table)
             return false;
         places *= table->count[k];
     }
-    if (places > 2.0 * ROWS_MAX) /* far more than there are rows */
+    if (places > 2.0 * ROWS_MAX) /* far more places than rows */
         return error_set(r->error,
                          "%.300s: is no grid: its %zu rows have %d places in x, %d in y, %d in z; write a "
                          "row for each place of a grid",
@@ -302,7 +302,7 @@ static bool read_all(Reader *r, FieldTable *table)
 FieldTable *field_file_parse(const char *path, const char *bytes, size_t size, const FieldFileKind *kind,
                              Error *error)
 {
-    static const char mark[] = "\xef\xbb\xbf"; /* that some programs begin UTF-8 with */
+    static const char mark[] = "\xef\xbb\xbf"; /* byte order mark, which some programs write before UTF-8 */
     const size_t skip = size >= 3 && memcmp(bytes, mark, 3) == 0 ? 3 : 0;
     Reader r = {.path = path, .at = bytes + skip, .end = bytes + size, .kind = kind, .error = error};
     FieldTable *table = calloc(1, sizeof *table);

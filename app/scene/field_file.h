@@ -1,11 +1,10 @@
-/* A table of a quantity over places as a file: CSV. Lines that begin with '#' and empty lines do not count;
-   the first one that does names the columns, in any order, each with its unit in parentheses if at all; each
-   other one is a place of a grid and what is there, in any order:
+/* A table of a quantity over places, as a CSV file. Lines beginning with '#' and empty lines are skipped. The
+   first line names the columns, in any order, each with an optional unit in parentheses. Each further line is
+   a place of a grid and its values, in any order:
 
      x (m), z (m), height (m)
      -0.5, 0, 0.21
-     ...
-*/
+     ... */
 #ifndef SLOSH_FIELD_FILE_H
 #define SLOSH_FIELD_FILE_H
 
@@ -16,8 +15,7 @@
 
 enum { FIELD_FILE_BYTES_MAX = 64 << 20 };
 
-/* What a kind of table may have: coordinates of "xyz", and quantities, of which it needs one each at least.
- */
+/* Columns of a kind of table: coordinates among "xyz", and quantities, of which at least one is required. */
 typedef struct FieldFileKind {
     const char *axes;
     const char *quantity[FIELD_TABLE_COLUMNS], *unit;
@@ -26,7 +24,7 @@ typedef struct FieldFileKind {
 
 extern const FieldFileKind field_file_heights, field_file_velocities;
 
-/* Reads the bytes of a file; pure. NULL with "path:line: what is wrong; what would be right". */
+/* Parses the bytes of a file; pure. Returns NULL with "path:line: the fault; the remedy". */
 FieldTable *field_file_parse(const char *path, const char *bytes, size_t size, const FieldFileKind *kind,
                              Error *error);
 void field_file_free(FieldTable *table); /* NULL is allowed */

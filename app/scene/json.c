@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* "fluids[0].viscosity" as the table has it: "fluids[].viscosity". */
+/* Finds the key of "fluids[0].viscosity", which is "fluids[].viscosity" in the table. */
 static const Key *find_key(const char *path)
 {
     char name[128];
@@ -19,7 +19,7 @@ static const Key *find_key(const char *path)
     return scene_key_find(name);
 }
 
-/* "[x, z]" */
+/* Converts "[x, z]". */
 static json_t *names_json(char *text)
 {
     json_t *names = json_array();
@@ -38,7 +38,7 @@ static json_t *value_json(const Key *key, char *text)
     return value ? value : json_string(text);
 }
 
-/* "path = value unit" */
+/* Adds a line "path = value unit". */
 static void add_line(json_t *settings, char *line)
 {
     char *equals = strstr(line, " = ");

@@ -6,8 +6,9 @@
 
 #include <jansson.h>
 
-/* {"fluids[0].viscosity": {"value": 0.5, "unit": "Pa s"}, ...}: each line of scene_print, numbers and lists
-   as such, all else as text; no unit where there is none. The caller's; NULL when memory is short. */
+/* {"fluids[0].viscosity": {"value": 0.5, "unit": "Pa s"}, ...}: each line of scene_print. Numbers and lists
+   keep their type, other values are text; unitless values have no unit. The caller owns the result; NULL if
+   memory is short. */
 json_t *scene_json(const Scene *scene);
 
 #endif

@@ -1,4 +1,4 @@
-/* The groups of keys, one after another: the table. */
+/* The table of keys, made of the groups of keys in sequence. */
 #include "app/scene/keys.h"
 
 #include "app/metric/metric_list.h"
@@ -20,8 +20,8 @@
 static const KeyOwner chart = {
     .name = "slosh chart", .command = "chart", .need = "slosh chart, which alone reads it"};
 
-/* A scene's own, in the places that they have among the others. Bounds of all keys are wide: they catch slips
-   of the unit and of the sign, not taste. */
+/* The scene's own keys, each group at its place in the table. Bounds of all keys are wide: bounds catch wrong
+   units and signs, not unusual choices. */
 /* clang-format off */
 static const Key title_keys[] = {
     TEXT("title", L | I, sizeof((Scene *)0)->title, offsetof(Scene, title), "the file's name", "what the scene shows"),
@@ -45,7 +45,7 @@ static const Key views_keys[] = {
 };
 /* clang-format on */
 
-/* Where the rows of each owner stand: beside the struct that they fill. */
+/* The rows of each owner are defined beside the struct with their fields. */
 extern const Key box_keys[], fluid_keys[], solid_keys[], solver_keys[], step_keys[],
     box_motion_keys[];                                            /* sim/matter */
 extern const Key preset_keys[];                                   /* app/scene */
@@ -65,7 +65,7 @@ static size_t moved(size_t offset, size_t by)
     return offset == KEY_NOWHERE ? KEY_NOWHERE : offset + by;
 }
 
-/* The mapping that a row stands in; NULL: none. */
+/* The mapping above a row; NULL: none. */
 static const Key *mapping_of(const Key *key)
 {
     const Key *above = NULL;
@@ -78,7 +78,7 @@ static const Key *mapping_of(const Key *key)
     return above;
 }
 
-/* Elements of lists have offsets of their own. */
+/* Adds a row; rows of list elements have offsets within the element. */
 static void table_add(const Key *key, size_t at, const KeyOwner *owner)
 {
     assert(table_count < KEYS_MAX);
@@ -90,7 +90,7 @@ static void table_add(const Key *key, size_t at, const KeyOwner *owner)
     row->aux = moved(key->aux, by);
     row->flags |= above ? above->flags & KEY_IDLE : 0;
     if (!key->owner && !(above && above->owner == owner))
-        row->owner = owner; /* else by the mapping above */
+        row->owner = owner; /* otherwise by the mapping above */
     table_count++;
 }
 
@@ -100,7 +100,7 @@ static void add_rows(const Key *rows, size_t at, const KeyOwner *owner)
         table_add(key, at, owner);
 }
 
-/* The own settings of each method. */
+/* Adds the own settings of each method. */
 static void add_methods(void)
 {
     static KeyOwner owners[METHODS_MAX];
@@ -112,7 +112,7 @@ static void add_methods(void)
     }
 }
 
-/* The own settings of each backend. */
+/* Adds the own settings of each backend. */
 static void add_backends(void)
 {
     static KeyOwner owners[BACKENDS_MAX];
@@ -124,7 +124,7 @@ static void add_backends(void)
     }
 }
 
-/* The own settings of each view. */
+/* Adds the own settings of each view. */
 static void add_views(void)
 {
     static KeyOwner owners[VIEW_KINDS_MAX];
@@ -134,7 +134,7 @@ static void add_views(void)
     }
 }
 
-/* The own settings of each overlay. */
+/* Adds the own settings of each overlay. */
 static void add_overlays(void)
 {
     static KeyOwner owners[OVERLAY_KINDS_MAX];
@@ -147,8 +147,8 @@ static void add_overlays(void)
     }
 }
 
-/* All groups, in the order in which people see them: rows, where the struct that they fill stands in a Scene,
-   and the owner of rows that name none (NULL: whatever the scene is, they are read). */
+/* Adds all groups in display order: rows, offset of their struct in a Scene, and the owner of rows without
+   one (NULL: always read). */
 static void table_make(void)
 {
     const size_t world = offsetof(Scene, world), view = offsetof(Scene, view);
@@ -213,7 +213,7 @@ const KeyOwner *key_owner(const Key *key)
         row = mapping_of(row);
     const KeyOwner *owner = row ? row->owner : NULL;
     const bool decides = owner && owner->key && strcmp(owner->key, key->path) == 0;
-    return decides ? NULL : owner; /* what brings an owner into use is always read */
+    return decides ? NULL : owner; /* the key that selects an owner is always read */
 }
 
 void scene_default(Scene *scene)

@@ -35,7 +35,7 @@ void key_help_text(const Key *key, char *text, size_t size)
     snprintf(text, size, "%s%s%s", owner, *owner ? ": " : "", key->help);
 }
 
-/* Whether a path with indices ([0]) is that of a row, which has none ([]). */
+/* True if a path with indices ([0]) matches the path of a row, which has none ([]). */
 static bool path_matches(const char *row, const char *path)
 {
     while (*row && *row == *path) {
@@ -61,7 +61,7 @@ const Key *key_list_like(const char *path)
     return strncmp(path, views.list, length) == 0 && path[length] == '[' ? scene_key_find(views.list) : NULL;
 }
 
-/* views[1].kind: as view.kind. */
+/* Finds the row for views[1].kind, which is view.kind. */
 static const Key *find_like(const char *path)
 {
     char own[128];

@@ -1,5 +1,5 @@
-/* The one table of the keys that a scene may have (sim/base/key.h): all owners' rows one after another. The
-   loader, `--set`, `slosh info`, the panel and `slosh help keys` are made from it. */
+/* The table of all keys of a scene (sim/base/key.h): the rows of all owners in sequence. The loader, `--set`,
+   `slosh info`, the panel and `slosh help keys` use this table. */
 #ifndef SLOSH_SCENE_KEYS_H
 #define SLOSH_SCENE_KEYS_H
 
@@ -10,40 +10,41 @@
 
 const Key *scene_keys(int *count);
 
-/* The row of a path; indices do not matter: fluids[0].density finds "fluids[].density", views[1].kind the row
-   of "view.kind", which elements of that list have. NULL when unknown. */
+/* The row of a path. Indices do not matter: fluids[0].density finds "fluids[].density", views[1].kind the row
+   of "view.kind", which elements of `views` share. NULL if unknown. */
 const Key *scene_key_find(const char *path);
 
-/* The part of row's path below `parent` when the row stands directly in it ("size" in "box"), else NULL. */
+/* The part of the row's path below `parent` if the row is a direct member ("size" in "box"), otherwise
+   NULL. */
 const char *key_name_in(const Key *key, const char *parent);
 
-/* The list in whose elements a row's member stands, where that is no element of another list: "fluids" of
-   "fluids[].color". NULL: there is none. */
+/* The list with the row as a member of its elements, if the list is outermost: "fluids" for "fluids[].color".
+   NULL: none. */
 const Key *key_list(const Key *key);
 
-/* A list whose elements have no rows of their own but the keys of a mapping, of which each begins as a copy.
- */
+/* A list whose elements have the keys of a mapping instead of rows of their own; each element starts as a
+   copy of the mapping. */
 typedef struct KeyLike {
     const char *list, *mapping;
-    size_t at; /* where the mapping's struct stands in a Scene, before the list */
+    size_t at; /* offset of the mapping's struct in a Scene, which lies before the list */
 } KeyLike;
 
-/* NULL: elements have rows of their own, or it is no list. */
+/* NULL: elements have rows of their own, or the key is no list. */
 const KeyLike *key_like(const Key *list);
 
-/* The list of a path such as "views[1].kind", whose elements have the keys of a mapping; NULL: it is no such
-   path. */
+/* The list of a path such as "views[1].kind", whose elements have the keys of a mapping; NULL: other
+   paths. */
 const Key *key_list_like(const char *path);
 int key_list_count(const Key *list, const Scene *scene);
 size_t key_list_at(const Key *list,
-                   int index); /* what offsets of an element's rows count from in a Scene, bytes */
+                   int index); /* base in a Scene of the offsets of an element's rows, bytes */
 
-/* The owner of a row, its own or of a mapping above it; NULL: whatever the scene is, the key is read. */
+/* The owner of a row, its own or of a mapping above; NULL: the key is always read. */
 const KeyOwner *key_owner(const Key *key);
 
-/* Whether the scene uses it. `said`: by the command line, for this run alone, while a file serves many. The
-   window's user may change live keys, such as the backend, at any time; and a file may say how every view and
-   the chart shall be, for when it comes to that. */
+/* True if the scene uses the owner. `said`: the command line set the key, for this run only. A file, in
+   contrast, serves many runs, and may set up every view and the chart in advance. The window's user may
+   change live keys, such as the backend, at any time. */
 bool key_owner_used(const KeyOwner *owner, const Scene *scene, bool said);
 
 /* "solver.step.mode: cfl" */
@@ -52,37 +53,37 @@ void key_owner_need(const KeyOwner *owner, char *text, size_t size);
 /* "cfl: greatest step" */
 void key_help_text(const Key *key, char *text, size_t size);
 
-/* A scene that says nothing; fluids and motions come from their rows' `init`. */
+/* Fills `scene` as an empty scene; fluids and motions get values from their rows' `init`. */
 void scene_default(Scene *scene);
 
 /* The table as Markdown: `slosh help keys`. */
 void scene_keys_print(FILE *file);
 
-/* The keys of the picture that name a scalar, each with that of its range, which is of that scalar alone. */
+/* Keys of the picture that name a scalar, each with the key of the scalar's range. */
 enum { KEY_SCALARS = 3 };
 typedef struct KeyScalar {
     const char *by, *range;
 } KeyScalar;
 extern const KeyScalar key_scalars[KEY_SCALARS];
 
-/* Makes the range of such a key automatic. `base`: the Scene, or what the keys of an element of `views` count
-   from (key_list_at). */
+/* Makes the key's range automatic. `base`: the Scene, or the base of an element of `views` (key_list_at). */
 void key_range_free(const KeyScalar *scalar, void *base);
 
-/* The name of the scalar that a range is of where the picture names this one: beside `auto` it is the speed,
-   as the fluids' own colours have none. */
+/* Name of the scalar of the range if the picture names `scalar`: for `auto` the speed, as the fluids' own
+   colours have no range. */
 const char *key_ranged(const char *scalar);
 
-/* The same where `before`, of the same kind, has another scalar. */
+/* Makes the range automatic if `before`, a base of the same kind, has a different scalar. */
 void key_range_follow(const KeyScalar *scalar, const void *before, void *base);
 
-/* "path = value unit" for every setting of the scene as it was resolved. */
+/* Prints "path = value unit" for every setting of the resolved scene. */
 void scene_print(const Scene *scene, FILE *file);
 
-/* The same as text; the caller frees it. NULL when memory is short. */
+/* The output of scene_print as text; the caller frees the text. NULL if memory is short. */
 char *scene_print_text(const Scene *scene);
 
-/* Value at `base` + the key's offset as people write it, without its unit; "" when the key holds none. */
+/* Writes the value at `base` + the key's offset as people write it, without its unit; "" if the key holds no
+   value. */
 void key_value_text(const Key *key, const void *base, char *text, size_t size);
 
 #endif

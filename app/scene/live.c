@@ -13,17 +13,17 @@
 
 enum { PATH_SIZE = 256 };
 
-/* A setting on its way into the scene. */
+/* A setting to apply to the scene. */
 typedef struct Change {
     const char *setting;
     char path[PATH_SIZE];
     const Key *key;
-    const Key *list; /* in whose elements it stands; NULL: none */
+    const Key *list; /* list with the key in its elements; NULL: none */
     int element;     /* index in the path */
     Error *error;
 } Change;
 
-/* Whether keys of the list's elements may change. */
+/* True if keys of the list's elements may change. */
 static bool list_is_live(const Key *list)
 {
     int count;
@@ -34,11 +34,11 @@ static bool list_is_live(const Key *list)
     return false;
 }
 
-/* The tree gets the list's elements, which say nothing. */
+/* Adds the list's elements, empty, to the tree. */
 static bool tree_add_list(Tree *tree, const Scene *scene, const Key *list, Error *error)
 {
     for (int e = 0; e < key_list_count(list, scene); e++) {
-        char *setting = tree_alloc(tree, PATH_SIZE); /* the tree keeps it */
+        char *setting = tree_alloc(tree, PATH_SIZE); /* owned by the tree */
         if (!setting)
             return error_set(error, "no memory");
         snprintf(setting, PATH_SIZE, "%s[%d]=", list->path, e);
@@ -48,8 +48,8 @@ static bool tree_add_list(Tree *tree, const Scene *scene, const Key *list, Error
     return true;
 }
 
-/* The tree of a scene that says nothing but that its lists with live keys have elements, and the setting:
-   what the checks read and messages point at. tree_free is needed in either case. */
+/* Makes the tree for checks and messages: an empty scene, with elements in lists with live keys, and the
+   setting. Call tree_free in any case. */
 static bool tree_make(Tree *tree, const Scene *scene, const char *setting, Error *error)
 {
     int count;
@@ -94,7 +94,7 @@ static bool find_element(const Scene *scene, Change *change)
                      list, change->element, list, count - 1);
 }
 
-/* The view that a key of a view is for. */
+/* The view with the changed key. */
 static const ViewDef *view_of(const Scene *scene, const Change *change)
 {
     return change->list ? &scene->views[change->element] : &scene->view;
@@ -130,7 +130,7 @@ static bool in_world(const Scene *scene, const Change *change, const void *base)
     return field >= world && field < world + sizeof scene->world && !(change->key->flags & KEY_IDLE);
 }
 
-/* A range is of one scalar. */
+/* Makes ranges automatic whose scalar changed. */
 static void ranges_follow(const Scene *before, Scene *after)
 {
     const Key *views = scene_key_find("views");
@@ -143,8 +143,8 @@ static void ranges_follow(const Scene *before, Scene *after)
     }
 }
 
-/* A hand may have made the box smaller than what the fluid began with: then the setting is not what is wrong.
- */
+/* Accepts an error that the scene had before the change: by hand the box may have become smaller than the
+   initial fluid. */
 static bool check(const Tree *tree, const Scene *before, const Scene *after, Error *error)
 {
     Error was;
@@ -161,7 +161,7 @@ static bool take(Tree *tree, const Change *change, Scene *scene, bool *concerns_
         !check(tree, scene, &after, change->error))
         return false;
     ranges_follow(scene, &after);
-    after.world.acceleration |= scene->world.acceleration; /* once kept they stay */
+    after.world.acceleration |= scene->world.acceleration; /* accelerations stay on once kept */
     if (concerns_world)
         *concerns_world = in_world(&after, change, base);
     *scene = after;

@@ -1,4 +1,4 @@
-/* Reading a scene: the file, the command line, the checks, what follows from them. */
+/* Loads a scene: the file, the command line, the checks and derived values. */
 #include "app/scene/scene.h"
 
 #include "app/base/path.h"
@@ -19,7 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Without a title, the file's name without folder and ending. */
+/* Default title: the file's name without folder and ending. */
 static void title_default(Scene *scene)
 {
     if (*scene->title)
@@ -33,7 +33,7 @@ static void title_default(Scene *scene)
 
 typedef char ScalarNames[KEY_SCALARS][NAME_SIZE];
 
-/* The file's scalars, or "" where it names none. */
+/* The file's scalars, or "" for unset ones. */
 static void file_scalars(const Tree *tree, ScalarNames names)
 {
     for (int k = 0; k < KEY_SCALARS; k++) {
@@ -42,7 +42,8 @@ static void file_scalars(const Tree *tree, ScalarNames names)
     }
 }
 
-/* A range that the file gives is of the file's scalar, not of one that the command line names. */
+/* A range of the file belongs to the file's scalar: makes the range automatic if the command line names a
+   different scalar. */
 static void range_of_scalar(const Tree *tree, const KeyScalar *scalar, const char *of_file, Scene *scene)
 {
     static Scene usual;
@@ -57,8 +58,8 @@ static void range_of_scalar(const Tree *tree, const KeyScalar *scalar, const cha
         key_range_free(scalar, scene);
 }
 
-/* A range is of one scalar: of a picture among several that says none it is that of `view`, if that is of its
- * scalar. */
+/* Ranges of entries of `views`: an entry without a range takes the range of `view` if both have the same
+   scalar. */
 static void ranges_of_views(const Tree *tree, const KeyScalar *scalar, Scene *scene)
 {
     const Key *views = scene_key_find("views"), *range = scene_key_find(scalar->range);
@@ -84,7 +85,7 @@ size_t scene_setting_key(const char *setting)
     return is_recipe(setting) ? strlen(setting) : strcspn(setting, "=");
 }
 
-/* Presets first, wherever they stand: what is said of a key alone goes before them. */
+/* Applies presets first, in any order: a single key overrides a preset. */
 static bool apply_settings(Tree *tree, const SceneSettings *settings, Notes *notes, Error *error)
 {
     for (int i = 0; i < settings->count; i++) {
@@ -98,15 +99,15 @@ static bool apply_settings(Tree *tree, const SceneSettings *settings, Notes *not
     return true;
 }
 
-/* A box with a width and a height, and no depth, makes a scene of two dimensions. */
+/* A box with width and height but no depth makes a two-dimensional scene. */
 static int dimensions_of(const Tree *tree)
 {
     const Node *size = tree_at(tree, "box.size");
     return size && size->kind == NODE_SEQUENCE && node_count(size) == 2 ? 2 : 3;
 }
 
-/* A run that goes on has its places already; the spacing that gives a number of particles comes of the
- * tables. */
+/* Reads the scene. A resumed run already has its particles and needs tables only to find the spacing for a
+   count of particles. */
 static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, Notes *notes, Error *error)
 {
     const bool needs_tables = !settings->recorded && (!settings->goes_on || settings->particles > 0);
@@ -119,7 +120,7 @@ static bool read_scene(Tree *tree, const SceneSettings *settings, Scene *out, No
            (!needs_tables || scene_read_tables(tree, out, error));
 }
 
-/* A bowl's wall is thick enough to keep fluids apart, whatever the spacing became. */
+/* Default thickness of a bowl's wall: enough to keep fluids apart, for the final spacing. */
 static void solids_default(Scene *scene)
 {
     WorldDef *world = &scene->world;
@@ -128,7 +129,7 @@ static void solids_default(Scene *scene)
             world->solids[k].thickness = world->support * world->spacing;
 }
 
-/* The spacing at which the fills have their mass. */
+/* Adjusts the spacing so that the fills have their exact mass. */
 static void fit_spacing(const Tree *tree, Scene *scene, Notes *notes)
 {
     WorldDef *world = &scene->world;
@@ -141,7 +142,7 @@ static void fit_spacing(const Tree *tree, Scene *scene, Notes *notes)
             asked, fits);
 }
 
-/* Of the command line's settings alone: what a recorded run's file says is not the user's doing. */
+/* Only for settings of the command line: the file of a recorded run is not of the user's making. */
 static void advise_settings(const SceneSettings *settings, const Scene *scene, Notes *notes)
 {
     for (int i = 0; i < settings->count; i++) {
@@ -151,7 +152,7 @@ static void advise_settings(const SceneSettings *settings, const Scene *scene, N
     }
 }
 
-/* Of what the command line sets of `view`: entries of `views` that say it themselves. */
+/* Warns of settings of `view` on the command line that entries of `views` override. */
 static void advise_views(const Tree *tree, const SceneSettings *settings, const Scene *scene, Notes *notes)
 {
     for (int i = 0; i < settings->count; i++) {
@@ -193,7 +194,8 @@ static void set_defaults(const Tree *tree, Scene *out)
     title_default(out);
 }
 
-/* Not of views of recorded runs nor of other settings: theirs are not this world's columns. */
+/* True if a view shows accelerations of this world; views of recorded runs and of different settings have
+   worlds of their own. */
 static bool shows_acceleration(const Scene *scene)
 {
     for (int i = 0; i < scene_view_count(scene); i++) {

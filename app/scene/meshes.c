@@ -1,4 +1,4 @@
-/* The meshes that a scene names, and what its user should know of them. */
+/* Reads the meshes of a scene, and reports their faults. */
 #include "app/base/notes.h"
 #include "app/mesh_file/mesh_count.h"
 #include "app/mesh_file/mesh_file.h"
@@ -20,7 +20,7 @@ typedef struct Reader {
     Notes *notes;
 } Reader;
 
-/* What was mended, or cannot be. */
+/* Reports repaired faults and faults beyond repair. */
 static void say_state(const Reader *reader, const char *key, const char *file, const MeshState *state)
 {
     const TrianglesState *triangles = &state->triangles;

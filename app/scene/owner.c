@@ -1,4 +1,4 @@
-/* Whether the owner of a key is in use in a scene. */
+/* Tests if the owner of a key is in use in a scene. */
 #include "app/scene/keys.h"
 
 #include <string.h>
@@ -9,7 +9,7 @@ static bool stands_in(const char *key, const char *list)
     return strncmp(key, list, length) == 0 && strncmp(key + length, "[].", strlen("[].")) == 0;
 }
 
-/* How many elements the lists of that row have, in all elements of the list around it. */
+/* Total count of elements of the row's lists, over all elements of the outer list. */
 static int elements_of(const Scene *scene, const Key *list)
 {
     int count, elements = 0;

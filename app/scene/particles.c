@@ -8,18 +8,18 @@
 #include <math.h>
 #include <stdio.h>
 
-/* A count jumps when the lattice gains a layer, so the nearest one is looked for among many spacings, about
-   the one that the volume asks for. */
+/* The count jumps when the lattice gains a layer, so the search tries many spacings around the estimate from
+   the volume. */
 enum { TRIES = 96 };
 
 typedef struct Best {
     double spacing;
     size_t count;
-    double cost; /* part of the wanted number by which the count misses it, and how uneven the lattice is */
-    double last; /* spacing that was counted last */
+    double cost; /* relative error of the count, plus a penalty for an uneven lattice */
+    double last; /* last counted spacing */
 } Best;
 
-/* The width of a cube, or a square, of that volume. */
+/* The width of a cube, or a square, of the volume. */
 static double root(const Scene *scene, double volume)
 {
     return scene->world.dimensions == 3 ? cbrt(volume) : sqrt(volume);
@@ -34,7 +34,7 @@ static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
     if (fits <= 0 && best->spacing > 0)
         return;
     const double own = fits > 0 ? fits : spacing, least = 0.1 * uneven + (fits > 0 ? 0 : 1);
-    if (best->spacing > 0 && (own == best->last || least >= best->cost)) /* a count is dear */
+    if (best->spacing > 0 && (own == best->last || least >= best->cost)) /* counting is slow */
         return;
     const size_t count = seed_count(&world, own);
     const double cost = fabs((double)count - (double)wanted) / (double)wanted + least;
@@ -43,7 +43,7 @@ static void offer(const Scene *scene, size_t wanted, double spacing, Best *best)
         *best = (Best){own, count, cost, own};
 }
 
-/* The more particles, the smaller the jumps, and the dearer each count. */
+/* More particles mean smaller jumps, and slower counts. */
 static int tries_for(size_t wanted)
 {
     return wanted > 4000000 ? 4 : wanted > 400000 ? 24 : TRIES;
@@ -52,7 +52,7 @@ static int tries_for(size_t wanted)
 static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
 {
     Best best = {0};
-    for (int round = 0; round < 2; round++) { /* fills that overlap fill less than their volumes add up to */
+    for (int round = 0; round < 2; round++) { /* overlapping fills hold less than the sum of their volumes */
         offer(scene, wanted, guess, &best);
         guess = best.spacing * root(scene, fmax(1, (double)best.count) / (double)wanted);
     }
@@ -63,16 +63,16 @@ static Best nearest_spacing(const Scene *scene, size_t wanted, double guess)
     return best;
 }
 
-/* At most half of the box's least width, as for a spacing that a file gives. */
+/* At most half of the box's least width, as for a spacing from a file. */
 static double greatest_spacing(const Scene *scene)
 {
     const double *size = scene->world.box_size, width = fmin(size[0], size[1]);
     return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
 }
 
-/* The step that a scene has chosen for its spacing, or NULL: a fixed one, and the longest of a method that
-   has no sound to bound it, which goes as the time of a fall through a spacing. Steps by Courant number go
-   with the spacing by themselves. */
+/* The step chosen by a scene for its spacing, or NULL: a fixed step, or the longest step of a method
+   without sound, which scales like the time of a fall through a spacing. Steps by Courant number scale by
+   themselves. */
 static double *step_chosen(Scene *scene, const char **key, double *scale)
 {
     WorldDef *world = &scene->world;
@@ -82,7 +82,7 @@ static double *step_chosen(Scene *scene, const char **key, double *scale)
     return fixed ? &world->dt : method_find(world->method)->incompressible ? &world->max_dt : NULL;
 }
 
-/* Takes the spacing. The step goes with it, unless it was chosen too. */
+/* Sets the spacing, and scales the step, unless chosen on the command line. */
 static void step_follow(const Tree *tree, Scene *scene, const SceneSettings *settings, const Best *best,
                         Notes *notes)
 {
@@ -100,7 +100,7 @@ static void step_follow(const Tree *tree, Scene *scene, const SceneSettings *set
               best->count, with);
 }
 
-/* What the emitters send out in their time, m3 (m2 in two dimensions); 0 where one goes on for ever. */
+/* Total volume from the emitters, m3 (m2 in two dimensions); 0 if an emitter never ends. */
 static double poured_volume(const WorldDef *world)
 {
     double volume = 0;
@@ -116,7 +116,7 @@ static double poured_volume(const WorldDef *world)
     return volume;
 }
 
-/* Of a scene that fills nothing at the start: so many in the end. */
+/* For a scene without fills: sets the spacing for the final count of particles. */
 static bool set_poured(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                        Error *error)
 {

@@ -5,8 +5,8 @@
 #include "app/scene/scene.h"
 #include "app/yaml/tree.h"
 
-/* Sets the scene's spacing, and scales a fixed dt with it, or the max_dt of a method without sound, unless
-   that was given by --set; `notes` gets the sentence that says so. False when no spacing gives so many. */
+/* Sets the scene's spacing, and scales a fixed dt, or the max_dt of a method without sound, unless set by
+   --set; `notes` gets a line about the change. Returns false if no spacing gives the count. */
 bool scene_set_particles(const Tree *tree, Scene *scene, const SceneSettings *settings, Notes *notes,
                          Error *error);
 

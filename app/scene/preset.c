@@ -15,10 +15,11 @@ const Key preset_keys[] = {
 };
 
 const Preset preset_list[] = {
-    /* In the plane a square lattice of 2.1 to 2.8 spacings a support resists shear: waves are 3 to 7 % too
-       fast, and a tank that is shaken off its resonance has 55 to 80 % of its motion. At 3 it hardly does
-       (docs/validation.md). pbf has its iterations for a whole frame. The pressure of a blow is some rho v^2,
-       and dfsph stands 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in what is shaken hard. */
+    /* In the plane a square lattice of 2.1 to 2.8 spacings per support radius resists shear: waves are 3 to 7
+       % too fast, and a tank shaken off its resonance has 55 to 80 % of its motion. At 3 spacings the lattice
+       hardly resists (docs/validation.md). pbf has its iterations for a whole frame. The pressure of a blow
+       is about rho v^2, and dfsph tolerates 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in hard
+       shaking. */
     {"play",
      "the defaults: fast, at large steps",
      {{"particles.support", "3", NULL, 2, NULL},
@@ -35,14 +36,14 @@ const Preset preset_list[] = {
       {"solver.step.max_dt", "0.016666667", "pbf", 0, NULL},
       {"solver.step.number", "0.2", "dfsph", 0, NULL},
       {NULL, NULL, NULL, 0, NULL}}},
-    /* Wendland's C2 pairs no particles; friction in the radial form does the fluid's work at a free surface
-       too; a figure is the same each time on compute too. In the plane a lattice under pressure at 3.5
-       spacings hardly resists shear any more; at 2.6 that makes waves 5 % too fast, at any resolution. In
-       three dimensions, where 2.6 means 74 neighbours, and for mueller's spiky kernel more does not pay.
-       dfsph gains nothing by more neighbours, and longer steps cost it more iterations than they save. Where
-       two fluids slide along each other, particles pass over one another: by Wendland's kernel they feel each
-       other's rows, and a wave between them grows by a quarter too slowly; the quintic one is thirty times
-       smoother there, for more time. */
+    /* Wendland's C2 kernel does not pair particles. Friction in the radial form also does the fluid's work at
+       a free surface. Figures repeat exactly on compute too. In the plane a lattice under pressure at 3.5
+       spacings hardly resists shear any more; at 2.6 spacings shear resistance makes waves 5 % too fast, at
+       any resolution. In three dimensions, where 2.6 means 74 neighbours, and for mueller's spiky kernel more
+       does not pay. dfsph gains nothing from more neighbours, and longer steps cost more iterations than they
+       save. Where two fluids slide along each other, particles pass over each other: with Wendland's kernel
+       particles feel the rows of the other fluid, and a wave between the fluids grows by a quarter too
+       slowly; the quintic kernel is thirty times smoother there, for more time. */
     {"accurate",
      "wcsph as slosh validate measures it: kernel, support, diffusion, friction, step",
      {{"solver.method", "wcsph", NULL, 0, NULL},
@@ -113,7 +114,7 @@ bool preset_gave(const Scene *scene, const char *path)
     return false;
 }
 
-/* Whether the row is for such scenes; one that goes with another key, where it filled in its own. */
+/* True if the row applies to the scene; a row with `unless` must have filled in its own value. */
 static bool holds(const Scene *scene, const Preset *preset, int k)
 {
     const PresetSetting *setting = &preset->settings[k];
@@ -122,7 +123,7 @@ static bool holds(const Scene *scene, const Preset *preset, int k)
            (!setting->unless || scene->preset_filled >> k & 1);
 }
 
-/* Whether a later row for the same key holds. */
+/* True if a later row for the same key applies. */
 static bool is_superseded(const Scene *scene, const Preset *preset, int k)
 {
     for (int later = k + 1; preset->settings[later].path; later++)

@@ -1,4 +1,4 @@
-/* The table of keys and a scene's settings as text for people. */
+/* Prints the table of keys and a scene's settings for people. */
 #include "app/scene/keys.h"
 #include "sim/base/color.h"
 #include "sim/base/control_points.h"
@@ -35,7 +35,7 @@ static void rows_text(const double *x, const double *y, int count, char *text, s
                          k + 1 < count ? "" : "]");
 }
 
-/* One number, or the rows. */
+/* Prints one number, or the rows. */
 static void curve_text(const TimeTable *table, double number, char *text, size_t size)
 {
     if (table->rows > 0)
@@ -44,7 +44,7 @@ static void curve_text(const TimeTable *table, double number, char *text, size_t
         snprintf(text, size, "%.9g", number);
 }
 
-/* The preset's name where it is one. */
+/* Prints a preset's name, or the points. */
 static void points_text(const Key *key, const ControlPoints *points, char *text, size_t size)
 {
     for (const ControlPreset *preset = key->names; preset->name; preset++)
@@ -74,7 +74,7 @@ static void names_text(const Key *key, const int *places, int count, char *text,
         snprintf(text + used, size - used, "]");
 }
 
-/* {"path": value, "path": value}: a path with an index needs quotes. */
+/* Prints {"path": value, "path": value}: a path with an index needs quotes. */
 static void settings_text(const char *lines, char *text, size_t size)
 {
     FILE *file = *lines ? fmemopen(text, size, "w") : NULL;
@@ -154,14 +154,13 @@ static bool is_container(KeyType type)
     return type == KEY_MAPPING || type == KEY_VARIANT || type == KEY_LIST;
 }
 
-/* What the default column is read from: a scene that says nothing and, under a list, an element in its first
- * state. */
+/* Sources of the default column: an empty scene and, for list members, an initial element. */
 typedef union Defaults {
     Scene scene;
     char element[sizeof(Scene)];
 } Defaults;
 
-/* The innermost list that the key stands in; NULL: none. */
+/* The innermost list around the key; NULL: none. */
 static const Key *list_around(const Key *key)
 {
     char path[PATH_SIZE];
@@ -237,17 +236,17 @@ void scene_keys_print(FILE *file)
     }
 }
 
-/* Where a printing walk stands: the row's parent, the same with indices, and what offsets count from. */
+/* Position of a printing walk: the row's parent, the parent with indices, and the base of offsets. */
 typedef struct Walk {
     char parent[PATH_SIZE], shown[PATH_SIZE];
     const char *base;
     const char
-        *like; /* the same of the mapping that this one is like: only what differs is said; NULL: all */
+        *like; /* base of the mapping that the element copies: only differences are printed; NULL: all */
 } Walk;
 
 static void print_children(const Walk *walk, FILE *file);
 
-/* An element that differs in nothing is there all the same. */
+/* Prints the elements as {}, so that elements without differences appear too. */
 static void print_elements(const char *shown, int count, FILE *file)
 {
     fprintf(file, "%s = [", shown);
@@ -298,7 +297,7 @@ static void print_key(const Key *key, const Walk *walk, const char *shown, FILE 
         key_value_text(key, walk->base, value, sizeof value);
         if (walk->like)
             key_value_text(key, walk->like, like, sizeof like);
-        if (!*value && (key->type == KEY_SETTINGS || key->type == KEY_TEXT)) /* nothing that could be set */
+        if (!*value && (key->type == KEY_SETTINGS || key->type == KEY_TEXT)) /* no value to set */
             return;
         if (!walk->like || strcmp(value, like) != 0)
             fprintf(file, "%s = %s%s%s\n", shown, value, *key->unit ? " " : "", key->unit);

@@ -11,13 +11,13 @@
 
 enum { PATH_SIZE = 128 };
 
-/* A mapping on its way into a struct. */
+/* A mapping to read into a struct. */
 typedef struct Place {
     const Tree *tree;
     const Node *node;
-    const char *parent;    /* path of the row that the mapping belongs to; "" for the whole scene */
-    char shown[PATH_SIZE]; /* the same with indices, for people */
-    char *base;            /* what the rows' offsets count from */
+    const char *parent;    /* path of the mapping's row; "" for the whole scene */
+    char shown[PATH_SIZE]; /* the path with indices, for people */
+    char *base;            /* base of the rows' offsets */
     Error *error;
 } Place;
 
@@ -34,8 +34,7 @@ static const char *last_of(const Key *key)
     return dot ? dot + 1 : key->path;
 }
 
-/* A key that is known elsewhere ("spacing" for particles.spacing) is worth a hint too, one that belongs below
-   the place before all others. */
+/* Suggests a key at a different place ("spacing" for particles.spacing); keys below `parent` come first. */
 static const char *known_elsewhere(const char *name, const char *parent)
 {
     int count;
@@ -52,7 +51,7 @@ static const char *known_elsewhere(const char *name, const char *parent)
     return best ? best->path : NULL;
 }
 
-/* Whether the help of a kind says that it is "a ball". */
+/* True if the help of a kind contains "a WORD", such as "a ball". */
 static bool is_a(const Key *kind, const char *word)
 {
     const size_t length = strlen(word);
@@ -63,8 +62,8 @@ static bool is_a(const Key *kind, const char *word)
     return false;
 }
 
-/* Lists have words of their own for one shape: a fill's ball is a solid's sphere. The kind here that is what
-   the word means; NULL: none. */
+/* Lists have different words for one shape: a fill's ball is a solid's sphere. Returns the word of this list;
+   NULL: none. */
 static const char *kind_here(const Place *place, const char *word)
 {
     int count;
@@ -124,7 +123,7 @@ static bool check_known(const Place *place)
     return true;
 }
 
-/* Names of the variants below `parent`: "block, ball"; empty when there are none. */
+/* Writes the names of the variants below `parent`: "block, ball"; "" if none. */
 static void variant_names(const char *parent, char *names, size_t size)
 {
     int count;
@@ -138,7 +137,7 @@ static void variant_names(const char *parent, char *names, size_t size)
     }
 }
 
-/* Variants that the mapping has. */
+/* Count of variants in the mapping. */
 static int variant_count(const Place *place)
 {
     int variants = 0;
@@ -161,7 +160,7 @@ static bool check_one_variant(const Place *place)
                       names);
 }
 
-/* An element before its keys are read. */
+/* Initialises an element before its keys are read. */
 static void list_begin(const Place *place, const Key *list, int index, char *element)
 {
     const KeyLike *like = key_like(list);
@@ -220,7 +219,7 @@ static bool read_key(const Place *place, const Key *key, const Node *node, const
     return read_mapping(&inner);
 }
 
-/* The first key that a mapping that isn't there would have to have, for the message. */
+/* The first required key of a missing mapping, for the message. */
 static const Key *required_below(const Key *mapping)
 {
     int count;
@@ -231,7 +230,7 @@ static const Key *required_below(const Key *mapping)
     return NULL;
 }
 
-/* Whether the scene may do without `key`; a camera without its keys is allowed, a box without is not. */
+/* Checks that `key` may be missing; a camera may lack all keys, a box may not. */
 static bool check_missing(const Place *place, const Key *key, const char *shown)
 {
     const bool optional = key->type == KEY_VARIANT || (key->type == KEY_MAPPING && key->aux != KEY_NOWHERE);

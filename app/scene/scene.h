@@ -1,7 +1,7 @@
 /* A scene file, read and checked: plain data.
 
-   The file is YAML (DESIGN 8). One table of keys (app/scene/keys.h) says what may stand where, in which unit,
-   range and with which default; the loader, `--set`, `info` and the documentation are made from it. */
+   The file is YAML (DESIGN 8). One table of keys (app/scene/keys.h) has the place, unit, range and default of
+   each key; the loader, `--set`, `info` and the documentation use this table. */
 #ifndef SLOSH_SCENE_H
 #define SLOSH_SCENE_H
 
@@ -18,77 +18,73 @@
 
 enum { SCENE_METRICS_MAX = 8 };
 
-/* What a scene is read for: some of its keys are for some of these only. */
+/* Purpose of reading a scene: some keys apply to some purposes only. */
 typedef enum ScenePurpose {
-    SCENE_FOR_ONE,    /* a command that leaves method, backend and view as they are */
-    SCENE_FOR_WINDOW, /* backend and view may change while it runs */
+    SCENE_FOR_ONE,    /* a command that does not change method, backend and view */
+    SCENE_FOR_WINDOW, /* the window, where backend and view may change */
     SCENE_FOR_CHART
 } ScenePurpose;
 
 typedef struct Scene {
-    char path[1024]; /* as found; what messages name */
+    char path[1024]; /* as found; used in messages */
     ScenePurpose purpose;
     char title[128];
     WorldDef world;
     ViewDef view;
-    char beside[VIEW_SET_SIZE]; /* the `set` of the entry of `views` that this is the scene of; "": of none */
-    int view_count;             /* of the pictures beside each other; 0: one, which is `view` */
-    ViewDef views[PANELS_MAX];  /* each is `view` but for what its entry says */
-    char preset[NAME_SIZE]; /* what filled in the keys that the scene does not name (app/scene/preset.h) */
-    unsigned preset_filled; /* which of the preset's settings, a bit each */
-    bool
-        realtime; /* the window simulates as many frames as the wall clock asks for, else as many as it can */
+    char beside[VIEW_SET_SIZE]; /* the `set` of the entry of `views` that this scene belongs to; "": none */
+    int view_count;             /* count of pictures side by side; 0: one, `view` */
+    ViewDef views[PANELS_MAX];  /* each is `view` with the changes of its entry */
+    char preset[NAME_SIZE];     /* filled in the missing keys (app/scene/preset.h) */
+    unsigned preset_filled;     /* bit k: the preset's setting k was filled in */
+    bool realtime; /* the window follows the wall clock; otherwise it simulates as fast as possible */
     int metric_count;
-    /* what `slosh chart` compares: places in metric_kinds (app/metric/metric_list.h) */
+    /* for `slosh chart`: indices into metric_kinds (app/metric/metric_list.h) */
     int metrics[SCENE_METRICS_MAX];
-    ProbeList probes; /* no world knows them */
-    TouchDef touch;   /* the same: what the window makes commands of */
+    ProbeList probes; /* unknown to the world */
+    TouchDef touch;   /* unknown to the world; the window makes commands of touches */
 } Scene;
 
 enum { SCENE_SETTINGS_MAX = 64 };
 
-/* What the command line adds to the file. */
+/* Settings of the command line, applied on top of the file. */
 typedef struct SceneSettings {
     int count;
+    const char *set[SCENE_SETTINGS_MAX]; /* "path=value", in the given order; also from --backend, --method,
+                                            --view, --threads */
     const char
-        *set[SCENE_SETTINGS_MAX]; /* "path=value", in the order given; also what --backend, --method, --view,
-                                     --threads stand for */
-    const char
-        *said[SCENE_SETTINGS_MAX]; /* what messages call it: "--backend cuda"; NULL: --set and the setting */
+        *said[SCENE_SETTINGS_MAX]; /* name in messages: "--backend cuda"; NULL: --set and the setting */
     const char *beside;            /* Scene.beside; NULL: "" */
     size_t particles;              /* --particles; 0: the scene's own spacing */
     ScenePurpose purpose;
-    bool goes_on;  /* of a run that has begun: the tables of its start may be gone; they are read for
-                      `particles` alone */
-    bool recorded; /* of a recorded run, which nothing simulates: what it began with is not looked at, and of
-                      the settings alone it is said what has no effect */
+    bool goes_on;  /* a resumed run: the tables of its start may be gone, and are read only for `particles` */
+    bool recorded; /* a recorded run, not simulated: its start is unchecked, and only unused settings are
+                      reported */
     const char
-        *folder; /* of a recorded run: where the scene's files were, if not beside it; NULL: not known */
+        *folder; /* of a recorded run: folder of the scene's files if not beside the scene; NULL: unknown */
 } SceneSettings;
 
-/* How much of a setting is the same in another that takes its place: up to its '=', and of a preset all. */
+/* Length of the key of a setting, for replacement by a later setting: up to its '='; of a preset the whole
+   text. */
 size_t scene_setting_key(const char *setting);
 
-/* Picture number `index` of those beside each other, from 0; how many there are, at least 1. */
+/* Picture number `index` of the pictures side by side, from 0, and their count, at least 1. */
 const ViewDef *scene_view(const Scene *scene, int index);
 int scene_view_count(const Scene *scene);
 
-/* Whether the view shows states of this scene: not a recorded run's, nor those of other settings. */
+/* True if the view shows states of this scene, not of a recorded run or of different settings. */
 bool scene_shows(const Scene *scene, const ViewDef *view);
 
-/* Whether it reads accelerations, which a world keeps where WorldDef.acceleration says so. */
+/* True if the view reads accelerations, which a world keeps if WorldDef.acceleration. */
 bool scene_view_accelerates(const ViewDef *view);
 
-/* Reads, validates and fills `out`. False on failure: `error` says "file:line:column: what is wrong; what
-   would be right", and "--set path=value: ..." where the command line is wrong. Creates nothing. `name` is a
-   path, or the name of a file beside the sources that the program was built from (scenes/box_slosh.yaml,
-   box_slosh). `notes` (may be
-   NULL) is emptied, then gets what the user should know of the scene: that --particles scaled dt, and what
-   scene_advise has to say. */
+/* Reads, validates and fills `out`. Returns false on failure: `error` has "file:line:column: the fault; the
+   remedy", or "--set path=value: ..." for a wrong command line. Creates nothing. `name` is a path, or the
+   name of a file beside the sources of the program (scenes/box_slosh.yaml, box_slosh). `notes` (may be NULL)
+   is emptied, then gets lines for the user: that --particles scaled dt, and the lines of scene_advise. */
 bool scene_load(const char *name, SceneSettings *settings, Scene *out, Notes *notes, Error *error);
 
-/* The same from `size` bytes in memory; pure but for the tables that the scene names (app/scene/tables.h),
-   for tests and the fuzz target. */
+/* Loads the scene from `size` bytes in memory; pure except for the scene's tables (app/scene/tables.h); for
+   tests and the fuzz target. */
 bool scene_parse(const char *path, const char *bytes, size_t size, SceneSettings *settings, Scene *out,
                  Notes *notes, Error *error);
 

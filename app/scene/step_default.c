@@ -1,5 +1,4 @@
-/* What a scene does not name of its speed of sound and its step, by its size, gravity, speeds and friction.
- */
+/* Defaults of the speed of sound and of the step, from a scene's size, gravity, speeds and friction. */
 #include "app/scene/advise_parts.h"
 #include "app/scene/preset.h"
 #include "sim/world/method.h"
@@ -8,11 +7,11 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Of c over the greatest speed: 7, since c = 10 sqrt(g H) (Monaghan 1994) is 7 times sqrt(2 g H). The usual
-   value stays where it is at least half of that and at most twice. */
+/* c over the greatest speed: 7, since c = 10 sqrt(g H) (Monaghan 1994) is 7 times sqrt(2 g H). The usual
+   value stays if at least half and at most twice as large. */
 static const double SOUND = 7, SOUND_LEAST = 3.5, SOUND_MOST = 14;
 
-/* Of h over the greatest speed, for methods without sound: docs/methods.md. */
+/* h over the greatest speed, for methods without sound: docs/methods.md. */
 static const double COURANT = 0.2;
 
 static bool open_to_default(const Tree *tree, const Scene *scene, const char *path)
@@ -20,14 +19,14 @@ static bool open_to_default(const Tree *tree, const Scene *scene, const char *pa
     return !tree_at(tree, path) && !preset_gave(scene, path);
 }
 
-/* To two digits, upwards. */
+/* Rounds up to two digits. */
 static double rounded(double x)
 {
     const double digit = pow(10, floor(log10(x)) - 1);
     return ceil(x / digit - 1e-9) * digit;
 }
 
-/* A step that is named was chosen for the usual speed of sound: both stay. */
+/* A named step was chosen for the usual speed of sound: then both stay. */
 static bool step_is_named(const Tree *tree, const Scene *scene)
 {
     return scene->world.step_mode == STEP_FIXED && (!open_to_default(tree, scene, "solver.step.dt") ||
@@ -47,7 +46,7 @@ static void fit_sound(const Tree *tree, Scene *scene, Notes *notes)
            SOUND);
 }
 
-/* The longest step that holds, s, and what binds it. */
+/* The longest stable step, s, and its limit. */
 static double longest_step(const WorldDef *def, const char **what)
 {
     const StepFriction friction = step_friction(def);

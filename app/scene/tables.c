@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A table with the bytes that it was read from. */
+/* A table with its source bytes. */
 typedef struct Kept {
     struct Kept *next;
     const FieldFileKind *kind;
@@ -24,7 +24,7 @@ typedef struct Kept {
     FieldTable *table;
 } Kept;
 
-/* Scenes are read on the main thread. */
+/* Not locked: scenes are read on the main thread. */
 static Kept *all_kept;
 
 static const Kept *find_kept(const FieldFileKind *kind, const char *bytes, size_t size)
@@ -35,7 +35,7 @@ static const Kept *find_kept(const FieldFileKind *kind, const char *bytes, size_
     return kept;
 }
 
-/* Takes over the bytes. */
+/* Keeps the table; takes ownership of the bytes. */
 static const FieldTable *keep(const char *path, char *bytes, size_t size, const FieldFileKind *kind,
                               Error *error)
 {
@@ -164,7 +164,7 @@ bool scene_read_tables(const Tree *tree, Scene *scene, Error *error)
     return true;
 }
 
-/* ---- which files a scene names ---- */
+/* ---- files named by a scene ---- */
 
 typedef struct Finder {
     const char *scene;
@@ -205,7 +205,7 @@ static void find_all(const Finder *finder, const Node *fluids)
     }
 }
 
-/* A header, and the raw file that it names. */
+/* Reports a header and its raw file. */
 static void find_volume(const Finder *finder, const char *path)
 {
     char raw[VOLUME_PATH_SIZE];
@@ -218,7 +218,7 @@ static void find_volume(const Finder *finder, const char *path)
     finder->found(finder->user, "volume", raw);
 }
 
-/* Of volume data: what is called `file` below a view's own keys. */
+/* Finds volume data: keys `file` below a view's own keys. */
 static void find_below(const Finder *finder, const Node *node, int depth)
 {
     char path[1200];
@@ -273,10 +273,10 @@ bool scene_has_tables(const Scene *scene)
     return false;
 }
 
-/* ---- another folder ---- */
+/* ---- moving to another folder ---- */
 
 typedef struct Mover {
-    const char *from, *to; /* the scenes */
+    const char *from, *to; /* of the scenes */
     FileMoved *moved;
     void *user;
 } Mover;
@@ -286,7 +286,7 @@ static bool names_file(const Node *node)
     return node->text && (scene_names_table(node->text) || (node->key && strcmp(node->key, "file") == 0));
 }
 
-/* The file that a scene at `scene` means; false: there is none. */
+/* Finds the full path of a file named in the scene at `scene`. Returns false if there is no such file. */
 static bool whole_name(const char *scene, const char *name, char whole[PATH_MAX])
 {
     char path[1200];

@@ -8,14 +8,14 @@
 
 #include <stdio.h>
 
-/* Where a scene is read. */
+/* Context of reading a scene. */
 typedef struct Reading {
     Check check;
     const SceneSettings *settings;
     Notes *notes;
 } Reading;
 
-/* `view`: the path of its keys. */
+/* Reads one file; `view` is the path of the view's keys. */
 static bool read_file_of(const Reading *reading, const char *view, const ViewFile *file)
 {
     char key[128], path[1200];
