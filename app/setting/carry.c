@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A setting that leaves of a whole path the last part; a FileNamed. */
+/* A FileNamed: adds a setting with only the last part of a whole path. */
 static void leave_folder(void *user, Node *node, const char *path)
 {
     const char *slash = strrchr(node->text, '/');
@@ -17,7 +17,7 @@ static void leave_folder(void *user, Node *node, const char *path)
         setting_list_add_text(user, path, slash + 1);
 }
 
-/* Replaces the text; false: such a path stays in it. */
+/* Shortens the whole paths in the text, which is replaced. Returns false if such a path remains. */
 static bool leave_paths(char **text, Error *error)
 {
     SettingList names = {.count = 0};

@@ -1,19 +1,19 @@
-/* The scene that a picture carries: as it stands, and nothing of the machine that it was made on. */
+/* The scene embedded in a picture: the present scene, without traces of the user's machine. */
 #ifndef SLOSH_SETTING_CARRY_H
 #define SLOSH_SETTING_CARRY_H
 
 #include "app/output/image.h"
 #include "app/setting/save.h"
 
-/* Owned by whoever made it; ImageText points into it. */
+/* Owned by the caller of carry_make; ImageText points into this struct. */
 typedef struct Carried {
     char *scene; /* NULL: none */
     char name[128];
 } Carried;
 
-/* The scene's text with its settings, and its name without folders. Of files that it names by whole paths the
-   names alone are left: such a scene finds them beside the picture. False with the reason, and nothing to
-   free: the picture is better without. */
+/* Makes the scene's text with its settings, and its name without folders. Whole paths of files are shortened
+   to names: such a scene finds the files beside the picture. Returns false with the reason, and nothing to
+   free: then the picture should carry no scene. */
 bool carry_make(const Save *save, Carried *out, Error *error);
 
 ImageText carry_text(const Carried *carried, double time);

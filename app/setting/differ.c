@@ -10,10 +10,10 @@
 
 enum { PATH = DIFFER_PATH_SIZE };
 
-/* Where a walk through two scenes stands: as that of scene_print. */
+/* Position of a walk through two scenes, like the walk of scene_print. */
 typedef struct Walk {
     char parent[PATH], shown[PATH];
-    const char *before; /* NULL: it has none of this; all is said */
+    const char *before; /* NULL: absent before; all is written */
     const char *now;
     Differ *out;
 } Walk;
@@ -56,7 +56,7 @@ static bool is_absent(const Key *key, const char *base)
     return !base || !exact_is_there(key, base);
 }
 
-/* Whether elements that both have are of one kind. */
+/* True if the elements in both scenes have the same kinds. */
 static bool same_kinds(const Key *list, const Walk *walk, int elements)
 {
     char parent[PATH];
@@ -99,7 +99,7 @@ static void walk_list(const Key *list, const Walk *walk, const char *shown, int 
         add_whole(walk, list, shown, dimensions);
         return;
     }
-    if (now < before) { /* of views: all are said anew */
+    if (now < before) { /* fewer views than before: all are written again */
         add(walk, list, shown, "[]");
         before = 0;
     }
@@ -108,7 +108,7 @@ static void walk_list(const Key *list, const Walk *walk, const char *shown, int 
         walk_element(list, walk, shown, e, before, dimensions);
         char whole[PATH];
         snprintf(whole, sizeof whole, "%.110s[%d]", shown, e);
-        if (e >= before && walk->out->settings.count == said) /* one that differs in nothing */
+        if (e >= before && walk->out->settings.count == said) /* an element without differences */
             add(walk, list, whole, "{}");
     }
 }

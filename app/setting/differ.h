@@ -1,5 +1,4 @@
-/* In what two scenes differ, as settings: what was changed in the window, what a file that was saved says
- * anew. */
+/* Differences of two scenes, as settings: changes in the window, settings for a saved file. */
 #ifndef SLOSH_DIFFER_H
 #define SLOSH_DIFFER_H
 
@@ -8,19 +7,19 @@
 enum { DIFFER_PATH_SIZE = 128 };
 
 typedef struct Differ {
-    SettingList settings; /* by which `before` becomes `now`; setting_list_free */
-    bool depth;           /* the one has two dimensions and the other three, which no setting says */
-    bool world;           /* some of it is for a solver */
-    bool dead;            /* some cannot change while the simulation runs */
+    SettingList settings; /* turn `before` into `now`; free with setting_list_free */
+    bool depth;           /* the scenes differ in dimensions, 2 and 3, which no setting can change */
+    bool world;           /* a difference is for a solver */
+    bool dead;            /* a difference cannot change while the simulation runs */
 } Differ;
 
-/* Both are scenes that were read. Numbers are written so that they are read as the same bits. A list of
-   another length, or with an element of another kind, is said whole. Of `views` that are more or less each
-   entry is said, after "views=[]" where there are less. The bytes of files that a scene names are not looked
-   at. */
+/* Compares two scenes that were read. Numbers are written so that reading gives the same bits. A list of a
+   different length, or with an element of a different kind, is written whole. If the count of `views`
+   differs, each entry is written, after "views=[]" if there are fewer. The contents of files named by a scene
+   are not compared. */
 void scene_differ(const Scene *before, const Scene *now, Differ *out);
 
-/* "a, b, c and 4 more": the paths, for people. */
+/* Lists the paths for people: "a, b, c and 4 more". */
 void differ_words(const SettingList *settings, char *text, size_t size);
 
 #endif

@@ -48,7 +48,7 @@ static void quoted(const char *words, char *text, size_t size)
     fclose(file);
 }
 
-/* A plane scene's box has no depth of its own. */
+/* The box of a two-dimensional scene has no depth of its own. */
 void exact_text(const Key *key, const void *base, int dimensions, char *text, size_t size)
 {
     const void *field = (const char *)base + key->offset;
@@ -68,12 +68,12 @@ void exact_text(const Key *key, const void *base, int dimensions, char *text, si
 
 /* ---- lists ---- */
 
-/* Where a walk through an element stands. */
+/* Position of a walk through an element. */
 typedef struct Within {
-    const char *base, *like; /* the element; one that says nothing */
+    const char *base, *like; /* the element; a default element */
     int dimensions;
     FILE *file;
-    int said; /* keys of the mapping in hand */
+    int said; /* count of keys written in the present mapping */
 } Within;
 
 static void say_children(Within *within, const char *parent);

@@ -1,4 +1,4 @@
-/* Values of a scene as text that is read as the same bits. */
+/* Values of a scene as text that reads back as the same bits. */
 #ifndef SLOSH_EXACT_H
 #define SLOSH_EXACT_H
 
@@ -6,16 +6,16 @@
 
 #include <stdio.h>
 
-enum { EXACT_SIZE = 16 * 48 }; /* the rows of a curve are the longest */
+enum { EXACT_SIZE = 16 * 48 }; /* the rows of a curve are longest */
 
-/* As key_value_text, but of a number all digits that count. `dimensions`: of the scene. */
+/* Like key_value_text, but numbers with all significant digits. `dimensions`: of the scene. */
 void exact_text(const Key *key, const void *base, int dimensions, char *text, size_t size);
 
-/* Whether what `base` points to has that mapping or that variant. */
+/* True if the struct at `base` has the mapping or the variant. */
 bool exact_is_there(const Key *key, const char *base);
 
-/* The elements of a list that has rows of its own, as one value: "[{sphere: {...}}, {...}]". What an element
-   has by default is left out. */
+/* Prints the elements of a list with rows of its own as one value: "[{sphere: {...}}, {...}]". Default values
+   of an element are left out. */
 void exact_list(const Key *list, const void *base, int dimensions, FILE *file);
 
 #endif

@@ -15,14 +15,14 @@
 
 enum { ROUNDS = 4, NAMES_MOST = 10000 };
 
-/* A FileMoved. */
+/* A FileMoved: adds a setting with the full path. */
 static void add_file(void *user, Node *node, const char *path, const char *whole)
 {
     (void)node;
     setting_list_add_text(user, path, whole);
 }
 
-/* Puts the settings in, one after another; the text before is freed. */
+/* Applies the settings to the text one after another; frees the old text. */
 static bool put_in(const Save *save, const SettingList *settings, char **text, bool *lost, Error *error)
 {
     for (int i = 0; i < settings->count; i++) {
@@ -52,7 +52,7 @@ static void leave_machine(SettingList *list)
     setting_list_remove_under(list, "solver.simd=");
 }
 
-/* What still differs from the text as it is now. */
+/* Finds the differences left between the text and the scene. */
 static bool differs(const Save *save, const char *output, const char *text, Differ *out, Error *error)
 {
     Scene *read = calloc(1, sizeof *read);
@@ -113,7 +113,7 @@ char *save_text(const Save *save, const char *output, Saved *out, Error *error)
     return NULL;
 }
 
-/* A comment beside a value may tell of the one before. */
+/* Writes the header; lists changed keys, as comments beside their values may be about older values. */
 static void print_head(const Save *save, const SettingList *changed, FILE *file)
 {
     const char *slash = strrchr(save->path, '/');
@@ -138,7 +138,7 @@ static bool write_text(const Save *save, const SettingList *changed, const char 
     return whole || error_set(error, "%s: cannot be written (%s)", path, strerror(errno));
 }
 
-/* False with *there: another file has that name. */
+/* Returns false with *there if a file of that name exists. */
 static bool write_new(const Save *save, const char *path, Saved *out, bool *there, Error *error)
 {
     Output output = {.path = ""};
@@ -153,7 +153,7 @@ static bool write_new(const Save *save, const char *path, Saved *out, bool *ther
     return ok;
 }
 
-/* "scenes/dam_break-2.yaml", 3: "dam_break-3.yaml"; what a name counts already is not counted again. */
+/* New name after "scenes/dam_break-2.yaml" with 3: "dam_break-3.yaml"; an existing number is replaced. */
 static void new_name(const char *from, int number, char path[256])
 {
     const char *slash = strrchr(from, '/'), *name = slash ? slash + 1 : from;

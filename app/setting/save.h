@@ -1,35 +1,35 @@
-/* A scene as it stands now, as a file: the text that it came from with the settings in it. */
+/* Saves the present scene as a file: the source text with the present settings. */
 #ifndef SLOSH_SETTING_SAVE_H
 #define SLOSH_SETTING_SAVE_H
 
 #include "app/setting/setting_list.h"
 
-/* What is to be saved. */
+/* A scene to save. */
 typedef struct Save {
-    const Scene *scene; /* as it stands */
-    const char *path;   /* of the file that it came from: from its folder the files that it names are found */
-    const char *text;   /* of that, */
-    size_t size;        /* not ended by a 0 */
+    const Scene *scene; /* the present scene */
+    const char *path;   /* of the source file; files named by the scene are found from its folder */
+    const char *text;   /* of the source file */
+    size_t size;        /* without a final 0 */
 } Save;
 
-/* What came of it. */
+/* Result of saving. */
 typedef struct Saved {
     char path[1024];
-    SettingList changed; /* in the text; setting_list_free */
-    bool lost;           /* comments of a part that was written anew */
-    char lacks[128];     /* a key that could not be kept as it is; "": all are */
+    SettingList changed; /* settings in the text; free with setting_list_free */
+    bool lost;           /* comments of a rewritten part were lost */
+    char lacks[128];     /* a key whose value could not be kept; "": none */
 } Saved;
 
-/* The text, ended by a 0, which the caller frees, as it would stand in a file `output`; NULL with the reason.
-   It is read again, and what differs then is added, until nothing does. Keys that change nothing but how many
-   processors compute are left out. */
+/* Returns the text, ended by a 0, for a file `output`; the caller frees the text. NULL with the reason. The
+   text is read back, and remaining differences are added until there are none. Keys for the count of
+   processors are left out. */
 char *save_text(const Save *save, const char *output, Saved *out, Error *error);
 
-/* Into `output`, where nothing must be; or, where that is NULL, into NAME-2.yaml of the present folder, or
- * NAME-3.yaml and so on. */
+/* Saves into `output`, which must not exist; or, if NULL, into NAME-2.yaml in the present folder, or
+   NAME-3.yaml and so on. */
 bool save_scene(const Save *save, const char *output, Saved *out, Error *error);
 
-/* "dam_break-2.yaml: the scene with fluids[0].viscosity", and what is lacking. */
+/* Message such as "dam_break-2.yaml: the scene with fluids[0].viscosity", with missing keys. */
 void saved_words(const Saved *saved, char *text, size_t size);
 
 #endif

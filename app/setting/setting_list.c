@@ -73,7 +73,7 @@ void setting_list_remove(SettingList *list, const SettingList *paths)
             }
 }
 
-/* Whether the setting says a list whole, and the other one something of an element. */
+/* True if `setting` writes a list whole, and `other` changes an element of the list. */
 static bool holds(const char *setting, const char *other)
 {
     const size_t length = scene_setting_key(setting);
@@ -81,7 +81,7 @@ static bool holds(const char *setting, const char *other)
            other[length] == '[';
 }
 
-/* What holds one of the paths, or is held by one. */
+/* Removes settings that hold a path of `paths` (`around`), or that a path of `paths` holds. */
 static void remove_held(SettingList *list, const SettingList *paths, bool around)
 {
     for (int i = list->count - 1; i >= 0; i--) {

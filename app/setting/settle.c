@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-/* The turn as an axis and an angle of at most half a turn. */
+/* Converts the quaternion to an axis and an angle of at most half a turn. */
 static void axis_of(const double q[4], double axis[3], double *angle_deg)
 {
     const double sine = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), sign = q[3] < 0 ? -1 : 1;
@@ -13,7 +13,7 @@ static void axis_of(const double q[4], double axis[3], double *angle_deg)
         axis[k] = sign * q[k] / sine;
 }
 
-/* On top of what it is turned by. */
+/* Applies the turn on top of the solid's own turn. */
 static void turn(SolidDef *solid, const double by[4])
 {
     double rest[4];
@@ -24,7 +24,8 @@ static void turn(SolidDef *solid, const double by[4])
         quat_multiply(by, rest, rest);
         axis_of(rest, solid->axis, &solid->angle_deg);
     }
-    for (int i = 0; i < solid->motion_count; i++) /* a hand turns what turns, and no way that is gone */
+    for (int i = 0; i < solid->motion_count;
+         i++) /* turns rotating motions only: translations keep their directions */
         if (!motion_translates(&solid->motions[i]))
             quat_rotate(by, solid->motions[i].axis, solid->motions[i].axis);
 }

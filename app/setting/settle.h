@@ -1,4 +1,4 @@
-/* What hands have done to a scene that runs, as that scene's own. */
+/* Writes changes made by hand to a running scene into the scene's own definition. */
 #ifndef SLOSH_SETTLE_H
 #define SLOSH_SETTLE_H
 
@@ -6,8 +6,9 @@
 
 #include <stdint.h>
 
-/* Solids stand where a hand has sent them, and move from there as they did; emitters and drains are shut at
-   the start where they are in `shut` (gates of sim/matter/flow.h). Afterwards no hand has moved a solid. */
+/* Puts solids where a hand has moved them, with their motions continuing from there. Emitters and drains
+   in `shut` (gates of sim/matter/flow.h) are closed at the start. Afterwards no solid counts as moved by
+   hand. */
 void settle_world(WorldDef *def, uint64_t shut);
 
 #endif
