@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A preset on its way into a tree. */
+/* A preset being applied to a tree. */
 typedef struct Making {
     Tree *tree;
     const Recipe *recipe;
     const char *said;
-    int fluid;     /* the one in question */
-    char set[300]; /* what was set, for people */
+    int fluid;     /* index of the preset's fluid */
+    char set[300]; /* the settings made, for people */
     Error *error;
 } Making;
 
@@ -71,7 +71,7 @@ static bool find_fluid(Making *making, const char *wanted)
                      making->said, count);
 }
 
-/* Each fluid has a name of its own. */
+/* True if a different fluid has the name. */
 static bool name_is_taken(const Making *making, const char *name)
 {
     const Node *fluids = tree_at(making->tree, "fluids");
@@ -126,8 +126,8 @@ static bool set(Making *making, const char *setting)
     return tree_set(making->tree, whole, making->said, making->error);
 }
 
-/* "--preset honey: fluids[0] (water): density 1420, ...; the other fluids stay: --preset honey:NAME is of
-   another one". */
+/* Adds a note: "--preset honey: fluids[0] (water): density 1420, ...; the other fluids stay: --preset
+   honey:NAME is of another one". */
 static void tell(const Making *making, const char *name, bool chosen, Notes *notes)
 {
     const Node *fluids = tree_at(making->tree, "fluids");
@@ -172,7 +172,7 @@ bool recipe_apply(Tree *tree, const char *name, const char *said, Notes *notes, 
     return true;
 }
 
-/* Whether "path" of a row, of the fluid with that number, is the key of "path=value". */
+/* True if the row's path, with the fluid's number filled in, is the key of "path=value". */
 static bool is_key(const char *row, const char *fluid, const char *setting)
 {
     static const char FLUID[] = "fluid.";

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-/* Friction of 1 Pa s and more is taken implicitly, so that no step is too long for it. */
+/* Viscosities of 1 Pa s and more are solved implicitly, so that no step is too long. */
 const Recipe recipe_list[] = {
     {.name = "water",
      .kind = RECIPE_FLUID,
