@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* "fluids[].viscosity" as "fluids[1].viscosity". */
+/* Fills in the index: "fluids[].viscosity" gives "fluids[1].viscosity". */
 static void path_of(const Key *key, int element, char path[TERM_SIZE])
 {
     const char *inner = strstr(key->path, "[]");
@@ -15,7 +15,7 @@ static void path_of(const Key *key, int element, char path[TERM_SIZE])
         snprintf(path, TERM_SIZE, "%s", key->path);
 }
 
-/* Whether the term is on in what its key's offset counts from. */
+/* True if the term is on in the struct at `base`. */
 static bool is_on(const Key *key, const void *base, char value[TERM_SIZE])
 {
     char text[TIME_TABLE_ROWS * 48];

@@ -1,5 +1,5 @@
-/* The terms of a scene's model: what it could do without. A term is a row of the table of keys with a value
-   `off` (sim/base/key.h). */
+/* The terms of a scene's model that could be switched off. A term is a row of the table of keys with an `off`
+   value (sim/base/key.h). */
 #ifndef SLOSH_TERM_H
 #define SLOSH_TERM_H
 
@@ -10,11 +10,11 @@ enum { TERMS_MAX = 24, TERM_SIZE = 64 };
 typedef struct SceneTerm {
     const Key *key;
     char path[TERM_SIZE];  /* with indices: "fluids[1].viscosity" */
-    char value[TERM_SIZE]; /* as the scene has it, without its unit; cut where it is longer */
+    char value[TERM_SIZE]; /* the scene's value without unit, cut to fit */
 } SceneTerm;
 
-/* The terms that a scene has: those of the solver in use whose value is another than off; how many. One that
-   stands in the elements of a list is a term an element. Beyond TERMS_MAX none is found. */
+/* Finds the scene's terms: terms of the present solver with a value other than off. Returns their count. A
+   row for list elements gives a term per element. At most TERMS_MAX terms are found. */
 int scene_terms(const Scene *scene, SceneTerm terms[TERMS_MAX]);
 
 #endif
