@@ -18,7 +18,7 @@ static bool check(const double size[3], const WorldDef *def, Error *error)
     return true;
 }
 
-/* Whether the fluid fits in; solids are not counted. */
+/* True if the fluid fits into the box; solids are not counted. */
 static bool fits(const WorldDef *after, const WorldInfo *info, Error *error)
 {
     double room = 1, fluid = (double)info->count;

@@ -1,4 +1,4 @@
-/* What a user does to the size of the box while a simulation runs. */
+/* The user's changes of the box's size while a simulation runs. */
 #ifndef SLOSH_BOX_COMMAND_H
 #define SLOSH_BOX_COMMAND_H
 
@@ -6,21 +6,20 @@
 
 #include <stdbool.h>
 
-/* Spacings by which a side shrinks at a time: the wall then squeezes the fluid by less than waves of its own
- * do. */
+/* Greatest shrinking of a side at a time, in spacings: a small bite squeezes the fluid less than its own
+   waves do. */
 #define BOX_BITE 0.04
 
-/* Spacings that a side has at least. */
+/* Least length of a side, in spacings. */
 #define BOX_LEAST 6
 
 struct World;
 struct WorldDef;
 
-/* The box becomes so wide, high and deep (m) at once; where it is to be smaller, by BOX_BITE at
-   most along each axis: who wants more asks again. The middle of its floor stays where it is. Makes the world
-   anew, which takes about as long as opening its scene did: `world` becomes another one, `def` is that of its
-   scene. False with the reason: not finite, too small for its particles or for the method, a side that is
-   periodic; nothing has changed. */
+/* Resizes the box (m) at once, but shrinks at most by BOX_BITE along each axis: callers repeat for more. The
+   centre of the floor stays. Rebuilds the world, which takes about as long as opening the scene: `world` is
+   replaced, and `def` is its new definition. Returns false with the reason, without changes: not finite, too
+   small for the particles or the method, or a periodic side. */
 bool box_command_apply(const double size[3], struct World **world, struct WorldDef *def, Error *error);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What another machine would do otherwise, and what changes no bit. */
+/* True for settings of the machine, which change no bit. */
 static bool is_of_the_machine(const char *setting)
 {
     static const char *const keys[] = {"solver.threads=", "solver.simd="};

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Takes the next line of the head, which must be there. */
+/* Takes the next line of the head; a missing line is an error. */
 static bool next_of_head(Reader *reader)
 {
     return reader_next(reader) ||
@@ -14,7 +14,7 @@ static bool next_of_head(Reader *reader)
                        "the recording was cut before its commands; it cannot be replayed, take a whole one");
 }
 
-/* Takes the next line, which must begin with `word`, a space and more. */
+/* Takes the next line, which must begin with `word`, a space and more text. */
 static bool next_word(Reader *reader, const char *word)
 {
     char wanted[32];
@@ -95,7 +95,7 @@ static bool read_settings(Reader *reader)
     return true;
 }
 
-/* Adds the line in hand, "| ..." or "|", to the scene's text. */
+/* Adds the present line, "| ..." or "|", to the scene's text. */
 static bool add_scene_line(Reader *reader, size_t room)
 {
     Recording *out = reader->out;

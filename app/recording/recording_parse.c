@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A blank and a finite number, decimal or hexadecimal, at *at, which then points behind them. */
+/* Reads a blank and a finite number, decimal or hexadecimal, at *at; moves *at after the number. */
 static bool take_number(const char **at, double *number)
 {
     const char *digits = *at + 1;
@@ -20,7 +20,7 @@ static bool take_number(const char **at, double *number)
     return end != digits && isfinite(*number);
 }
 
-/* Position and orientation. */
+/* Reads position and orientation. */
 static bool read_target(const Reader *reader, const char *at, BoxTarget *target)
 {
     for (int k = 0; k < 7; k++)
@@ -32,8 +32,8 @@ static bool read_target(const Reader *reader, const char *at, BoxTarget *target)
     return !*at || reader_fail(reader, "'%.40s' follows the seven numbers; leave it out", at);
 }
 
-/* What a finger does; then, unless that is nothing, its point, radius and strength, and of what is poured the
-   number of the fluid. */
+/* Reads a finger's way. For ways other than `none` reads point, radius and strength, and for pouring the
+   fluid's number. */
 static bool read_finger(const Reader *reader, const char *at, Finger *finger)
 {
     char name[8] = "";
@@ -68,7 +68,7 @@ static bool read_finger(const Reader *reader, const char *at, Finger *finger)
            reader_fail(reader, "the radius of a finger must be above 0, and its strength not below");
 }
 
-/* The names of what is shut, each behind a blank. */
+/* Reads the names of shut gates, each after a blank. */
 static bool read_shut(const Reader *reader, const char *at, uint64_t *shut)
 {
     while (*at) {
@@ -86,7 +86,7 @@ static bool read_shut(const Reader *reader, const char *at, uint64_t *shut)
     return true;
 }
 
-/* A blank and a whole number from 0 on. */
+/* Reads a blank and a whole number, at least 0. */
 static bool take_index(const char **at, int *index)
 {
     double number;
@@ -96,8 +96,8 @@ static bool take_index(const char **at, int *index)
     return true;
 }
 
-/* "move" with the number of a solid, how far it is off and its turn; "put" with what it is like, its place
-   and its size; "take" with the number. */
+/* Reads "move" with the solid's number, offset and turn; "put" with shape, position and size; "take" with the
+   solid's number. */
 static bool read_solid(const Reader *reader, const char *at, SolidCommand *solid)
 {
     char name[8] = "";
@@ -135,7 +135,7 @@ static bool read_size(const Reader *reader, const char *at, double size[3])
     return !*at || reader_fail(reader, "'%.40s' follows the size of the box; leave it out", at);
 }
 
-/* The setting after " set", with the lines that carry it on. */
+/* Reads the setting after " set", with its continuation lines. */
 static bool read_setting(Reader *reader, size_t skip, char setting[SIM_SETTING_SIZE])
 {
     const size_t number = reader->number;
@@ -202,7 +202,7 @@ static bool read_command(Reader *reader)
            (recording_add(out, &command) || reader_fail(reader, "no memory to read it"));
 }
 
-/* "end STEPS HASH", with nothing behind it. */
+/* Reads "end STEPS HASH", which must be the file's last line. */
 static bool read_end(Reader *reader)
 {
     char line[READER_LINE_SIZE] = "";

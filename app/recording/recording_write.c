@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A text that may have newlines, after the word that says what it is. */
+/* Writes a text after its keyword; newlines in the text get continuation lines. */
 static void put_text(FILE *file, const char *text)
 {
     for (; *text; text++) {
@@ -118,12 +118,12 @@ static void put_command(FILE *file, const SimCommand *command)
             command->kind == SIM_CARRY ? "carry" : "target", x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
 }
 
-/* Of the world at the end. */
+/* Figures of the world at the end. */
 typedef struct End {
     uint64_t steps, hash;
 } End;
 
-/* `end` NULL: it is not known. */
+/* Writes the recording; `end` NULL: the end is unknown. */
 static bool put_all(FILE *file, const Recording *recording, const End *end)
 {
     put_head(file, recording);

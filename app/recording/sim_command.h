@@ -1,7 +1,5 @@
-/* What acts on a running simulation from outside: the hand, a finger, gates, solids, the
-   box's size, and changed settings.
-   Input, panel and scripts send nothing else, so that a list of these commands is all that it takes to do a
-   session again. */
+/* Commands for a running simulation: the hand, a finger, gates, solids, the size of the box, and changed
+   settings. Input, panel and scripts send only such commands, so a list of commands can repeat a session. */
 #ifndef SLOSH_SIM_COMMAND_H
 #define SLOSH_SIM_COMMAND_H
 
@@ -22,13 +20,13 @@ typedef enum SimCommandKind {
     SIM_SHUT,   /* world_shut */
     SIM_SOLID,  /* solid_command_apply */
     SIM_SIZE,   /* box_command_apply */
-    SIM_SET     /* scene_set_live, then world_change, or world_move for another backend */
+    SIM_SET     /* scene_set_live, then world_change, or world_move for a new backend */
 } SimCommandKind;
 
-enum { SIM_SETTING_SIZE = 192 }; /* a curve of eight control points is the longest */
+enum { SIM_SETTING_SIZE = 192 }; /* a curve of eight control points is longest */
 
 typedef struct SimCommand {
-    uint64_t step; /* WorldInfo.step when it applies */
+    uint64_t step; /* WorldInfo.step of the application */
     SimCommandKind kind;
     union {
         BoxTarget target;               /* SIM_TARGET, SIM_CARRY */
@@ -36,24 +34,25 @@ typedef struct SimCommand {
         uint64_t shut;                  /* SIM_SHUT */
         SolidCommand solid;             /* SIM_SOLID */
         double size[3];                 /* SIM_SIZE */
-        char setting[SIM_SETTING_SIZE]; /* SIM_SET: "path=value" of a key that may change */
+        char setting[SIM_SETTING_SIZE]; /* SIM_SET: "path=value" of a live key */
     };
 } SimCommand;
 
-/* Whether it says where the box shall be. */
+/* True if the command sets the box's pose. */
 bool sim_command_poses(const SimCommand *command);
 
-/* Applies the command now, whatever its step. `scene` is the one that the world was made from, with all that
-   was set since; *world becomes another one where the backend changes. False with the reason: the setting is
-   wrong, or the memory short; nothing has changed. */
+/* Applies the command now, ignoring its step. `scene`: the world's scene, with all later settings; *world is
+   replaced if the backend changes. Returns false with the reason, without changes, if the setting is wrong or
+   memory is short. */
 bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, Error *error);
 
-/* Whether the command sets what the world itself is made with: the backend, or what it keeps for views; and
-   whether the backend; and that to one on a GPU: then a context must be current. */
+/* sim_command_moves: true if the command changes how the world is made: the backend, or data kept for views.
+   sets_backend: true for the backend. needs_gpu: true for a backend on a GPU, for which a context must be
+   current. */
 bool sim_command_moves(const SimCommand *command);
 bool sim_command_sets_backend(const SimCommand *command);
 
-/* Whether states to come may differ by it; they do not where accelerations are kept to be shown. */
+/* True if later states may differ after the command; keeping accelerations for display changes no state. */
 bool sim_command_changes(const SimCommand *command);
 bool sim_command_needs_gpu(const SimCommand *command);
 

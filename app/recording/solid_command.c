@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float COLOR[3] = {0.55F, 0.56F, 0.6F}; /* in no colour of a fluid */
+static const float COLOR[3] = {0.55F, 0.56F, 0.6F}; /* different from all fluid colours */
 
 static const char *const acts[] = {"move", "put", "take"};
 
@@ -24,8 +24,8 @@ int solid_act_find(const char *name)
     return -1;
 }
 
-/* How fast a solid may go and what lies next to it still gets out of its way: parts of what a particle may go
-   in a step, and of the speed of sound. */
+/* Greatest speed of a solid at which its neighbours can move out of the way: fractions of a particle's limit
+   per step, and of the speed of sound. */
 static double speed_of(const WorldDef *def, const WorldInfo *info)
 {
     static const double OF_STEP = 0.1, OF_SOUND = 0.1;
@@ -47,8 +47,8 @@ static void clamp_to_box(const WorldDef *def, double centre[3])
         centre[2] = 0;
 }
 
-/* Its centre stays in the box. In two dimensions all of it does, with a gap: fluid between it and a wall has
-   no way round it, and would be squeezed to nothing. */
+/* Keeps the solid's centre in the box. In two dimensions keeps the whole solid in, with a gap: fluid trapped
+   between the solid and a wall could not flow around, and would be squeezed to nothing. */
 static void keep_in_box(const WorldDef *def, const SolidDef *solid, double centre[3])
 {
     static const double GAP = 2; /* spacings */
@@ -103,7 +103,7 @@ static bool make(const SolidCommand *command, const WorldInfo *info, const World
         solid->color[k] = COLOR[k];
     }
     solid->motion_count = 0;
-    solid->density = 0; /* it stays where the hand has it */
+    solid->density = 0; /* stays where the hand holds the solid */
     solid->hand = (SolidHand){.moved = false};
     memcpy(solid->centre, command->at, sizeof solid->centre);
     clamp_to_box(def, solid->centre);
@@ -112,7 +112,7 @@ static bool make(const SolidCommand *command, const WorldInfo *info, const World
            solid_hand_move(&solid->hand, none, upright, info->time, 1, 1, def->dimensions);
 }
 
-/* By the balls about both. */
+/* True if the bounding balls of the solid and of a floating solid meet. */
 static bool meets_floating(const SolidDef *solid, const SolidPose *pose, const WorldDef *def,
                            const WorldInfo *info)
 {
@@ -130,7 +130,7 @@ static bool meets_floating(const SolidDef *solid, const SolidPose *pose, const W
     return false;
 }
 
-/* Whether the solid keeps clear of all particles, and of what floats. */
+/* True if the solid keeps clear of all particles and floating solids. */
 static bool is_clear(const SolidDef *solid, const WorldDef *def, const WorldInfo *info, const float *position)
 {
     const float half = 0.5F * (float)def->spacing;
@@ -144,7 +144,7 @@ static bool is_clear(const SolidDef *solid, const WorldDef *def, const WorldInfo
     return true;
 }
 
-/* Straight up from where it is asked for, to the first place that no fluid is in, and nothing that floats. */
+/* Lifts the solid straight up to the first place free of fluid and floating solids. */
 static bool lift(SolidDef *solid, const WorldDef *def, const WorldInfo *info, const float *position)
 {
     const double *g = info->gravity, norm = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
@@ -186,7 +186,7 @@ static bool take(const SolidCommand *command, WorldDef *def, Error *error)
     if (!has(def, command->solid, error))
         return false;
     for (int k = command->solid; k < def->solid_count; k++)
-        if (def->solids[k].density > 0) /* its state goes by its number */
+        if (def->solids[k].density > 0) /* the state of a floating solid is found by its number */
             return error_set(error, "solid %d floats: neither it nor a solid before it is taken out", k);
     def->solid_count--;
     memmove(def->solids + command->solid, def->solids + command->solid + 1,
