@@ -78,7 +78,7 @@ const HelpTopic help_topics[] = {
     {0},
 };
 
-/* "box|world" */
+/* Gives "box|world". */
 #define X(NAME, name) "|" name
 #define FRAMES        (&("" SNAPSHOT_FRAMES(X))[1])
 

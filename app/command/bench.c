@@ -23,7 +23,7 @@ static GlClock clock_of(ClockChoice choice)
                                            : GL_CLOCK_AUTO;
 }
 
-/* --device: a recording that can be played, and a mapping for it. */
+/* Checks --device: a playable recording, and its mapping. */
 static bool device_check(const Args *args, Error *error)
 {
     Mapping mapping;
@@ -34,7 +34,7 @@ static bool device_check(const Args *args, Error *error)
            (devices_check(args->device, error) && mapping_load(args->mapping, &mapping, error));
 }
 
-/* All cases are read before the first runs: a mistake in the last one shows at once. */
+/* Reads all cases before the first run: a mistake in the last case shows at once. */
 static bool cases_check(const Plan *plan, bool *context, Error *error)
 {
     *context = false;
@@ -47,14 +47,14 @@ static bool cases_check(const Plan *plan, bool *context, Error *error)
     return true;
 }
 
-/* What of the cases there are figures of, and what failed. */
+/* Counts of measured and of failed cases. */
 typedef struct Tally {
     size_t done, measured;
-    size_t fluids; /* blew up, leaked or did not converge: a row as good as another in a sweep */
-    size_t others; /* failed by something else */
+    size_t fluids; /* blew up, leaked or did not converge: a valid row of a sweep */
+    size_t others; /* failed for a different reason */
 } Tally;
 
-/* At once, and whatever is quiet; the other cases go on. */
+/* Reports a failure at once, even if quiet; the following cases still run. */
 static void tell_failure(const BenchResult *result, Tally *tally)
 {
     fprintf(stderr, "%s%s%s\n", result->swept, result->swept[0] ? ": " : "", result->failure.message);
@@ -128,7 +128,7 @@ static bool show_table(const Plan *plan, const BenchResult *results, size_t coun
            (!args->output || table_draw(plan->table, results, count, args->output, error));
 }
 
-/* The case that could not begin. */
+/* Notes the case that could not begin. */
 static void note_failure(const Plan *plan, size_t index, const Error *error, BenchResult *result)
 {
     Scene scene;
@@ -145,7 +145,7 @@ static void note_failure(const Plan *plan, size_t index, const Error *error, Ben
     memcpy(result->view, scene.view.kind, sizeof result->view);
 }
 
-/* A sweep looks for where fluids fail: rows of those are its work, as long as there is another. */
+/* A sweep searches for failing fluids: such rows are results, if at least one case was measured. */
 static bool has_worked(const Plan *plan, const Tally *tally)
 {
     const size_t failed = tally->fluids + tally->others;
@@ -154,7 +154,8 @@ static bool has_worked(const Plan *plan, const Tally *tally)
     return failed == 0 || (plan->sweep_count > 0 && tally->measured > 0 && tally->others == 0);
 }
 
-/* What there is is shown and written, whatever failed; `ok`: nothing did that ends the work, else *error. */
+/* Shows and writes all results, even after a failure; `ok`: no failure ended the work, otherwise *error has
+   it. */
 static bool report(const Plan *plan, BenchResult *results, Tally *tally, bool ok, Error *error)
 {
     const Args *args = plan->args;
@@ -196,7 +197,7 @@ static int bench(const Plan *plan, bool wants_context, Error *error)
     return interrupted() ? EXIT_INTERRUPTED : has_worked(plan, &tally) ? 0 : EXIT_FAILED;
 }
 
-/* One window after the other, each with its scene and its settings. */
+/* Runs the windows one after another, each with a scene and settings. */
 static int bench_play(const Args *args, Error *error)
 {
     static const char *const scene = "scenes/box_slosh.yaml";

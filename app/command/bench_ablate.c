@@ -19,7 +19,7 @@ static bool names_view(const SceneSettings *settings)
     return named;
 }
 
-/* An option that would have no effect, or NULL. */
+/* Names an option without effect, or NULL. */
 static const char *has_no_place(const Args *args)
 {
     return args->table                   ? "--table"
@@ -35,7 +35,7 @@ static const char *has_no_place(const Args *args)
                                          : NULL;
 }
 
-/* All scenes are read before the first runs. */
+/* Reads all scenes before the first run. */
 static bool scenes_check(const Plan *plan, bool *context, Error *error)
 {
     static Scene scene;
@@ -54,7 +54,7 @@ static bool scenes_check(const Plan *plan, bool *context, Error *error)
     return true;
 }
 
-/* False where a scene fails; the others are run. */
+/* Returns false if a scene fails; the following scenes still run. */
 static bool ablate_all(const Plan *plan, const Headless *context, Ablation *ablations, size_t *done)
 {
     const Args *args = plan->args;

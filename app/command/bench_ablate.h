@@ -4,7 +4,7 @@
 
 #include "app/command/bench_plan.h"
 
-/* Each scene of the plan without each of its terms; the exit code of the program. */
+/* Measures each scene of the plan without each of its terms; returns the exit code. */
 int bench_ablate(const Plan *plan);
 
 #endif

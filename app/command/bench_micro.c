@@ -14,12 +14,12 @@ typedef struct Micro {
     Ceilings ceilings;
     MicroResult *results;
     size_t count;
-    double ms_a_particle; /* that the last case took at least */
-    bool broke;           /* a simulation on its way to --time */
+    double ms_a_particle; /* least time of the last case, ms per particle */
+    bool broke;           /* a simulation broke before --time */
 } Micro;
 
-/* All cases are read before the first runs, with few particles: too many are no mistake of the command line.
- */
+/* Reads all cases before the first run, with few particles: too many particles are no mistake of the command
+   line. */
 static bool cases_check(const Plan *plan, Error *error)
 {
     static Plan few;
@@ -58,7 +58,7 @@ static double particles_of(const Scene *scene)
     return (double)all;
 }
 
-/* Whether the case may be tried, by the time that the last one took. */
+/* True if the case may be tried, judged by the time of the last case. */
 static bool within_limits(Micro *micro, size_t index, Scene *scene)
 {
     Error error;
@@ -77,8 +77,7 @@ static bool within_limits(Micro *micro, size_t index, Scene *scene)
     return false;
 }
 
-/* A world that cannot be made, for want of memory, is left out, as is a state that a simulation did not come
-   to. */
+/* Measures a case; skips a world that exceeds memory, and a state that the simulation did not reach. */
 static void measure_case(Micro *micro, size_t index, const Scene *scene)
 {
     Error error;

@@ -4,7 +4,7 @@
 
 #include "app/command/bench_plan.h"
 
-/* Measures the plan's cases; the exit code of the program. */
+/* Measures the plan's cases; returns the exit code. */
 int bench_micro(const Plan *plan);
 
 #endif

@@ -11,7 +11,7 @@ static const char *const default_scenes[] = {"scenes/dam_break.yaml", "scenes/bo
 
 _Static_assert(TABLE_SWEEPS + 1 <= ARGS_SWEEPS_MAX, "a table's sweeps have room");
 
-/* A setting of what a table sweeps: that one value. */
+/* Narrows the table's sweep of that setting to the single value. */
 static bool narrow(Plan *plan, const char *setting, const char *said)
 {
     for (int i = 0; i < plan->sweep_count; i++) {
@@ -27,7 +27,7 @@ static bool narrow(Plan *plan, const char *setting, const char *said)
     return false;
 }
 
-/* The table's own settings come first, so that the command line may say otherwise. */
+/* Puts the table's own settings first, so that the command line overrides them. */
 static bool plan_table(Plan *plan, Error *error)
 {
     const Args *args = plan->args;
@@ -58,7 +58,7 @@ static bool plan_table(Plan *plan, Error *error)
     return true;
 }
 
-/* Passes alone are measured at several counts. */
+/* Measures single passes at several counts. */
 static bool plan_micro(Plan *plan, Error *error)
 {
     static const Sweep counts = {
@@ -102,7 +102,7 @@ bool plan_make(const Args *args, Plan *plan, Error *error)
     return true;
 }
 
-/* Words for the swept settings of one case: what messages call them, with the setting itself behind. */
+/* Names for messages of the swept settings of a case, with the settings themselves. */
 typedef char SweptTexts[ARGS_SWEEPS_MAX][SWEEP_SAID];
 
 static bool case_settings(const Plan *plan, size_t combination, SweptTexts texts, SceneSettings *settings,

@@ -10,7 +10,7 @@ enum { USUAL_POINTS = 4000000, USUAL_FRAMES = 5 };
 static bool render(const Plan *plan, PointsFigures *figures, Error *error)
 {
     const Args *args = plan->args;
-    Plan alone = *plan; /* --particles is of the points */
+    Plan alone = *plan; /* --particles is for the points */
     Scene scene;
     Progress progress;
     alone.settings.particles = 0;

@@ -4,7 +4,7 @@
 
 #include "app/command/bench_plan.h"
 
-/* Measures sampling, then the table's scene; the exit code of the program. */
+/* Measures sampling, then the table's scene; returns the exit code. */
 int bench_points(const Plan *plan);
 
 #endif

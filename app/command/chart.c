@@ -9,15 +9,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Rows of the plan, in its order, and all that the file has: runs of other settings stay there. */
+/* Rows of the plan, in order, and all rows of the file, where runs of different settings stay. */
 typedef struct Runs {
     ChartRows kept, rows;
-    bool made[CHART_JOBS_MAX]; /* by an older run */
-    bool written;              /* --json is */
-    int there;                 /* rows of the plan that have their figures */
+    bool made[CHART_JOBS_MAX]; /* made by an older run */
+    bool written;              /* --json is written */
+    int there;                 /* count of the plan's rows with figures */
 } Runs;
 
-/* Rows of the plan, with the figures of those that are kept. */
+/* Makes the rows of the plan; takes figures of kept rows. */
 static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
 {
     static Scene scene;
@@ -30,7 +30,8 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
         if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], NULL, error))
             return false;
         const ChartRow *old = chart_rows_find(&runs->kept, rows->row[i].key);
-        runs->made[i] = old && old->outcome.kind != OUTCOME_NONE; /* what failed by no fault of a fluid */
+        runs->made[i] =
+            old && old->outcome.kind != OUTCOME_NONE; /* failures other than the fluid's are run again */
         runs->there += runs->made[i];
         if (runs->made[i])
             rows->row[i] = *old;
@@ -41,7 +42,7 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
     return true;
 }
 
-/* Of what was to be run when it began: what was done before a job, and the job itself. */
+/* Shares of the work to do: done before a job, and the job itself. */
 static void shares(const ChartPlan *plan, const Runs *runs, int job, double *done, double *part)
 {
     double all = 0;
@@ -69,7 +70,7 @@ static bool run_one(const ChartPlan *plan, Runs *runs, int job, Progress *progre
     return chart_rows_write(&runs->kept, plan->csv, error);
 }
 
-/* Those that are not made yet; the file is written after each. */
+/* Runs the missing jobs; writes the file after each job. */
 static bool run_all(const ChartPlan *plan, Runs *runs, Error *error)
 {
     Progress progress;
@@ -81,7 +82,7 @@ static bool run_all(const ChartPlan *plan, Runs *runs, Error *error)
     return ok && !interrupted();
 }
 
-/* Older runs of other settings stay in the file. */
+/* Updates the errors of kept rows; older runs of different settings stay in the file. */
 static void keep_errors(ChartRows *kept, const ChartRows *rows)
 {
     for (int i = 0; i < kept->count; i++) {
@@ -91,7 +92,7 @@ static void keep_errors(ChartRows *kept, const ChartRows *rows)
     }
 }
 
-/* A chart without an error on it is a failure. */
+/* Checks that the chart has at least one error value. */
 static bool check_rows(const ChartPlan *plan, const ChartRows *rows, Error *error)
 {
     int known = 0;
@@ -134,7 +135,7 @@ static bool finish(const ChartPlan *plan, Runs *runs, Error *error)
     return false;
 }
 
-/* What failed before there were figures of all. */
+/* Writes JSON for a failure before all figures existed. */
 static void write_failure(const ChartPlan *plan, const Runs *runs, const Error *error)
 {
     const Args *args = plan->args;
@@ -151,7 +152,7 @@ static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
            chart_rows_read(kept, plan->csv, stderr, error);
 }
 
-/* Where a run that is still to be made is on a GPU. */
+/* Makes a context if a missing run is on a GPU. */
 static bool make_context(ChartPlan *plan, const Runs *runs, Error *error)
 {
     if (!plan->wants_context || runs->there == plan->count)

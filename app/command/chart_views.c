@@ -19,7 +19,7 @@ static const double DEFAULT_TIME = 0.5; /* s */
 
 enum { DEFAULT_SIDE = 256 };
 
-/* Rows of the plan in its order, a reference's among them unused; and all that the file has. */
+/* Rows of the plan in order, with unused rows for references; and all rows of the file. */
 typedef struct Gallery {
     const Args *args;
     ViewPlan plan;
@@ -30,11 +30,11 @@ typedef struct Gallery {
     int width, height;
     ViewRows kept, rows;
     bool made[VIEW_JOBS_MAX];
-    int wanted, there; /* pictures but the references */
-    World *world;      /* at that time; NULL: nobody needed it */
-    Scene scene;       /* it was made from */
+    int wanted, there; /* count of pictures without references */
+    World *world;      /* at `time`; NULL: not needed yet */
+    Scene scene;       /* of the world */
     LinearPicture reference;
-    int reference_of; /* the job it is of; -1: none */
+    int reference_of; /* job of the reference; -1: none */
     bool told;        /* --json has been written, or cannot be */
 } Gallery;
 
@@ -63,7 +63,7 @@ static bool gallery_check(Gallery *gallery, Error *error)
     return name_csv(gallery, error) && view_plan_make(args, &gallery->plan, error);
 }
 
-/* With what the shaders of --shaders say, each with all that it includes. */
+/* Adds the shaders of --shaders to the key, each with its includes. */
 static uint64_t shaders_key(const char *directory, uint64_t key)
 {
     for (const EmbeddedShader *shader = embedded_shaders; directory && shader->path; shader++) {
@@ -76,7 +76,7 @@ static uint64_t shaders_key(const char *directory, uint64_t key)
     return key;
 }
 
-/* Rows of the plan, with the figures of those that are kept. */
+/* Makes the rows of the plan; takes figures of kept rows. */
 static bool make_rows(Gallery *gallery, Error *error)
 {
     static Scene scene;
@@ -99,7 +99,7 @@ static bool make_rows(Gallery *gallery, Error *error)
         gallery->made[i] = old != NULL;
         gallery->there += old != NULL;
         gallery->wanted += !job->reference;
-        if (old) { /* the name is the plan's: two jobs may mean the same picture */
+        if (old) { /* the name is from the plan: two jobs may mean the same picture */
             row->ms = old->ms;
             row->error = old->error;
             row->structure = old->structure;
@@ -112,7 +112,7 @@ static bool make_rows(Gallery *gallery, Error *error)
     return true;
 }
 
-/* The state that all pictures show. */
+/* Simulates the state of all pictures. */
 static bool simulate(Gallery *gallery, Error *error)
 {
     WorldInfo info;
@@ -133,7 +133,7 @@ static bool simulate(Gallery *gallery, Error *error)
     return ok && !interrupted();
 }
 
-/* The reference that the picture is compared with: it stands before it in the plan. */
+/* Draws the reference of a picture: the last reference job before the picture in the plan. */
 static bool need_reference(Gallery *gallery, int job, Error *error)
 {
     static Scene scene;
@@ -154,7 +154,7 @@ static bool need_reference(Gallery *gallery, int job, Error *error)
     return ok;
 }
 
-/* A picture that cannot be drawn is a row without figures, and said. */
+/* Draws a picture; a failing picture is reported, and its row has no figures. */
 static bool draw_one(Gallery *gallery, int job, Error *error)
 {
     static Scene scene;
@@ -193,7 +193,7 @@ static bool draw_all(Gallery *gallery, Error *error)
     return ok && !interrupted();
 }
 
-/* The references are no rows for people. */
+/* Removes reference rows, which are not for people. */
 static void drop_references(Gallery *gallery)
 {
     ViewRows *rows = &gallery->rows;
@@ -257,7 +257,7 @@ static bool gallery_open(Gallery *gallery, Error *error)
     return true;
 }
 
-/* What failed, or was stopped, before there were figures of all. */
+/* Writes JSON for a failure or a stop before all figures existed. */
 static void write_failure(const Gallery *gallery, const Error *error)
 {
     const Args *args = gallery->args;

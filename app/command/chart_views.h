@@ -4,7 +4,7 @@
 
 #include "app/session/args.h"
 
-/* The chart of a scene's pictures; the exit code of the program. */
+/* Makes the chart of a scene's pictures; returns the exit code. */
 int chart_views(const Args *args);
 
 #endif

@@ -34,7 +34,7 @@ static json_t *json_device(const DeviceRow *row)
                      id);
 }
 
-/* {"devices": [...], "known": [...]}; takes the reference of `devices`. */
+/* Writes {"devices": [...], "known": [...]}; takes the reference of `devices`. */
 static bool write_json(const char *path, json_t *devices, Error *error)
 {
     json_t *known = json_array();
@@ -66,7 +66,7 @@ static json_t *json_found(const DeviceFound *found)
     return json;
 }
 
-/* What is plugged in. */
+/* Lists the plugged in devices. */
 static int list_found(const Args *args, Error *error)
 {
     static DeviceFound found[DEVICE_SURVEY_MAX];
@@ -88,7 +88,7 @@ static int list_found(const Args *args, Error *error)
     return 0;
 }
 
-/* What one device of a recording said. */
+/* Count of reports of one device in a recording. */
 static size_t reports_of(const ReportLog *log, int device)
 {
     size_t reports = 0;
@@ -172,7 +172,7 @@ static int watch_devices(const Args *args, Error *error)
     return args->device && interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
-/* Checks, explains and writes what devices do. */
+/* Checks, explains and writes the mapping of devices. */
 static int show_mapping(const Args *args, Error *error)
 {
     Mapping mapping;

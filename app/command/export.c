@@ -79,7 +79,7 @@ static void report(const Export *export, const Args *args)
     fprintf(stderr, "in the frame of the %s\n", snapshot_frame_name(export->frame));
 }
 
-/* Of a series one colormap for all snapshots. */
+/* Finds the colormap; a series has one for all snapshots. */
 static bool find_colors(Export *export, size_t index, const Args *args, Error *error)
 {
     static const Scalar scalars[] = {[COLOR_CHOICE_AUTO] = SCALAR_FLUID,
@@ -125,7 +125,7 @@ static bool understand_surface(Export *export, SurfaceDef *surface, const Args *
            surface_check(surface, &export->scene, error);
 }
 
-/* What is not in the snapshots themselves. */
+/* Reads the scene, for facts missing in the snapshots. */
 static bool read_scene(const Export *export, const Args *args, Scene *scene, Error *error)
 {
     SnapshotScene numbers;
@@ -171,7 +171,7 @@ static bool check_parts(const Export *export, const Args *args, Error *error)
                      args->output, option);
 }
 
-/* What is to be done, before anything is: false is a mistake of the command line or of the input. */
+/* Prepares the export before any writing; false: a mistake in the command line or the input. */
 static bool understand(Export *export, SurfaceDef *surface, ExportSolids *solids, size_t *index,
                        const Args *args, Error *error)
 {

@@ -6,7 +6,7 @@
 bool export_choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error)
 {
     const size_t last = snapshot_count_steps(reader) - 1;
-    /* give or take what rounding does to a time */
+    /* allows for rounding of times */
     const double least = args->time - 1e-9 * fmax(args->time, 1);
     double time = -INFINITY;
     *index = args->time_given ? 0 : last;

@@ -1,34 +1,34 @@
-/* What all kinds of `slosh export` share, and those of slices and trails. */
+/* Shared parts of all kinds of `slosh export`, and the exports of slices and trails. */
 #ifndef SLOSH_EXPORT_PARTS_H
 #define SLOSH_EXPORT_PARTS_H
 
 #include "app/output/snapshot.h"
 #include "app/session/args.h"
 
-/* The snapshots of the command line, at least one; a gap behind them is told. False with the reason; *reader
-   is to be closed in either case. */
+/* Opens the snapshots of the command line, at least one; reports a gap at the end. Returns false with the
+   reason; close *reader in any case. */
 bool export_open(const Args *args, SnapshotReader **reader, Error *error);
 
-/* The last snapshot, or the first at or after --time. */
+/* Chooses the last snapshot, or the first at or after --time. */
 bool export_choose(const Args *args, SnapshotReader *reader, size_t *index, Error *error);
 
-/* The scalar of that name; false with those there are. */
+/* Finds the scalar of that name; returns false with the list of names. */
 bool export_scalar(const char *name, Scalar *scalar, Error *error);
 
-/* Whether snapshot `index` has it; false with those that it has. */
+/* True if snapshot `index` has the scalar; otherwise the error lists the scalars. */
 bool export_has_scalar(const Args *args, SnapshotReader *reader, size_t index, Scalar scalar, Error *error);
 
-/* False where an option or the output's name is of a slice, and --slice is not there. */
+/* Returns false if an option or the output's name needs --slice, which is missing. */
 bool export_needs_slice(const Args *args, Error *error);
 
-/* What --scalar and --kernel take; NULL after the last. */
+/* Values of --scalar and --kernel; NULL after the last. */
 const char *export_scalar_choice(int index);
 const char *export_kernel_choice(int index);
 
-/* With --slice; returns the exit code. */
+/* Runs --slice; returns the exit code. */
 int export_slice(const Args *args);
 
-/* With --trails; the same. */
+/* Runs --trails; returns the exit code. */
 int export_trails(const Args *args);
 
 #endif

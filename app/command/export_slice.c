@@ -19,10 +19,10 @@
 
 typedef enum SliceForm { SLICE_CSV, SLICE_VTI, SLICE_PVD } SliceForm;
 
-/* By the end of the output's name; the last is all snapshots, each a .vti. */
+/* By the suffix of the output; .pvd is a series of all snapshots, each a .vti. */
 static const char *const forms[] = {[SLICE_CSV] = ".csv", [SLICE_VTI] = ".vti", [SLICE_PVD] = ".pvd"};
 
-/* What is to be done. */
+/* A slice export. */
 typedef struct SliceExport {
     const Args *args;
     SnapshotReader *reader;
@@ -32,10 +32,10 @@ typedef struct SliceExport {
     size_t index; /* of the snapshot */
     SliceForm form;
     SliceMaker maker;
-    SliceTable table; /* of the last one */
-    size_t slices;    /* written; */
-    size_t empty;     /* of these, all empty */
-    bool interrupted; /* by a signal, before the last one */
+    SliceTable table; /* of the last slice */
+    size_t slices;    /* count of written slices */
+    size_t empty;     /* count of empty slices */
+    bool interrupted; /* by a signal, before the last slice */
 } SliceExport;
 
 static bool ends_in(const char *path, const char *extension)
@@ -67,13 +67,13 @@ const char *export_scalar_choice(int index)
     return scalar_list[index].name;
 }
 
-/* The first is the solver's own, which is no shape. */
+/* Skips the first kernel: the solver's own, which is not a named shape. */
 const char *export_kernel_choice(int index)
 {
     return plane_kernels[1 + index].name;
 }
 
-/* Which of the names it is; what to take where it is none of them. */
+/* Finds the index of the name; otherwise the error lists the names. */
 static bool find_name(const char *option, const char *name, const char *(*names)(int), int *found,
                       Error *error)
 {
@@ -107,7 +107,7 @@ static bool find_kernel(const char *name, int *kernel, Error *error)
     return found;
 }
 
-/* The file's own kernel, where it says one. */
+/* Uses the kernel of the option, then of the file, then the default. */
 static bool choose_kernel(SliceExport *export, Error *error)
 {
     char own[NAME_SIZE];
@@ -245,7 +245,7 @@ static bool write_all(SliceExport *export, Error *error)
     return done;
 }
 
-/* ---- what is said ---- */
+/* ---- messages ---- */
 
 static void warn(const SliceExport *export)
 {

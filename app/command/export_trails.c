@@ -16,7 +16,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* What is to be done, and what came of it. */
+/* A trail export and its results. */
 typedef struct TrailExport {
     const Args *args;
     SnapshotReader *reader;
@@ -26,9 +26,9 @@ typedef struct TrailExport {
     Scalar scalar;
     size_t first, last; /* of the snapshots */
     Trace trace;
-    size_t steps;     /* of which points were taken */
-    double time;      /* of the last one, s */
-    bool interrupted; /* by a signal, before the last one */
+    size_t steps;     /* count of steps with points */
+    double time;      /* of the last step, s */
+    bool interrupted; /* by a signal, before the last step */
 } TrailExport;
 
 /* ---- the command line ---- */
@@ -52,7 +52,7 @@ static bool refuse_others(const Args *args, Error *error)
            error_set(error, "trails are one file, not '%s'; name an OUT.vtp", args->output);
 }
 
-/* From `length` before the end on. */
+/* Starts `length` before the end. */
 static bool choose_first(TrailExport *export, Error *error)
 {
     double end, time;
@@ -73,7 +73,7 @@ static bool choose_first(TrailExport *export, Error *error)
                      export->last == 0 ? "take a later --time or a longer run" : "take a larger length");
 }
 
-/* Lines are of one and the same particle. */
+/* Lines need particle ids. */
 static bool has_ids(const TrailExport *export, const SnapshotStep *step, size_t index, Error *error)
 {
     return !snapshot_step_lacks(step, "id") ||
@@ -81,7 +81,7 @@ static bool has_ids(const TrailExport *export, const SnapshotStep *step, size_t 
                      export->args->scenes[0], index);
 }
 
-/* Of the last step, before anything is written. */
+/* Checks the last step for ids, before any writing. */
 static bool check_ids(const TrailExport *export, Error *error)
 {
     SnapshotStep step;
@@ -106,13 +106,13 @@ static bool understand(TrailExport *export, Error *error)
 
 /* ---- steps ---- */
 
-/* Where lines begin at a place or across a plane, steps that add no points count too. */
+/* True if a step must be read although it adds no points: lines may begin at a place or across a plane. */
 static bool is_read(const TrailExport *export, bool column)
 {
     return column || trace_def_has_plane(&export->def) || trace_def_has_region(&export->def);
 }
 
-/* A step before the last one may lack what that one has. */
+/* Checks a step, which may lack columns of the last step. */
 static bool check_step(const TrailExport *export, const SnapshotStep *step, size_t index, Error *error)
 {
     return has_ids(export, step, index, error) &&
@@ -206,7 +206,7 @@ static bool make(TrailExport *export, Error *error)
     return false;
 }
 
-/* ---- what is said ---- */
+/* ---- messages ---- */
 
 static void report(const TrailExport *export)
 {

@@ -19,15 +19,17 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-enum { FILES_MAX = 2 * ARGS_SCENES_MAX + 256 }; /* a scene, and of some of them a table or a mesh a fill */
+enum {
+    FILES_MAX = 2 * ARGS_SCENES_MAX + 256
+}; /* one per scene, and for some scenes tables or meshes per fill */
 
 typedef enum Use { FILE_READ, FILE_REPLACED, FILE_NEW /* refused where it is there */ } Use;
 
 typedef struct File {
     Use use;
     const char *word;    /* "--json", "the scene" */
-    const char *pattern; /* a folder: the files in it that count; NULL: a file */
-    char name[1024];     /* as the user wrote it */
+    const char *pattern; /* a folder: pattern of its relevant files; NULL: a file */
+    char name[1024];     /* as typed by the user */
     char place[PATH_MAX];
 } File;
 
@@ -36,7 +38,7 @@ typedef struct Files {
     File file[FILES_MAX];
 } Files;
 
-/* What has no place is no file either: the command will say so. */
+/* Adds a file; ignores unresolvable paths, which the command reports itself. */
 static void add(Files *files, Use use, const char *word, const char *name, const char *pattern)
 {
     File *file = &files->file[files->count];
@@ -49,9 +51,9 @@ static void add(Files *files, Use use, const char *word, const char *name, const
     files->count++;
 }
 
-/* ---- what is written ---- */
+/* ---- written files ---- */
 
-/* `path` with its last `length` bytes, or all from its last dot on, replaced. */
+/* Adds `path` with its last `length` bytes replaced by `ending`. */
 static void add_beside(Files *files, const char *word, const char *path, size_t length, const char *ending,
                        const char *pattern)
 {
@@ -85,7 +87,7 @@ static void add_chart(Files *files, const char *output)
         add_beside(files, "the figures of -o", output, strlen(dot), ".csv", NULL);
 }
 
-/* Files that have a name without -o, too. */
+/* Adds the outputs of fit, which has default names without -o. */
 static void add_fit(Files *files, const Args *args)
 {
     char output[1024];
@@ -130,7 +132,7 @@ static void add_outputs(Files *files, const Args *args)
     add(files, args->command == COMMAND_DEVICES ? FILE_NEW : FILE_REPLACED, "--record", args->record, NULL);
 }
 
-/* ---- what is read ---- */
+/* ---- read files ---- */
 
 static void add_table(void *user, const char *what, const char *path)
 {
@@ -185,7 +187,7 @@ static void add_scenes(Files *files, const Args *args)
                  args->command != COMMAND_NEW)
             add_scene(files, args, name);
     }
-    if (scene_path_find("scenes", path, NULL)) /* what is read without being named */
+    if (scene_path_find("scenes", path, NULL)) /* read without being named */
         add(files, FILE_READ, "the folder of scenes", path, "*.yaml");
     if (scene_path_find("scenes/reference", path, NULL))
         add(files, FILE_READ, "the folder of references", path, "*.csv");
@@ -204,9 +206,9 @@ static void add_inputs(Files *files, const Args *args)
     add(files, FILE_READ, "--shaders", args->shaders, "*.@(vert|frag|geom|comp|glsl)");
 }
 
-/* ---- how they meet ---- */
+/* ---- comparison ---- */
 
-/* One file, whatever its names. */
+/* True if both paths lead to one file. */
 static bool is_same(const File *a, const File *b)
 {
     struct stat one, other;

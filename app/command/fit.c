@@ -17,7 +17,7 @@ static bool check_outputs(const FitPlan *plan, Error *error)
            (!json || json_file_check(json, error));
 }
 
-/* An error below the scatter of repeats is one that luck decides. */
+/* An error below the scatter of repeated runs would be decided by chance. */
 static bool check_floor(const FitPlan *plan, Error *error)
 {
     const double floor = plan->runs.floor;
@@ -31,7 +31,7 @@ static bool check_floor(const FitPlan *plan, Error *error)
                100 * plan->goal.error, 100 * floor);
 }
 
-/* Nothing is within: what is nearest. */
+/* No setting meets the goal: reports the nearest. */
 static bool say_nearest(const FitPlan *plan, Error *error)
 {
     char goal[96];
@@ -83,7 +83,7 @@ static bool search(FitPlan *plan, Error *error)
     return plan->ladder.best >= 0 || say_nearest(plan, error);
 }
 
-/* NULL where none is needed. */
+/* Makes a context; NULL if not needed. */
 static bool make_context(const FitPlan *plan, Headless **context, Error *error)
 {
     if (!world_on_gpu(&plan->scene.world))

@@ -21,10 +21,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What is printed, and the same for --json. */
+/* Output as text, and as JSON for --json. */
 typedef struct Info {
     bool quiet;
-    json_t *json, *list; /* all of it; the list in hand */
+    json_t *json, *list; /* the whole JSON; the present list */
 } Info;
 
 static void begin_list(Info *info, const char *title, const char *key)
@@ -42,7 +42,7 @@ static json_t *add_row(Info *info, const char *name, const char *word, const cha
     return row;
 }
 
-/* Its object, which the list owns. */
+/* Adds a row; its object belongs to the list. */
 static json_t *put_row(Info *info, const char *name, const char *help)
 {
     if (!info->quiet)
@@ -57,8 +57,8 @@ static void put_named(Info *info, const char *title, const char *key, const Name
         put_row(info, list->name, list->help);
 }
 
-/* A world of the scene, or a small one, shows whether a backend on a GPU can do it; `no_context`: why there
-   is none, or NULL. */
+/* Tests with a world of the scene, or a small world, if a backend on a GPU can run; `no_context`: the reason
+   for a missing context, or NULL. */
 static void put_backend(Info *info, const Named *backend, const WorldDef *scene, const char *no_context)
 {
     WorldDef def = *scene;
@@ -75,7 +75,7 @@ static void put_backend(Info *info, const Named *backend, const WorldDef *scene,
         json_object_set_new(row, "reason", json_string(reason));
 }
 
-/* A block of fluid in a box. */
+/* A small world: a block of fluid in a box. */
 static WorldDef small_def(void)
 {
     WorldDef def = world_def_default();
@@ -159,7 +159,7 @@ static void put_metrics(Info *info)
         put_row(info, motion_name((MotionKind)m), motion_help((MotionKind)m));
 }
 
-/* The friction of the resolution, where a fluid has more of it than of its own. */
+/* Prints the numerical friction, where it exceeds the fluid's own friction. */
 static void print_friction(const WorldDef *def)
 {
     const StepFriction friction = step_friction(def);
@@ -213,7 +213,7 @@ static int fail(int code, const Error *error)
     return code;
 }
 
-/* The scene with what the command line set, as a file. */
+/* Saves the scene with the command line's settings as a file. */
 static bool save(const Args *args, const Scene *scene, Error *error)
 {
     char words[512];

@@ -11,16 +11,16 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
-/* The OpenMP library reads this when it is loaded. Its idle threads spin, some hundred milliseconds where
-   nothing is said, and starve a software renderer on few cores. 1,000 turns cost the solver alone nothing;
-   10,000 of them double the time of a frame where a picture is drawn beside it. */
+/* Sets the spin count for OpenMP, which reads the variable when loaded. By default idle threads spin for some
+   hundred milliseconds, and starve a software renderer on few cores. 1,000 turns cost the solver alone
+   nothing; 10,000 turns double the time of a frame with a picture drawn at the same time. */
 static void bound_spinning(char *argv[])
 {
-    prctl(PR_SET_NAME, "slosh"); /* else `ps` shows "exe", the link that is run below */
+    prctl(PR_SET_NAME, "slosh"); /* otherwise `ps` shows "exe", the link executed below */
     if (getenv("OMP_WAIT_POLICY") || getenv("GOMP_SPINCOUNT"))
         return;
     setenv("GOMP_SPINCOUNT", "1000", 1);
-    execv("/proc/self/exe", argv); /* when that fails, it only spins more */
+    execv("/proc/self/exe", argv); /* on failure idle threads merely spin longer */
 }
 
 static int run_command(const Args *args)
@@ -68,7 +68,7 @@ static int run_command(const Args *args)
     return 0;
 }
 
-/* What a driver refused is missing in what was drawn or computed, whatever the command says. */
+/* After GL errors, drawings or results are incomplete, so the exit code must be a failure. */
 static int with_gl_errors(int code)
 {
     const int errors = gl_debug_total();

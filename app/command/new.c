@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A scene that is short, is shown in real time on two processors, and says of each line what it is. */
+/* A short scene, real time on two processors, with a comment on each line. */
 static const char text[] =
     "# A block of water falls apart: the smallest scene. `slosh help keys` lists every key.\n"
     "title: My scene                          # the name in the window and in lists\n"
@@ -34,7 +34,7 @@ static bool write_text(const Output *output, Error *error)
     return true;
 }
 
-/* A file that is there stays: somebody wrote it. */
+/* Writes a new file; an existing file stays. */
 static bool write_new(const char *path, Error *error)
 {
     Output output = {.temp = ""};

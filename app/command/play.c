@@ -17,7 +17,7 @@ static int fail(const Error *error, int code)
     return code;
 }
 
-/* Whether the window can open it, before there is one. */
+/* Checks that the window can open the scene, before there is a window. */
 static bool check_scene(const char *scene, const Args *args, Error *error)
 {
     static PlayScene checked;

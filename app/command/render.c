@@ -19,23 +19,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* When the pictures are taken: `count` of them, `interval` seconds apart from `first` on. */
+/* Times of the pictures: `count` pictures, `interval` seconds apart, from `first` on. */
 typedef struct Schedule {
     double first, interval;
     size_t count;
 } Schedule;
 
-/* All of one call. */
+/* The state of a render command. */
 typedef struct Render {
     const Args *args;
     RenderPlan plan;
-    Session sessions[PANELS_MAX]; /* of each world; the first has the context */
+    Session sessions[PANELS_MAX]; /* one per world; the first owns the context */
     Shoot shoot;
     Pictures *pictures;
     Schedule schedule;
     Progress progress;
     RenderFigures figures;
-    Carried carried; /* by each PNG file */
+    Carried carried; /* in each PNG file */
     ImageText text;
 } Render;
 
@@ -47,8 +47,9 @@ static Schedule make_schedule(const Args *args, PicturesKind kind)
     return (Schedule){0, 1 / args->fps, (size_t)count};
 }
 
-/* What stands beside a scene is shown at the time of the scene's state, as in the window: that time once the
-   scene is there, else the picture's. Pictures between two states are all of one time. */
+/* Time shown in a panel. A panel beside a leading scene shows the time of the scene's state, as in the
+   window, once the scene has reached its state; before, the time of the picture. Interpolated pictures have
+   one time. */
 static double shown_at(const Render *render, int panel, double time)
 {
     const int leader = render->plan.leader_of[panel];
@@ -57,7 +58,7 @@ static double shown_at(const Render *render, int panel, double time)
                                                                        : time;
 }
 
-/* Of what a panel shows; of a run what is known of it before its first picture. */
+/* Facts of a panel's content; of a recorded run, known facts before its first picture. */
 static PanelFacts facts_of(const Render *render, int panel, double time)
 {
     const RenderPlan *plan = &render->plan;
@@ -78,7 +79,7 @@ static PanelFacts facts_of(const Render *render, int panel, double time)
                         .wanted = shown_at(render, panel, time)};
 }
 
-/* What each panel's name says: the values of --compare, and the view's own. */
+/* Settings for a panel's name: the values of --compare, and the view's own. */
 static void said_of(const RenderPlan *plan, int panel, char lines[VIEW_SET_SIZE + TITLE_SIZE])
 {
     const Args *args = plan->args;
@@ -88,7 +89,7 @@ static void said_of(const RenderPlan *plan, int panel, char lines[VIEW_SET_SIZE 
         used += (size_t)snprintf(lines + used, size - used, "%s=\n", args->sweeps[i].key);
 }
 
-/* Where all panels show the same states of one setting there are none. */
+/* Makes a panel's title; none if all panels show the same states of one setting. */
 static void make_title(const Render *render, int panel, double time, Title *title)
 {
     const RenderPlan *plan = &render->plan;
@@ -124,7 +125,7 @@ static bool open_shoot(Render *render, Error *error)
                       render->args->width, render->args->height, error);
 }
 
-/* Work done by now: by simulated time, since the solver takes most of it. */
+/* Fraction of work done, by simulated time, as the solver takes most of the time. */
 static double fraction_done(const Render *render)
 {
     const Schedule *schedule = &render->schedule;
@@ -135,14 +136,14 @@ static double fraction_done(const Render *render)
     return last > 0 ? simulated / last : (double)render->figures.pictures / (double)schedule->count;
 }
 
-/* False, with the session's name before the reason. */
+/* Puts the session's name before the reason; returns false. */
 static bool blame(const Session *session, Error *error)
 {
     const Error reason = *error;
     return error_set(error, "%s%s", session->prefix, reason.message);
 }
 
-/* One step of a world on its way to the picture at `time`. */
+/* Advances a world one step towards the picture at `time`. */
 static bool step(Render *render, int world, double time, Error *error)
 {
     Session *session = &render->sessions[world];
@@ -159,7 +160,7 @@ static bool step(Render *render, int world, double time, Error *error)
     return true;
 }
 
-/* When a world is to be there. */
+/* The time that a world must reach. */
 static double due_at(const Render *render, int world, double time)
 {
     int panel = 0;
@@ -168,7 +169,7 @@ static double due_at(const Render *render, int world, double time)
     return shown_at(render, panel, time);
 }
 
-/* The world that is furthest behind of those that are not there yet; -1: all are. */
+/* Index of the unfinished world furthest behind; -1: all have finished. */
 static int find_next(const Render *render, double time)
 {
     int next = -1;
@@ -179,7 +180,7 @@ static int find_next(const Render *render, double time)
     return next;
 }
 
-/* All worlds side by side, so that after a signal they are at about one time. */
+/* Advances all worlds side by side, so that a signal stops all at about one time. */
 static bool advance(Render *render, double time, Error *error)
 {
     int next;
@@ -216,8 +217,8 @@ static bool take_picture(Render *render, double time, Error *error)
     return true;
 }
 
-/* Each picture is of the first state of each world at or after its time. After a signal only a file that has
-   none yet gets one more. */
+/* Takes each picture from the first state of each world at or after its time. After a signal, takes one more
+   picture only if there is none yet. */
 static bool take_pictures(Render *render, Error *error)
 {
     const Schedule *schedule = &render->schedule;
@@ -233,7 +234,7 @@ static bool take_pictures(Render *render, Error *error)
     return true;
 }
 
-/* Frames of two runs in one folder would make a strange film. */
+/* Warns of frames of an earlier run in the folder, which would mix two films. */
 static void warn_of_older(const Pictures *pictures, size_t taken)
 {
     char frame[1088];
@@ -241,7 +242,7 @@ static void warn_of_older(const Pictures *pictures, size_t taken)
         fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", frame);
 }
 
-/* What there is of pictures is of no use. */
+/* Reports the failure; pictures so far are useless. */
 static int fail(const Render *render, const Error *error)
 {
     const Session *first = &render->sessions[0];
@@ -265,7 +266,7 @@ static int report(Render *render, Error *error)
     return EXIT_FAILED;
 }
 
-/* What of the schedule will not be as one may expect. */
+/* Warns of surprises in the times of pictures. */
 static void tell_times(const Render *render)
 {
     for (int i = 0; i < render->plan.world_count; i++) {
@@ -279,7 +280,7 @@ static void tell_times(const Render *render)
     }
 }
 
-/* The scene as it was said, unless it says that its pictures carry none. */
+/* Makes the scene to embed, as given, unless the scene forbids embedding. */
 static bool make_carried(const Args *args, Scene *scene, Carried *out, Error *error)
 {
     SceneSettings settings = args->settings;
@@ -295,7 +296,7 @@ static bool make_carried(const Args *args, Scene *scene, Carried *out, Error *er
     return ok;
 }
 
-/* What --compare sets differs from panel to panel. */
+/* Embeds the scene in the pictures, without the settings of --compare, which differ between panels. */
 static void carry(Render *render, PicturesKind kind)
 {
     Scene *scene = kind == PICTURES_VIDEO ? NULL : calloc(1, sizeof *scene);
@@ -349,7 +350,7 @@ static bool understand(const Args *args, PicturesKind *kind, Error *error)
                      args->output);
 }
 
-/* A world each, in the context of the first. */
+/* Opens a session per world, all in the context of the first. */
 static int open_sessions(Render *render, Error *error)
 {
     RenderPlan *plan = &render->plan;

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A recording on its way through the simulation. */
+/* A recording being simulated. */
 typedef struct Replay {
     const Args *args;
     const char *path;
@@ -18,8 +18,8 @@ typedef struct Replay {
     Session session;
     SnapshotSeries series;
     uint64_t hash; /* at the end */
-    bool ended;    /* false: a signal came before */
-    bool broke;    /* the simulation blew up where the recording ends */
+    bool ended;    /* false: stopped early by a signal */
+    bool broke;    /* the simulation blew up at the recording's end */
 } Replay;
 
 static int fail(int code, const Error *error)
@@ -36,7 +36,7 @@ static int fail_run(const Args *args, int code, const Error *error)
     return fail(code, error);
 }
 
-/* 0, or the exit code with the reason. */
+/* Returns 0, or the exit code with the reason. */
 static int simulate(Replay *replay, Progress *progress, Error *error)
 {
     Session *session = &replay->session;
@@ -97,7 +97,7 @@ static int finish(Replay *replay, Error *error)
     return write_json(replay, error) ? code : fail(EXIT_FAILED, error);
 }
 
-/* The file has the scene as it began. */
+/* Warns of changes that the snapshots lack, as their file has the initial scene. */
 static void tell_what_lacks(const Replay *replay)
 {
     static const char *const words[] = {"what was done to solids", "the box's new size",

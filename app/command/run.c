@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/* After trouble that no smaller step cured the world holds its last good state: what one wants to look at. */
+/* After trouble that smaller steps did not cure, keeps the world's last good state, for inspection. */
 static void keep_last(const Session *session, Snapshot *file)
 {
     Error none = {{0}};
@@ -20,11 +20,11 @@ static void keep_last(const Session *session, Snapshot *file)
         snapshot_append(file, session->world, &none);
 }
 
-/* What the states with a snapshot say of the solver. */
+/* Figures of the states with a snapshot. */
 typedef struct Look {
     Cloud cloud;
     CompressionTally compression;
-    double step_seconds; /* wall time of the steps, without what is written */
+    double step_seconds; /* wall time of the steps, without writing */
     ForcesLog forces;    /* of --forces */
     ProbeSeries probes;  /* of --probes */
 } Look;
@@ -36,7 +36,7 @@ static bool step(Session *session, Look *look, Error *error)
     do
         ok = session_substep(session, error) && probe_series_step(&look->probes, session, error);
     while (ok && session->info.within_frame);
-    world_sound(session->world); /* waits for a GPU, which is what is timed */
+    world_sound(session->world); /* waits for a GPU, as part of the timing */
     look->step_seconds += (wall_ms() - begin) / 1000;
     return ok;
 }
@@ -63,13 +63,13 @@ static bool add_snapshot(SnapshotSeries *series, const Session *session, Look *l
     return true;
 }
 
-/* From the first state to the last, with a snapshot of the first state at or after each multiple of --every.
-   Ends early, with a whole file, when a signal came. */
+/* Runs from the first state to the last, with a snapshot of the first state at or after each multiple of
+   --every. A signal ends the run early, with a complete file. */
 static bool simulate(Session *session, const Args *args, Snapshot *file, Look *look, Progress *progress,
                      Error *error)
 {
     SnapshotSeries series = {.file = file, .every = args->every};
-    if (!args->quiet) /* a file has its times in it */
+    if (!args->quiet) /* the file has its times */
         session_tell_uneven(session, "snapshots", args->every, args->time);
     if (snapshot_steps(file) > 0)
         snapshot_series_resume(&series, session);
@@ -127,11 +127,11 @@ static int fail(const Session *session, const Args *args, const Snapshot *file, 
     return code;
 }
 
-/* --resume: the file to go on with, and the world as it was at its end. */
+/* --resume: opens the file to continue, and loads the world's state from its end. */
 static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *error)
 {
     WorldState state = {.count = 0};
-    Scene *scene = &session->scene; /* all steps of a file have the same */
+    Scene *scene = &session->scene; /* a file with accelerations needs them in all steps */
     if (snapshot_file_has(args->output, SCALAR_ACCELERATION_X) &&
         !(scene->world.acceleration = world_keep_acceleration(session->world, error)))
         return NULL;
@@ -160,7 +160,7 @@ static Snapshot *begin(const Session *session, const Args *args, Error *error)
     return NULL;
 }
 
-/* --forces: behind the rows of what is resumed. */
+/* --forces: continues after the rows of a resumed run. */
 static bool begin_forces(const Session *session, const Args *args, bool resumed, Look *look, Error *error)
 {
     if (!args->forces)

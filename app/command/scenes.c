@@ -40,7 +40,7 @@ static bool write_json(const SceneList *list, const char *path, Error *error)
     return written;
 }
 
-/* The characters that mean something in HTML, in words. */
+/* Writes text with HTML's special characters escaped. */
 static void put_text(FILE *file, const char *text)
 {
     for (; *text; text++) {
@@ -97,7 +97,7 @@ static bool write_index(const SceneList *list, const char *folder, Error *error)
     return false;
 }
 
-/* All of one call with -o. */
+/* The state of a call with -o. */
 typedef struct Gallery {
     const SceneList *list;
     const char *folder;
@@ -114,7 +114,7 @@ static bool save(const Image *image, const char *path, Error *error)
     return ok;
 }
 
-/* A scene that is broken has no picture; what cannot be written ends all. */
+/* Makes a picture. A broken scene gets no picture; a failed write ends the command. */
 static bool make(Gallery *gallery, const SceneRow *row, Error *error)
 {
     char path[1024];

@@ -16,7 +16,7 @@ static bool check_outputs(const StablePlan *plan, StableRows *rows, Error *error
            stable_rows_read(rows, plan->csv, stderr, error);
 }
 
-/* What every map of the plan has, whatever is found. */
+/* Reports facts known before any trial. */
 static void say_plan(const StablePlan *plan, const StableRows *rows)
 {
     const int cells = stable_cells(plan);
@@ -31,7 +31,7 @@ static void say_plan(const StablePlan *plan, const StableRows *rows)
                 plan->csv);
 }
 
-/* What is not to be read off the map by itself. */
+/* Reports findings not visible in the map. */
 static bool say_findings(const StableMap *map, Error *error)
 {
     const StablePlan *plan = map->plan;

@@ -21,13 +21,13 @@ enum { RUNS_MAX = 128, CASE_NAME_MAX = 32 };
 typedef struct Plan {
     const Args *args;
     CaseLevel level;
-    const char *method; /* the only one, or NULL */
+    const char *method; /* the only method, or NULL */
     int count;
     CaseSetup setups[RUNS_MAX];
-    double work[RUNS_MAX]; /* about how long each takes, up to a factor */
+    double work[RUNS_MAX]; /* relative cost of each run */
 } Plan;
 
-/* --method, which stands among the settings. */
+/* The method of --method, from the settings. */
 static const char *chosen_method(const SceneSettings *settings)
 {
     static const char key[] = "solver.method=";
@@ -61,7 +61,8 @@ static void say_left_out(const Plan *plan, const Case *of, const char *method, c
         fprintf(stderr, "%s with %s is left out: %s\n", of->name, method, why);
 }
 
-/* What a case leaves out is said, with the reason; --method runs it all the same. */
+/* Adds a case's runs; reports excluded methods with the reason. With --method runs even an excluded
+   method. */
 static bool add_case(Plan *plan, const Case *of, Error *error)
 {
     if (plan->method)
@@ -78,15 +79,15 @@ static bool add_case(Plan *plan, const Case *of, Error *error)
     return ok;
 }
 
-/* Particles, times pairs of each, times steps that sound sets. */
+/* Cost: particles, times neighbour pairs, times steps by the speed of sound. */
 static double work_of(const Case *of, const WorldDef *def)
 {
     return (double)seed_count(def, def->spacing) * pow(def->support, def->dimensions) * of->time *
            def->sound_speed / def->spacing;
 }
 
-/* All scenes are read before the first runs: a mistake in the last one shows at once. What the backend cannot
-   do is left out, and said. */
+/* Reads all scenes before the first run: a mistake in the last scene shows at once. Reports and skips cases
+   that the backend cannot run. */
 static bool plan_keep(Plan *plan, bool *wants_context, Error *error)
 {
     static Scene scene;
@@ -105,7 +106,7 @@ static bool plan_keep(Plan *plan, bool *wants_context, Error *error)
         }
     }
     plan->count = kept;
-    return kept > 0; /* else the last reason stands in `error` */
+    return kept > 0; /* otherwise `error` has the last reason */
 }
 
 static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *error)
@@ -124,7 +125,7 @@ static bool plan_make(const Args *args, Plan *plan, bool *wants_context, Error *
     return ok && plan_keep(plan, wants_context, error);
 }
 
-/* As case_run, and how it went. */
+/* Runs a case with case_run, and finds its outcome. */
 static bool run_one(const CaseSetup *planned, Progress *progress, double done, double part,
                     CaseResult *result, Outcome *outcome, Error *error)
 {
@@ -164,7 +165,7 @@ static bool run_all(const Plan *plan, CaseResult *results, Outcome *outcomes, in
     return ok;
 }
 
-/* DIR/CASE.svg, the methods of a case in one. */
+/* Plots DIR/CASE.svg, with all methods of a case in one plot. */
 static bool plot_all(const Args *args, const CaseResult *results, int count, Error *error)
 {
     if (!args->output)
@@ -180,7 +181,7 @@ static bool plot_all(const Args *args, const CaseResult *results, int count, Err
     return true;
 }
 
-/* Where plots can be written. */
+/* Makes the folder for plots, and checks that it is writable. */
 static bool make_folder(const char *path, Error *error)
 {
     char probe[1024];
@@ -206,7 +207,7 @@ static int count_missed(const CaseResult *results, int count, FILE *file)
     return misses;
 }
 
-/* What is done is written, whatever ended it. */
+/* Writes all results so far, even after a failure. */
 static int finish(const Plan *plan, const CaseResult *results, const Outcome *outcomes, int done, bool ran,
                   Error *error)
 {
@@ -230,7 +231,7 @@ static int finish(const Plan *plan, const CaseResult *results, const Outcome *ou
     return ran && written && drawn && !missed ? 0 : EXIT_FAILED;
 }
 
-/* Nothing was run. */
+/* Reports a failure before any run. */
 static int fail(const char *json, const Error *error)
 {
     Error no_json;
