@@ -1,5 +1,5 @@
-/* Exit codes of the program: 0 done; 1 failed; 2 the command line or the scene is wrong; 130 stopped by a
-   signal, the file in hand finished. */
+/* Exit codes of the program: 0 done; 1 failed; 2 wrong command line or scene; 130 stopped by a signal, with
+   the present file finished. */
 #ifndef SLOSH_EXIT_CODE_H
 #define SLOSH_EXIT_CODE_H
 

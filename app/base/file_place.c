@@ -16,7 +16,7 @@ static bool fits(int length)
     return false;
 }
 
-/* Takes the last part off `path` and puts it in front of `rest`. */
+/* Moves the last part of `path` to the front of `rest`. */
 static bool take_last(char path[PATH_MAX], char rest[PATH_MAX])
 {
     char joined[PATH_MAX];
@@ -31,7 +31,7 @@ static bool take_last(char path[PATH_MAX], char rest[PATH_MAX])
     return true;
 }
 
-/* `path`, a link, becomes what the link says. */
+/* Replaces `path`, a link, by the link's target. */
 static bool follow(char path[PATH_MAX], const char *says)
 {
     char followed[PATH_MAX];

@@ -4,11 +4,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* HDF5 keeps its errors for the thread, and forgets them at the next call that works: so do these notes, but
-   for the forgetting. */
+/* HDF5 keeps its errors per thread, until the next successful call; these notes are per thread too, but
+   stay. */
 static _Thread_local struct {
     char innermost[256];
-    char system[256]; /* the operating system's own words, where an entry quotes them */
+    char system[256]; /* the operating system's message, if an entry quotes one */
 } noted;
 
 static herr_t note_entry(unsigned depth, const H5E_error2_t *entry, void *user)

@@ -9,8 +9,8 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t first, asked; /* first: its number; 0: none came */
-static volatile sig_atomic_t bell = -1;    /* a file descriptor, for who waits for it */
+static volatile sig_atomic_t first, asked; /* first: number of the first signal; 0: none yet */
+static volatile sig_atomic_t bell = -1;    /* file descriptor for a waiting thread */
 
 static void on_signal(int number)
 {
@@ -21,7 +21,7 @@ static void on_signal(int number)
     }
     first = number;
     if (bell >= 0 && write(bell, &(uint64_t){1}, sizeof(uint64_t)) < 0)
-        bell = -1; /* nobody hears it */
+        bell = -1; /* no thread listens */
     errno = before;
 }
 
@@ -77,6 +77,6 @@ bool interrupt_asked(void)
 {
     if (!asked)
         return false;
-    asked = 0; /* two that came before a look are one */
+    asked = 0; /* two requests before a look count once */
     return true;
 }

@@ -23,7 +23,7 @@ static bool write_named(const json_t *json, const char *name)
     return (fclose(file) == 0) && ok;
 }
 
-/* The stream that the path stands for, however it was redirected; NULL: it is a path. */
+/* The stream of the path, for any redirection; NULL: the path is a file. */
 static FILE *own_stream(const char *path)
 {
     if (strcmp(path, "-") == 0 || strcmp(path, "/dev/stdout") == 0)

@@ -1,4 +1,4 @@
-/* JSON results: a file, written whole or not at all, or a stream. */
+/* JSON results: a file, written completely or not at all, or a stream. */
 #ifndef SLOSH_JSON_FILE_H
 #define SLOSH_JSON_FILE_H
 
@@ -6,26 +6,26 @@
 
 #include <jansson.h>
 
-/* Writes `json` (NULL: it could not be made, for jansson takes no text but UTF-8 and no number that is not
-   finite) to that file or stream, indented, with a newline at the end; false with the reason, and no file.
-   Does not take the reference. */
+/* Writes `json` to a file or stream, indented, with a final newline. Returns false with the reason, and
+   writes no file. `json` may be NULL after a failure to make the JSON: jansson takes only UTF-8 and finite
+   numbers. Does not take the reference. */
 bool json_file_write(const json_t *json, const char *path, Error *error);
 
-/* Whether the path is no file that could be replaced: "-", /dev/stdout, /dev/stderr, a device, a pipe. */
+/* True if the path is not a replaceable file: "-", /dev/stdout, /dev/stderr, a device, a pipe. */
 bool json_is_stream(const char *path);
 
-/* Whether it could be written there, without leaving anything. */
+/* True if the path is writable; leaves no file. */
 bool json_file_check(const char *path, Error *error);
 
-/* {"command": COMMAND, WORD: INPUT, "output": OUTPUT, "error": why} of a command that failed before it had
-   figures; the output may be NULL. */
+/* JSON of a command that failed before any figures: {"command": COMMAND, WORD: INPUT, "output": OUTPUT,
+   "error": why}; `output` may be NULL. */
 json_t *failure_json(const char *command, const char *word, const char *input, const char *output,
                      const Error *error);
 
-/* Writes it where `path` is not NULL, says it where that fails, and releases the reference. */
+/* Writes the JSON unless `path` is NULL, reports a failed write, and releases the reference. */
 void failure_json_write(json_t *json, const char *path);
 
-/* A real, or null where the number is not finite: JSON has no other word for that. */
+/* A real number, or null if not finite: JSON cannot express other values. */
 json_t *number_json(double number);
 
 #endif

@@ -10,14 +10,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The file has got its name, or is gone. */
+/* Forgets the temporary file after its renaming or removal. */
 static void forget(Output *output)
 {
     output_pending_forget(output->temp);
     output->temp[0] = '\0';
 }
 
-/* The folder that `path` lies in, for messages. */
+/* The folder of `path`, for messages. */
 static void folder_of(const char *path, char folder[1024])
 {
     const char *slash = strrchr(path, '/');
@@ -106,7 +106,7 @@ bool output_commit(Output *output, Error *error)
     return named(output, rename(output->temp, output->target) == 0, error);
 }
 
-/* Where the file system can't, a file that comes in this moment is replaced. */
+/* Without support in the file system, a file created in this moment is replaced. */
 bool output_commit_new(Output *output, bool *there, Error *error)
 {
     bool renamed = renameat2(AT_FDCWD, output->temp, AT_FDCWD, output->target, RENAME_NOREPLACE) == 0;

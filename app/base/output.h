@@ -1,4 +1,4 @@
-/* Files that appear whole or not at all: written beside their name, renamed when whole. */
+/* Files that appear complete or not at all: written under a temporary name, then renamed. */
 #ifndef SLOSH_OUTPUT_H
 #define SLOSH_OUTPUT_H
 
@@ -7,38 +7,39 @@
 
 #include <stdbool.h>
 
-/* One file in the making. Zero-initialise it. */
+/* A file being written. Zero-initialise before use. */
 typedef struct Output {
-    char path[1024];   /* the name that was asked for */
-    char target[1024]; /* the file that gets replaced: where `path` leads when it is a link, which stays */
-    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp, in the same folder: write here until the commit; empty:
-                                    none */
+    char path[1024];   /* the requested name */
+    char target[1024]; /* the file to replace: the target of `path` if `path` is a link, which stays */
+    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp, in the same folder: write here until the commit; "": none
+                                  */
 } Output;
 
-/* Creates the empty temporary file, and so finds out at once whether the file can be written. False with the
-   reason: no such folder, a folder that may not be written, a name that is a folder. `path` need not exist;
-   when it does it stays as it is until the commit. */
+/* Creates the empty temporary file, which shows at once if the file is writable. Returns false with the
+   reason: no such folder, a read-only folder, a name of a folder. `path` need not exist; an existing file
+   stays unchanged until the commit. */
 bool output_begin(Output *output, const char *path, Error *error);
 
-/* Gives the file its name, in place of an older one. On failure the temporary file is removed. */
+/* Renames the temporary file to the final name, replacing an older file. On failure the temporary file is
+   removed. */
 bool output_commit(Output *output, Error *error);
 
-/* The same where no file has that name; where one has, *there is true, it stays, and the output is still to
-   be committed or discarded. */
+/* Commits only if there is no file of that name. An existing file stays, *there is true, and the output must
+   still be committed or discarded. */
 bool output_commit_new(Output *output, bool *there, Error *error);
 
-/* `path` itself, or, when it is a link, where it leads; false with the reason, also for a path that is too
-   long. Of the other kind of output, output_folder, too. */
+/* Resolves `path` if it is a link; also for folders (output_folder). Returns false with the reason, for
+   example a too long path. */
 bool output_target(const char *path, char target[1024], Error *error);
 
-/* Removes the temporary file; does nothing before begin, after commit or a second time. */
+/* Removes the temporary file; no effect before begin, after commit or a second time. */
 void output_discard(Output *output);
 
-/* Removes what writers of the same output left beside it that no longer run. The begin of each output does
- * so. */
+/* Removes temporary files of the same output left by writers that no longer run. Each begin of an output
+   calls this function. */
 void output_clear_stale(const char *target);
 
-/* Whether a file could be written there, without leaving one. */
+/* True if the path is writable; leaves no file. */
 bool output_check(const char *path, Error *error);
 
 #endif

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What is behind a part's name, "-fluid0"; `at` itself where none is there. */
+/* Skips the name of a part, "-fluid0"; returns `at` if there is none. */
 static const char *skip_part(const char *at)
 {
     if (*at != '-')
@@ -21,7 +21,7 @@ static const char *skip_part(const char *at)
     return letters > 0 && digits > 0 ? at + 1 + letters + digits : at;
 }
 
-/* NAME-DIGITS, the name of a part if there are some, and the suffix. */
+/* True for NAME-DIGITS, an optional part's name, and the suffix. */
 static bool is_ours(const OutputFolder *folder, const char *file)
 {
     const char *slash = strrchr(folder->path, '/');
@@ -34,7 +34,7 @@ static bool is_ours(const OutputFolder *folder, const char *file)
     return digits > 0 && strcmp(skip_part(number + digits), folder->suffix) == 0;
 }
 
-/* Whether nothing of someone else's would be lost with an older folder of that name. */
+/* Checks that an older folder of that name has only files of exports: replacing must lose no other files. */
 static bool check_older(const OutputFolder *folder, Error *error)
 {
     const struct dirent *entry;
@@ -64,7 +64,7 @@ bool output_folder_begin(OutputFolder *folder, const char *path, const char *suf
         return false;
     output_clear_stale(folder->target);
     snprintf(folder->temp, sizeof folder->temp, "%s.%ld.tmp", folder->target, (long)getpid());
-    output_remove_folder(folder->temp); /* of a killed program that had the same number */
+    output_remove_folder(folder->temp); /* left by a killed program with the same process id */
     if (mkdir(folder->temp, 0777) != 0) {
         folder->temp[0] = '\0';
         return error_set(error, "%s: the folder cannot be created: %s", path, strerror(errno));
@@ -73,7 +73,7 @@ bool output_folder_begin(OutputFolder *folder, const char *path, const char *suf
     return true;
 }
 
-/* Old and new change places at once, or, where the file system can't, one after the other. */
+/* Exchanges old and new folder at once, or, without support in the file system, one after the other. */
 static bool replace_older(const OutputFolder *folder)
 {
     char aside[sizeof folder->temp + 4];
@@ -95,7 +95,7 @@ static bool replace_older(const OutputFolder *folder)
 bool output_folder_commit(OutputFolder *folder, Error *error)
 {
     bool named = check_older(folder, error);
-    if (named && rename(folder->temp, folder->target) != 0) /* works if there is none, or an empty one */
+    if (named && rename(folder->temp, folder->target) != 0) /* works if the target is missing or empty */
         named = ((errno == ENOTEMPTY || errno == EEXIST) && replace_older(folder)) ||
                 error_set(error, "%s: cannot be given its name: %s", folder->path, strerror(errno));
     if (!named) {

@@ -19,7 +19,7 @@ static void tell_unguarded(const char *path, int reason)
     told = true;
 }
 
-/* Whether the file that is open still has that name. */
+/* True if the open file still has the name. */
 static bool is_at(int file, const char *path)
 {
     struct stat own, there;
@@ -27,7 +27,7 @@ static bool is_at(int file, const char *path)
            own.st_ino == there.st_ino;
 }
 
-/* A file that may only be read gets a lock that only writers mind. */
+/* Opens the file; a read-only file gets a read lock, which only blocks writers. */
 static int open_file(const char *path, short *kind)
 {
     *kind = F_WRLCK;
@@ -38,7 +38,7 @@ static int open_file(const char *path, short *kind)
     return open(path, O_RDONLY | O_CLOEXEC);
 }
 
-/* 0, or errno. */
+/* Returns 0, or errno. */
 static int try_lock(OutputLock *lock, const char *path)
 {
     struct flock whole = {.l_whence = SEEK_SET};

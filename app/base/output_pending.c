@@ -12,9 +12,10 @@
 
 enum { PENDING_MAX = 8 };
 
-static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER; /* the window and the solver's thread both save */
+static pthread_mutex_t adding =
+    PTHREAD_MUTEX_INITIALIZER; /* the window's and the solver's thread both save */
 
-/* The one state that a signal handler can reach. */
+/* The only state reachable by a signal handler. */
 static struct {
     volatile sig_atomic_t used;
     char temp[OUTPUT_TEMP_SIZE];
@@ -42,7 +43,7 @@ void output_pending_forget(const char *temp)
     pthread_mutex_unlock(&adding);
 }
 
-/* One buffer of entries; whether there was any file to remove. */
+/* Removes one buffer of entries; returns true if any file was removed. */
 static bool remove_some(int folder)
 {
     _Alignas(struct dirent64) char buffer[4096];
@@ -56,7 +57,7 @@ static bool remove_some(int folder)
     return removed;
 }
 
-/* By system calls, since opendir allocates, which a signal handler must not. */
+/* Uses system calls: opendir allocates memory, which is forbidden in a signal handler. */
 void output_remove_folder(const char *path)
 {
     int folder = open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);

@@ -1,4 +1,4 @@
-/* What a killed writer left: nobody but the next writer of the same output knows that it is of no use. */
+/* Removes remains of killed writers: only the next writer of the same output knows that they are useless. */
 #include "app/base/output.h"
 
 #include "app/base/output_pending.h"
@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Whether it is NAME.PID.tmp, and no process has that number. */
+/* True for NAME.PID.tmp if no process has that id. */
 static bool is_stale(const char *entry, const char *name)
 {
     const size_t length = strlen(name);

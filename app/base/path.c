@@ -18,7 +18,7 @@ int scene_path_is_yaml(const struct dirent *entry)
     return dot && dot != entry->d_name && strcmp(dot, ".yaml") == 0;
 }
 
-/* Adds those of a folder. */
+/* Adds the scene names of a folder. */
 static void add_names(SceneNames *names, const char *folder)
 {
     struct dirent **entries;
@@ -44,7 +44,7 @@ void scene_path_names(SceneNames *names)
     add_names(names, scenes);
 }
 
-/* Whether the path is there, and as a folder only if that is asked for. */
+/* True if the path exists and is not a folder. */
 static bool try_path(char path[SCENE_PATH_SIZE], const char *folder, const char *name, const char *ending)
 {
     struct stat status;
@@ -52,7 +52,7 @@ static bool try_path(char path[SCENE_PATH_SIZE], const char *folder, const char 
     return length < SCENE_PATH_SIZE && stat(path, &status) == 0 && !S_ISDIR(status.st_mode);
 }
 
-/* What may be meant by a name: scenes that come with slosh, the user's, those here. */
+/* Collects all possible names: scenes of slosh, the user's scenes, scenes in the present folder. */
 static void all_names(SceneNames *names)
 {
     char folder[PLACE_SIZE], scenes[PLACE_SIZE + 8];
@@ -83,7 +83,7 @@ static bool no_file(const char *name, Error *error)
                      has_own ? " nor in " : "", has_own ? own : "", hint);
 }
 
-/* In a folder that has scenes: beside them, among them. */
+/* Looks in a folder and in its folder scenes/. */
 static bool try_folder(char path[SCENE_PATH_SIZE], const char *folder, const char *name)
 {
     char beside[PLACE_SIZE + 2], among[PLACE_SIZE + 16];
@@ -108,7 +108,7 @@ bool scene_path_find(const char *name, char path[SCENE_PATH_SIZE], Error *error)
     return (length < SCENE_PATH_SIZE && access(path, F_OK) == 0) || no_file(name, error);
 }
 
-/* Which command takes the file that is no scene but another one of slosh's; NULL: it is none of these. */
+/* Names the command that takes a different file of slosh; NULL: unknown file. */
 static const char *taken_by(const char *bytes, size_t size)
 {
     static const struct {
@@ -127,7 +127,7 @@ static const char *taken_by(const char *bytes, size_t size)
     return NULL;
 }
 
-/* The scene that a picture carries. */
+/* The scene embedded in a picture. */
 static char *read_picture(const char *path, size_t *size, Error *error)
 {
     PictureText text;
@@ -137,8 +137,8 @@ static char *read_picture(const char *path, size_t *size, Error *error)
     return text.scene;
 }
 
-/* At most one byte more than is allowed, whatever the file claims to be; of a picture the scene that it
- * carries. */
+/* Reads at most one byte more than the limit, whatever the file size claims; of a picture, the embedded
+   scene. */
 static char *read_bytes(FILE *file, const char *path, size_t *size, Error *error)
 {
     char *bytes = malloc(SCENE_BYTES_MAX + 1);

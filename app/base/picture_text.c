@@ -37,7 +37,7 @@ static void on_error(png_structp png, png_const_charp message)
     longjmp(*png_set_longjmp_fn(png, longjmp, sizeof(jmp_buf)), 1);
 }
 
-/* The first is kept: of text that it leaves out libpng only warns. */
+/* Keeps the first warning: libpng only warns about skipped text. */
 static void on_warning(png_structp png, png_const_charp message)
 {
     Source *source = png_get_error_ptr(png);
@@ -45,7 +45,7 @@ static void on_warning(png_structp png, png_const_charp message)
         snprintf(source->reason, sizeof source->reason, "%s", message);
 }
 
-/* libpng asks for as much as a chunk claims to have, and only warns of its limit. */
+/* Limits allocations: libpng allocates a chunk's claimed size, and only warns about its limit. */
 static png_voidp allocate(png_structp png, png_alloc_size_t size)
 {
     (void)png;
@@ -72,7 +72,7 @@ static size_t length_of(const png_text *text)
     return text->compression >= PNG_ITXT_COMPRESSION_NONE ? text->itxt_length : text->text_length;
 }
 
-/* The last of that name, as of keys said twice. */
+/* The last text of that key, as for repeated keys. */
 static const png_text *find(const png_text *texts, int count, const char *key)
 {
     const png_text *found = NULL;
@@ -82,7 +82,7 @@ static const png_text *find(const png_text *texts, int count, const char *key)
     return found;
 }
 
-/* A file's name that a terminal may be told: ASCII without control characters. */
+/* True if a file name is safe for a terminal: ASCII without control characters. */
 static bool is_plain(const char *name)
 {
     for (const char *c = name; *c; c++)

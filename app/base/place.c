@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The folder that the program lies in. */
+/* The folder of the program. */
 static bool program_folder(char folder[PLACE_SIZE])
 {
     const ssize_t length = readlink("/proc/self/exe", folder, PLACE_SIZE - 1);
@@ -19,7 +19,7 @@ static bool program_folder(char folder[PLACE_SIZE])
     return slash != NULL;
 }
 
-/* The whole path of `name`, seen from the program; false where nothing is there. */
+/* The absolute path of `name` relative to the program; false if missing. */
 static bool beside_program(const char *name, char path[PLACE_SIZE])
 {
     char folder[PLACE_SIZE], joined[2 * PLACE_SIZE], whole[PATH_MAX];
@@ -53,7 +53,7 @@ bool place_own(char folder[PLACE_SIZE])
 {
     const char *config = getenv("XDG_CONFIG_HOME"), *home = getenv("HOME");
     int length = -1;
-    if (config && *config == '/') /* the XDG base directory specification: others are to be ignored */
+    if (config && *config == '/') /* XDG base directory specification: relative paths are ignored */
         length = snprintf(folder, PLACE_SIZE, "%s/slosh", config);
     else if (home && *home)
         length = snprintf(folder, PLACE_SIZE, "%s/.config/slosh", home);

@@ -1,4 +1,4 @@
-/* Where what belongs to the program lies, wherever the program was put. */
+/* Locations of slosh's own files, for any place of the program. */
 #ifndef SLOSH_BASE_PLACE_H
 #define SLOSH_BASE_PLACE_H
 
@@ -6,17 +6,17 @@
 
 enum { PLACE_SIZE = 1024 };
 
-/* The folder that holds scenes/: PREFIX/share/slosh of an installed program, else, of a program in its build
-   tree, the sources. False: the program stands alone. */
+/* The folder with scenes/: PREFIX/share/slosh of an installed program, or the sources of a program in its
+   build tree. False: neither exists. */
 bool place_shipped(char folder[PLACE_SIZE]);
 
-/* The user's own: $XDG_CONFIG_HOME/slosh, or ~/.config/slosh. False: no folder is known. */
+/* The user's folder: $XDG_CONFIG_HOME/slosh, or ~/.config/slosh. False: unknown. */
 bool place_own(char folder[PLACE_SIZE]);
 
-/* The udev rule of an installed program; false: it is not installed. */
+/* The udev rule of an installed program; false: not installed. */
 bool place_rule(char path[PLACE_SIZE]);
 
-/* The sources of a program in its build tree; NULL: it is not in it. */
+/* The sources of a program in its build tree; NULL: not in a build tree. */
 const char *place_sources(void);
 
 #endif

@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 enum { BAR_WIDTH = 30 };
-static const double REDRAW_MS = 100; /* often enough to look alive, too seldom to cost anything */
+static const double REDRAW_MS = 100; /* often enough to look alive, and seldom enough to cost nothing */
 
 void progress_begin(Progress *progress, FILE *stream, const char *what, bool quiet)
 {
@@ -16,7 +16,7 @@ void progress_begin(Progress *progress, FILE *stream, const char *what, bool qui
     progress->drawn_ms = progress->began_ms - REDRAW_MS;
 }
 
-/* 0:07, 12:30, 1:02:03 */
+/* Prints 0:07, 12:30, 1:02:03. */
 static void print_duration(FILE *stream, double seconds)
 {
     long s = lround(seconds);

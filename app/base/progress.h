@@ -1,4 +1,4 @@
-/* How far a command is: a bar on a terminal, a line every tenth elsewhere, nothing when quiet. */
+/* Progress of a command: a bar on a terminal, a line per tenth elsewhere, nothing when quiet. */
 #ifndef SLOSH_PROGRESS_H
 #define SLOSH_PROGRESS_H
 
@@ -8,19 +8,19 @@
 typedef struct Progress {
     FILE *stream; /* NULL: quiet */
     bool terminal;
-    bool drawn; /* a bar stands on the current line */
+    bool drawn; /* a bar is on the current line */
     const char *what;
     double began_ms, drawn_ms;
-    int tenth; /* the last that a line was printed for */
+    int tenth; /* the last printed tenth */
 } Progress;
 
-/* `what` is the word before the bar; it must outlive the progress. */
+/* `what`: the word before the bar; must outlive the progress. */
 void progress_begin(Progress *progress, FILE *stream, const char *what, bool quiet);
 
-/* `fraction` of the work done, 0 .. 1. Cheap: call it after every step. */
+/* Sets the done fraction, 0 .. 1. Cheap: call after every step. */
 void progress_update(Progress *progress, double fraction);
 
-/* Wipes the bar, so that the next message starts on a clean line. */
+/* Erases the bar, so that the next message starts on a clean line. */
 void progress_end(Progress *progress);
 
 #endif

@@ -1,4 +1,4 @@
-/* A whole file in memory. */
+/* Reads a whole file into memory. */
 #ifndef SLOSH_READ_FILE_H
 #define SLOSH_READ_FILE_H
 
@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* The bytes of a file of whatever kind, which the caller frees. NULL with "PATH: ...": missing, a folder,
-   more than `limit` bytes (1 MiB or more), no memory. `what` is what it shall be, in words: "recording". */
+/* The bytes of any kind of file; the caller frees the bytes. NULL with "PATH: ...": missing, a folder, more
+   than `limit` bytes (1 MiB or more), no memory. `what`: the expected kind, in words: "recording". */
 char *read_file(const char *path, size_t limit, const char *what, size_t *size, Error *error);
 
 #endif

@@ -9,14 +9,15 @@
 #include <string.h>
 #include <unistd.h>
 
-/* open gives the lowest number that is free, and those below it are not. */
+/* Opens a closed stream: open returns the lowest free number, and the numbers below are in use. */
 static void fill(int stream)
 {
-    const int flags = stream == STDERR_FILENO ? O_WRONLY : O_RDONLY; /* output that is lost is not written */
+    const int flags =
+        stream == STDERR_FILENO ? O_WRONLY : O_RDONLY; /* writes to closed standard output must fail */
     if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF)
         return;
     if (open("/dev/null", flags) < 0)
-        open("/", O_RDONLY | O_DIRECTORY); /* no /dev: neither read nor written */
+        open("/", O_RDONLY | O_DIRECTORY); /* no /dev: a descriptor that can neither be read nor written */
 }
 
 void standard_streams_open(void)
