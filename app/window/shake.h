@@ -1,5 +1,5 @@
-/* A hand that is always there and always the same: it shakes the box through the same events that a mouse
-   makes, at their own times, whether the window looks or not. */
+/* A reproducible hand: shakes the box with mouse events at fixed times, independent of the window's
+   polling. */
 #ifndef SLOSH_WINDOW_SHAKE_H
 #define SLOSH_WINDOW_SHAKE_H
 
@@ -7,14 +7,15 @@
 
 #include <stddef.h>
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct WindowShake {
-    double began_ms; /* wall time; 0: not yet */
-    size_t events;   /* that were handed out */
+    double began_ms; /* wall time; 0: not started */
+    size_t events;   /* count of events returned so far */
 } WindowShake;
 
-/* The next event that is due at `now_ms` in a window of that size; false when there is none yet. A Shift drag
-   at 125 events a second: to and fro across the picture, harder than the box may follow, and up and down. */
+/* Returns the next event due at `now_ms` in a window of width x height; false if none is due yet. The script
+   is a Shift drag with 125 events per second: to and fro across the picture, faster than the box may follow,
+   and up and down. */
 bool window_shake_next(WindowShake *script, double now_ms, int width, int height, WindowEvent *event);
 
 #endif

@@ -24,16 +24,16 @@ struct Window {
     WindowEvent events[EVENTS_MAX]; /* a ring */
     int place[4];                   /* x, y, width, height before full screen, in screen coordinates */
     bool full;
-    double mouse[2]; /* of the last move, screen coordinates */
+    double mouse[2]; /* position of the last move, screen coordinates */
     bool mouse_known;
-    WindowClaimed *claimed; /* NULL: none is */
+    WindowClaimed *claimed; /* NULL: no device is claimed */
     void *claimer;
     char renderer[256];
-    int connection; /* to the display; -1: not known */
-    bool gone;      /* it is */
+    int connection; /* file descriptor of the display; -1: unknown */
+    bool gone;      /* the display is gone */
     void (*when_gone)(void *user);
     void *of_gone;
-    pthread_t thread; /* the main one */
+    pthread_t thread; /* the main thread */
 };
 
 static char last_reason[256];
@@ -44,20 +44,21 @@ static void on_error(int code, const char *text)
     snprintf(last_reason, sizeof last_reason, "%s", text);
 }
 
-/* When nobody asks for long, what repeats gives way to what must not be lost: releases, an end. */
+/* Adds an event. A full queue drops repeating events in favour of events that must not be lost: releases,
+   closing. */
 static void append(Window *window, const WindowEvent *event)
 {
     const bool repeats = event->repeated || event->kind == WINDOW_TEXT || event->kind == WINDOW_WHEEL;
     if (repeats && window->count > EVENTS_MAX / 2)
         return;
-    if (window->count == EVENTS_MAX) /* nobody asked for so long: the oldest are stale */
+    if (window->count == EVENTS_MAX) /* unread for long: the oldest events are stale */
         window->first = (window->first + 1) % EVENTS_MAX, window->count--;
     WindowEvent *place = &window->events[(window->first + window->count++) % EVENTS_MAX];
     *place = *event;
     place->when_ms = wall_ms();
 }
 
-/* Pixels in a screen coordinate: more than one on some systems with dense displays. */
+/* Pixels per screen coordinate: more than 1 on some systems with dense displays. */
 static double density(GLFWwindow *glfw)
 {
     int width, height, pixels, lines;
@@ -83,7 +84,8 @@ static void on_text(GLFWwindow *glfw, unsigned codepoint)
     append(glfwGetWindowUserPointer(glfw), &(WindowEvent){.kind = WINDOW_TEXT, .codepoint = codepoint});
 }
 
-/* Where the mouse was: glfwGetCursorPos says where it is now, behind a slow picture long after the press. */
+/* Uses the mouse position at the press: glfwGetCursorPos gives the present position, long after the press
+   when a picture is slow. */
 static void on_button(GLFWwindow *glfw, int button, int action, int modifiers)
 {
     Window *window = glfwGetWindowUserPointer(glfw);
@@ -99,7 +101,7 @@ static void on_button(GLFWwindow *glfw, int button, int action, int modifiers)
                                   .y = at[1] * scale});
 }
 
-/* A mouse may report a thousand places a second: the last of a row will do. */
+/* Merges moves, as a mouse may report a thousand positions per second: the last is enough. */
 static void on_move(GLFWwindow *glfw, double x, double y)
 {
     Window *window = glfwGetWindowUserPointer(glfw);
@@ -180,29 +182,29 @@ static GLFWwindow *open_with(int api, const char *title, int width, int height)
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0); /* what is drawn has its own */
+    glfwWindowHint(GLFW_DEPTH_BITS, 0); /* pictures have a depth buffer of their own */
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "slosh");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "slosh");
     return glfwCreateWindow(width, height, title, NULL, NULL);
 }
 
-/* ---- the line to the display ---- */
+/* ---- connection to the display ---- */
 
-/* By name, since GLFW is built for X11 or for Wayland. */
+/* Looked up by name, as GLFW is built for X11 or for Wayland. */
 typedef void *GetDisplay(void);
 typedef int GetNumber(void *display);
 typedef int OnError(void *display);
 typedef void OnExit(void *display, void *user);
 
-/* Instead of a message of its own. */
+/* Replaces the library's own error message. */
 static int say_nothing(void *display)
 {
     (void)display;
     return 0;
 }
 
-/* In place of exit(1). */
+/* Called instead of exit(1). */
 static void on_gone(void *display, void *of_window)
 {
     Window *window = of_window;
@@ -330,7 +332,7 @@ void window_wake(void)
 
 void window_present(Window *window)
 {
-    if (!window_gone(window)) /* a software driver would try for ever */
+    if (!window_gone(window)) /* a software driver would retry without end */
         glfwSwapBuffers(window->glfw);
 }
 
@@ -349,7 +351,7 @@ void window_title(Window *window, const char *title)
     glfwSetWindowTitle(window->glfw, title);
 }
 
-/* The display that shows most of the window, in pixels of the desktop. */
+/* The monitor that shows most of the window, in desktop pixels. */
 static GLFWmonitor *display_of(const Window *window)
 {
     int count, x, y, width, height, best_area = -1;
@@ -423,7 +425,7 @@ void window_leave_gamepads(Window *window, WindowClaimed *claimed, void *user)
     window->claimer = user;
 }
 
-/* "03000000 4c05 0000 e60c 0000 11010000": bus, vendor, product and version, little-endian. */
+/* Parses "03000000 4c05 0000 e60c 0000 11010000": bus, vendor, product and version, little-endian. */
 bool window_guid_ids(const char *guid, uint16_t *vendor, uint16_t *product)
 {
     unsigned v[2], p[2];
