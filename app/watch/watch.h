@@ -1,5 +1,5 @@
-/* Files that are looked at again and again: whether an editor has written one. By their time, size and
-   number, so that one that is renamed over another counts too. */
+/* Polls files for changes by an editor. Compares time, size and inode number, so that renaming a new file
+   over the old one counts too. */
 #ifndef SLOSH_WATCH_H
 #define SLOSH_WATCH_H
 
@@ -14,7 +14,7 @@ typedef struct WatchMark {
     bool there;
 } WatchMark;
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct Watch {
     int count;
     struct {
@@ -22,19 +22,19 @@ typedef struct Watch {
         WatchMark mark;
     } files[WATCH_FILES_MAX];
     double looked_ms, changed_ms; /* wall time */
-    bool pending;                 /* it changes still, or did just now */
-    bool others;                  /* of what is pending or was told last: not the first file alone */
+    bool pending;                 /* changing now, or a moment ago */
+    bool others;                  /* the pending or last reported change includes more than the first file */
 } Watch;
 
-/* Adds a file as it is now, unless it is there; more than WATCH_FILES_MAX are left out, false. The first one
- * is what the others belong to. */
+/* Adds a file in its present state, unless already present; returns false if the list is full or the path too
+   long. The first file is the main file, the rest belong to the main file. */
 bool watch_add(Watch *watch, const char *path);
 
-/* Files that `before` has too are as they were seen there: what was written in between counts. */
+/* Takes over the state of files that `before` also watches: writes since then count as changes. */
 void watch_keep(Watch *watch, const Watch *before);
 
-/* Once a picture or more often, with the wall time: true once after a change, when the files have been at
-   rest for a moment. A first file that is missing or empty is waited for, up to two seconds. */
+/* Call once per picture or more often with the wall time: returns true once after a change, when the files
+   have been stable for a moment. Waits up to two seconds for a missing or empty first file. */
 bool watch_look(Watch *watch, double now_ms);
 
 #endif
