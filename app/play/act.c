@@ -1,4 +1,4 @@
-/* Does what is asked of the window, between two pictures. */
+/* Executes the requests to the window, between two pictures. */
 #include "app/play/parts.h"
 
 #include "app/play/again.h"
@@ -30,7 +30,7 @@ static void title_window(const Play *play)
     window_title(play->window, title);
 }
 
-/* Another scene is open: nothing of the one before is in the hand, on its way or in the picture. */
+/* Resets hand, touch, camera and picture after a new scene was opened. */
 static void follow_scene(Play *play)
 {
     input_begin(&play->input);
@@ -76,7 +76,7 @@ void act_follow_again(Play *play, bool begun, bool views)
     view_changed(play);
 }
 
-/* With another number of particles, or with a preset. */
+/* Restarts the scene with a new count of particles, or with a preset. */
 static void begin_again(Play *play, const char *setting, double particles)
 {
     Error error = {{0}};
@@ -103,7 +103,7 @@ static void open_neighbour(Play *play, int by)
         follow_scene(play);
 }
 
-/* A range that the file gives belongs to the file's scalar. */
+/* Chooses the next scalar; the file's range applies only to the file's scalar. */
 static void next_scalar(Play *play)
 {
     PlayScene *open = &play->model.open;
@@ -121,7 +121,7 @@ static void next_scalar(Play *play)
     notice_tell(&play->notice, "coloured by %s", scalar_name(view_color_by(view)));
 }
 
-/* The next one that can show these states, round and round. */
+/* Chooses the next view able to show these states, in a circle. */
 static void next_view(Play *play)
 {
     ViewDef *view = &play->model.open.scene.view, tried = *view;
@@ -193,7 +193,7 @@ static void show_scenes(Play *play)
         notice_error(&play->notice, error.message);
 }
 
-/* The session was saved, or the user says it twice. */
+/* True if the session is saved, or the user asks a second time. */
 static bool may_close(Play *play)
 {
     static const double PATIENCE_MS = 4000; /* as long as the question is there */
@@ -207,7 +207,7 @@ static bool may_close(Play *play)
     return false;
 }
 
-/* Which button does what. */
+/* Tells the user the functions of the buttons. */
 static void tell_touch(Play *play)
 {
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
@@ -219,7 +219,7 @@ static void tell_touch(Play *play)
                 finger_way_name(left), finger_way_name(touch_other(left)));
 }
 
-/* The fluid that is poured. */
+/* The fluid to pour. */
 static const FluidDef *poured(const Play *play)
 {
     const Scene *scene = &play->model.open.scene;
@@ -250,7 +250,7 @@ static void next_touch_way(Play *play)
         turn_touch(play, true);
 }
 
-/* A press of the key begins with it, then goes to the next one. */
+/* A press of the key chooses pouring, the next press the next fluid. */
 static void next_touch_fluid(Play *play)
 {
     const Scene *scene = &play->model.open.scene;
@@ -267,7 +267,7 @@ static void next_touch_fluid(Play *play)
     notice_tell(&play->notice, "touch: left drag pours %s", poured(play)->name);
 }
 
-/* By notches of the wheel. */
+/* Changes radius and strength by notches of the wheel. */
 static void change_touch(Play *play, const double amount[2])
 {
     const TouchDef *touch = &play->model.open.scene.touch;
@@ -308,7 +308,7 @@ static void step_plane(Play *play, PlayCommand command)
     ask_settings(&play->asks, settings, grip_step(&play->model, step, settings));
 }
 
-/* The particle under the mouse, as the views' balls of half a spacing. */
+/* Follows the particle under the mouse; the test uses the views' balls of half a spacing. */
 static void choose_trail(Play *play)
 {
     ViewSetting settings[VIEW_SETTINGS_MAX];
@@ -319,7 +319,7 @@ static void choose_trail(Play *play)
         return;
     const double *mouse = play->grip.mouse;
     const Look look = play_look(play, picture_panel_at(&play->picture, mouse[0], mouse[1]));
-    model_take(&play->model); /* a solver on the GPU has gone on in the buffers of the one that was drawn */
+    model_take(&play->model); /* a solver on the GPU has since written to the drawn buffers */
     if (!play->model.has_particles)
         return;
     sight_ray(&look.sight, (double[]){mouse[0] - look.at.x, mouse[1] - look.at.y}, &ray);
@@ -359,7 +359,7 @@ static void take_walls(Play *play)
 
 static const double BOX_NOTCH = 1.05;
 
-/* All sides that are not open, from the size that it goes to. */
+/* Scales all sides except periodic ones, starting from the target size. */
 static void scale_box(Play *play, double factor)
 {
     const SimulatorStatus *status = &play->model.status;
@@ -374,7 +374,7 @@ static void scale_box(Play *play, double factor)
                     size[0], size[1], size[2]);
 }
 
-/* Said where nothing is simulated. */
+/* True, with a message, if the command needs a simulation and there is none. */
 static bool lacks_simulation(Play *play, PlayCommand command)
 {
     const PlayCommandRow *row = &play_command_rows[command];
@@ -536,7 +536,7 @@ static void do_command(Play *play, PlayCommand command, bool held)
     case PLAY_PLANE_Z:
         step_plane(play, command);
         break;
-    default: /* what is done by drags, wheels and sticks: input.c */
+    default: /* commands of drags, wheels and sticks: input.c */
         break;
     }
 }
@@ -645,7 +645,7 @@ static void act(Play *play, const Ask *ask)
     }
 }
 
-/* Said before the rest is done, which may have more to say. */
+/* Reports lost requests first, as further messages may follow. */
 static void left_out(Play *play, int lost)
 {
     Error words;

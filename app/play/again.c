@@ -17,8 +17,8 @@ const char *again_text(const PlayScene *open, size_t *size)
     return open->renewed ? open->renewed : open->recording.text;
 }
 
-/* Entries of `views` hold all that is shown; `view`, which the window has as the chosen one, is the file's
-   again. */
+/* Moves the shown views into `views`, and sets `view`, which the window uses for the chosen view, back to the
+   file's view. */
 static void settle_views(const Scene *filed, Scene *now)
 {
     if (now->view_count == 0 && filed->view_count == 1) {
@@ -51,7 +51,7 @@ bool again_look(const Model *model, Again *out, Error *error)
     return true;
 }
 
-/* What a user did in a scene that begins anew is not lost: where it can't be saved the scene goes on. */
+/* Saves the user's session before a restart; a failed save prevents the restart. */
 static bool keep_session(Model *model, Error *error)
 {
     char path[1024];
@@ -63,7 +63,7 @@ static bool keep_session(Model *model, Error *error)
     return model_save_now(model, path, error);
 }
 
-/* Not of a session that is done again, whose settings are its own. */
+/* Checks that the scene may restart: a replayed session keeps the recorded settings. */
 static bool may_begin(const Model *model, Error *error)
 {
     if (!model->open.source->simulates)
@@ -81,17 +81,17 @@ static bool open_with(Model *model, const SettingList *settings, size_t particle
         return false;
     given.particles = particles;
     const bool ok = keep_session(model, error) && model_open(model, path, &given, error);
-    model->kept = false; /* where it did not open, more may be done */
+    model->kept = false; /* if opening fails, the session may continue */
     return ok;
 }
 
-/* A number of particles decides the spacing; a scene takes no more than one of them. */
+/* Drops spacings: a count of particles sets the spacing, and a scene accepts only one of both. */
 static void leave_spacing(SettingList *list)
 {
     setting_list_remove_under(list, "particles.spacing=");
 }
 
-/* What was set before gives way to a preset that is chosen now. */
+/* Drops earlier settings that a newly chosen preset replaces. */
 static void give_way(SettingList *list, const SettingList *more)
 {
     static const char PRESET[] = "preset=";
@@ -174,19 +174,19 @@ bool again_carry(const Model *model, Carried *out, Error *error)
     return ok;
 }
 
-/* ---- the file was written ---- */
+/* ---- a written file ---- */
 
-/* A file on its way into the scene that runs. */
+/* A written file to merge into the running scene. */
 typedef struct Renewal {
     Again again;
     char *text;
     size_t size;
-    Scene fresh;    /* as the file and the command line have it now */
-    Differ changed; /* of the file */
-    Scene wanted;   /* with what was changed in the window besides */
-    Differ due;     /* by which what runs becomes that */
+    Scene fresh;    /* the present file with the command line */
+    Differ changed; /* changes of the file */
+    Scene wanted;   /* with the window's changes on top */
+    Differ due;     /* changes from the running scene to `wanted` */
     SettingList settings;
-    Error dropped; /* why what was changed in the window goes; "": it stays */
+    Error dropped; /* the reason for dropping the window's changes; "": kept */
 } Renewal;
 
 static void renewal_free(Renewal *renewal)
@@ -199,8 +199,8 @@ static void renewal_free(Renewal *renewal)
     free(renewal);
 }
 
-/* What the window has changed stays where the file has not; all of it goes where the file does not bear it.
- */
+/* Keeps the window's changes except where the file changed; drops all of them if the file cannot be combined
+   with the rest. */
 static bool find_wanted(const Model *model, Renewal *renewal, Error *error)
 {
     const Recording *recording = &model->open.recording;
@@ -252,7 +252,7 @@ static bool shows_others(const Scene *scene)
     return false;
 }
 
-/* Keys that change nothing that runs, and that the window has as values of the scene alone. */
+/* True for keys without effect on the running simulation, kept only as values of the window's scene. */
 static bool is_of_scene(const char *setting)
 {
     return strncmp(setting, "metrics", strlen("metrics")) == 0 || strncmp(setting, "solver.preset=", 14) == 0;
@@ -265,7 +265,7 @@ static const Key *key_of(const char *setting)
     return scene_key_find(path);
 }
 
-/* A command holds so much of a setting. */
+/* True if the window can apply the setting live: a command has limited room. */
 static bool takes(const char *setting)
 {
     const Key *key = key_of(setting);
@@ -273,7 +273,8 @@ static bool takes(const char *setting)
            (key && key->flags & KEY_LIVE && strlen(setting) < SIM_SETTING_SIZE);
 }
 
-/* Whether what runs can become it; runs beside the scene begin with it. */
+/* True if the running scene can take all changes; runs beside the scene copy it at their start, so changed
+   views would need a restart. */
 static bool is_live(const Renewal *renewal)
 {
     const SettingList *due = &renewal->due.settings;
@@ -287,7 +288,7 @@ static bool is_live(const Renewal *renewal)
            !(views && (shows_others(&renewal->again.now) || shows_others(&renewal->wanted)));
 }
 
-/* Of keys that change nothing that runs, such as metrics, the value alone. */
+/* Sets a live key; copies the values of keys without effect on the simulation, such as metrics. */
 static void set(Model *model, const Scene *wanted, const char *setting)
 {
     const Key *key = key_of(setting);
@@ -300,7 +301,7 @@ static void set(Model *model, const Scene *wanted, const char *setting)
     memcpy(scene->metrics, wanted->metrics, sizeof scene->metrics);
 }
 
-/* The file's text is what is compared with from now on. */
+/* Makes the file's new text the base for later comparisons. */
 static AgainResult keep_text(Model *model, Renewal *renewal)
 {
     free(model->open.renewed);
@@ -310,7 +311,7 @@ static AgainResult keep_text(Model *model, Renewal *renewal)
     return AGAIN_SAME;
 }
 
-/* Whether the picture is another one. */
+/* Applies the changes; returns true if the picture changes. */
 static bool renew(Model *model, Renewal *renewal)
 {
     PlayScene *open = &model->open;
@@ -371,12 +372,12 @@ AgainResult again_read(Model *model, bool others, char words[320], Error *error)
         error_set(error, "no memory to read the scene again");
         return AGAIN_FAILED;
     }
-    if (!model_leave(model, 0)) { /* the scene before this one ends still */
+    if (!model_leave(model, 0)) { /* the previous scene is still ending */
         result = AGAIN_LATER;
     } else if (read_file(model, renewal, error)) {
         tell(renewal, others, words);
         const Differ *changed = &renewal->changed;
-        if (!others && changed->settings.count == 0) /* whatever hands did besides */
+        if (!others && changed->settings.count == 0) /* ignores changes by hand */
             result = keep_text(model, renewal);
         else if (others || !is_live(renewal))
             result = begin(model, renewal, error);

@@ -1,5 +1,5 @@
-/* The scene that is open, once more: as its file is now, or with other settings. What was changed in the
-   window stays: settings, views, camera. */
+/* Reopens the open scene: with its present file, or with different settings. The window's changes of
+   settings, views and camera stay. */
 #ifndef SLOSH_PLAY_AGAIN_H
 #define SLOSH_PLAY_AGAIN_H
 
@@ -7,37 +7,38 @@
 #include "app/setting/carry.h"
 #include "app/setting/differ.h"
 
-/* As its file and the command line have it, as it stands now, and what was changed in between: the settings
-   that make the one the other. False: the file's text is none any more, which no caller can mend. */
+/* The scene of the file and the command line, the present scene, and the settings that turn the first into
+   the second. Returns false if the file's text is no longer valid, which callers cannot mend. */
 typedef struct Again {
     Scene filed, now;
-    Differ mine; /* setting_list_free its settings */
+    Differ mine; /* free with setting_list_free */
 } Again;
 bool again_look(const Model *model, Again *out, Error *error);
 
-/* The text of its file as it was read last; not ended by a 0. */
+/* The last read text of the scene's file, without a final 0. */
 const char *again_text(const PlayScene *open, size_t *size);
 
-/* Begins it again with these settings too, which go before those of the same key; `particles` more than 0:
-   with about so many. A session that is not saved is saved first. False: all stays. */
+/* Restarts the scene with additional settings, which override settings of the same key. `particles` more than
+   0: with about so many particles. Saves an unsaved session first. Returns false without changes. */
 bool again_open(Model *model, const SettingList *more, size_t particles, Error *error);
 
-/* The scene with its settings as they stand, as a new file in the present folder; says what came of it. */
+/* Saves the scene with its present settings as a new file in the present folder; reports the result. */
 void again_save(Model *model);
 
-/* The same for a picture: carry_free. */
+/* Makes the same text for embedding in a picture; free with carry_free. */
 bool again_carry(const Model *model, Carried *out, Error *error);
 
 typedef enum AgainResult {
-    AGAIN_FAILED, /* it cannot be read; all stays */
-    AGAIN_LATER,  /* the scene before this one is still ending: ask again in a moment */
-    AGAIN_SAME,   /* nothing that counts has changed */
-    AGAIN_LIVE,   /* what has changed is in the scene that runs */
-    AGAIN_VIEW,   /* the same, and the picture is another one */
-    AGAIN_BEGUN   /* it began anew */
+    AGAIN_FAILED, /* unreadable; no changes */
+    AGAIN_LATER,  /* the previous scene is still ending: retry in a moment */
+    AGAIN_SAME,   /* no relevant changes */
+    AGAIN_LIVE,   /* the running scene has the changes */
+    AGAIN_VIEW,   /* like AGAIN_LIVE, with a changed picture */
+    AGAIN_BEGUN   /* restarted */
 } AgainResult;
 
-/* Its file was written, or, with `others`, one that it names. `words` tells what has changed. */
+/* Call after a write to the scene's file, or with `others` to a file named by the scene. `words` describe the
+   changes. */
 AgainResult again_read(Model *model, bool others, char words[320], Error *error);
 
 #endif

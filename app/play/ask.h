@@ -1,6 +1,6 @@
-/* What is asked of the window: by keys, mouse and wheel, by a dropped file, by the panel, by motion devices.
-   It waits in a queue and is done between two pictures, in the order in which it was asked for: so nothing
-   that a picture is made of is replaced while that picture is drawn. */
+/* Requests to the window: from keys, mouse and wheel, dropped files, the panel and motion devices. Requests
+   wait in a queue and are executed in order between two pictures, so that no data of a picture changes during
+   its drawing. */
 #ifndef SLOSH_PLAY_ASK_H
 #define SLOSH_PLAY_ASK_H
 
@@ -14,53 +14,53 @@ typedef enum AskKind {
     ASK_COMMAND,   /* command, held */
     ASK_SETTING,   /* text: "path=value" of a live key */
     ASK_OPEN,      /* text: the file of a scene */
-    ASK_AGAIN,     /* text: "path=value", with which the scene begins anew */
-    ASK_PARTICLES, /* amount: about so many, with which it does */
+    ASK_AGAIN,     /* text: "path=value", for a restart of the scene */
+    ASK_PARTICLES, /* amount: approximate count, for a restart of the scene */
     ASK_TUNE,      /* device, amount: gain and dead zone */
-    ASK_LET_GO,    /* the box stops where it is: what moved it is gone */
-    ASK_TIME,      /* amount: s, simulated: to be shown, and to rest there */
-    ASK_CHOOSE,  /* amount: a place in the picture, pixels: the view there becomes the one that all acts on */
-    ASK_GRAB,    /* the camera goes into the hand, as it stands */
-    ASK_TURN,    /* amount: radians to the right and up, of a camera in the hand */
-    ASK_PAN,     /* amount: heights of the picture to the right and up */
-    ASK_ZOOM,    /* amount: steps nearer; grabs it first */
-    ASK_STEER,   /* amount: radians to the right and up, steps nearer; grabs it first */
-    ASK_GRAVITY, /* amount: radians by which it leans to the right, and away */
-    ASK_TOUCH,   /* amount: notches larger, notches stronger */
-    ASK_SIZE,    /* amount: m, of the box */
-    ASK_SHUT,    /* gates: of emitters and drains, those that shall be shut */
-    ASK_CLOSE    /* the window */
+    ASK_LET_GO,    /* the box stops: the device or mouse that moved the box is gone */
+    ASK_TIME,      /* amount: simulated time to show and stay at, s */
+    ASK_CHOOSE,    /* amount: position in the picture, pixels: chooses the view at that position */
+    ASK_GRAB,      /* takes the camera into the hand, unmoved */
+    ASK_TURN,      /* amount: radians to the right and up, for a held camera */
+    ASK_PAN,       /* amount: picture heights to the right and up */
+    ASK_ZOOM,      /* amount: steps nearer; grabs the camera first */
+    ASK_STEER,     /* amount: radians to the right and up, steps nearer; grabs the camera first */
+    ASK_GRAVITY,   /* amount: radians of tilt to the right, and away */
+    ASK_TOUCH,     /* amount: notches of size, notches of strength */
+    ASK_SIZE,      /* amount: size of the box, m */
+    ASK_SHUT,      /* gates: emitters and drains to close */
+    ASK_CLOSE      /* closes the window */
 } AskKind;
 
 typedef struct Ask {
     AskKind kind;
     PlayCommand command;
-    bool held;  /* the command comes again because its key is held down */
-    int device; /* its number */
+    bool held;  /* repeated by a held key */
+    int device; /* the device's number */
     uint64_t gates;
-    double amount[3]; /* what is not said is 0 */
+    double amount[3]; /* unused values are 0 */
     char text[1024];
 } Ask;
 
 enum { ASKS_MAX = 64 };
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct AskQueue {
     int first, count;
-    int lost;           /* for ask_lost */
+    int lost;           /* count for ask_lost */
     Ask asks[ASKS_MAX]; /* a ring */
 } AskQueue;
 
-/* Adds a copy. Turns, ways and zooms of the camera add up while nothing else comes in between. What comes to
-   a full queue is left out, and counted. */
+/* Adds a copy. Consecutive turns, pans and zooms of the camera add up. A full queue drops the request and
+   counts the loss. */
 void ask_add(AskQueue *queue, const Ask *ask);
 void ask_command(AskQueue *queue, PlayCommand command);
 void ask_settings(AskQueue *queue, const ViewSetting *settings, int count);
 
-/* How many have found the queue full since the last call. */
+/* The count of dropped requests since the last call. */
 int ask_lost(AskQueue *queue);
 
-/* Takes the oldest; false when there is none. */
+/* Takes the oldest request; false if there is none. */
 bool ask_next(AskQueue *queue, Ask *ask);
 
 #endif

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double REACH = 0.8; /* of letters' height */
+static const double REACH = 0.8; /* of the letters' height */
 
 static Covered covered(const Model *model, const ViewDef *view, const CameraSight *sight)
 {

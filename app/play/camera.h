@@ -1,5 +1,5 @@
-/* The camera of the window: as the scene has it, or in the user's hand (app/hand/orbit.h). It changes the
-   view of the scene that is open; the picture is to be told. */
+/* The window's camera: as in the scene, or in the user's hand (app/hand/orbit.h). Changes the view of the
+   open scene; callers must notify the picture. */
 #ifndef SLOSH_PLAY_CAMERA_H
 #define SLOSH_PLAY_CAMERA_H
 
@@ -7,33 +7,33 @@
 #include "app/play/model.h"
 #include "render/frame/handle.h"
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct PlayCamera {
-    bool held; /* it is in the hand */
+    bool held; /* in the user's hand */
     Orbit orbit;
 } PlayCamera;
 
-/* What of the picture the camera fills. */
+/* The area of the picture for the camera. */
 typedef struct CameraSight {
     int width, height;   /* pixels */
     double covered_left; /* of the width, 0 .. 1 */
-    double legend;       /* at least so much of it is left free on the right */
+    double legend;       /* width kept free on the right for the legend, 0 .. 1 */
 } CameraSight;
 
-/* The camera as it is now, automatic or in the hand. */
+/* The present camera, automatic or in the hand. */
 Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight *sight);
 
-/* How a view shows the newest state; letters are so many pixels high. */
+/* The mapping of a view to the screen, for the newest state; `letters`: text height, pixels. */
 void camera_sight(const Model *model, const ViewDef *view, const CameraSight *sight, double letters,
                   Sight *out);
 
-/* From now on it is in the hand. */
+/* Takes the camera into the hand. */
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight);
 
-/* The hand has moved `orbit`. */
+/* Call after the hand has moved `orbit`. */
 void camera_moved(const PlayCamera *camera, Model *model);
 
-/* As the file has it. */
+/* Restores the camera of the file. */
 void camera_home(PlayCamera *camera, Model *model);
 
 #endif

@@ -1,4 +1,4 @@
-/* One picture: the fluid, what lies over it, and what is counted of it. */
+/* Draws a picture: the fluid, the marks and the overlay; updates counters. */
 #include "app/play/again.h"
 #include "app/play/parts.h"
 #include "sim/base/stage.h"
@@ -21,7 +21,7 @@ static void draw_overlay(Play *play)
         meter_panel(&play->meter, meter_thread_cpu_ms() - began);
 }
 
-/* Whether the box follows the hand later than an eye expects it to. */
+/* True if the box follows the hand later than the eye expects. */
 static bool box_lags(const Model *model)
 {
     static const double SLOW = 0.5;
@@ -30,7 +30,7 @@ static bool box_lags(const Model *model)
     return model->paused || (status->realtime && model->speed <= SLOW) || (pace > 0 && pace < SLOW);
 }
 
-/* Where the box goes, as the hand has it. */
+/* Updates the pose of the box's outline: the hand's target. */
 static void follow_outline(Play *play, BoxState *pose)
 {
     const Model *model = &play->model;
@@ -42,17 +42,18 @@ static void follow_outline(Play *play, BoxState *pose)
         outline_follow(play->outlined, box_lags(model), outline_apart(&state->box, pose, def->box_size));
 }
 
-/* In a picture of the scene's own state. */
+/* Draws the outline into a picture of the scene's own state. */
 static void draw_outline(const Look *look, const BoxState *pose, Text *text)
 {
-    static const uint32_t COLOR = 0xff6ad5ff, SHADE = 0x101418a0; /* in no colormap, and seen on any ground */
-    static const float THICK = 0.11F;                             /* of letters' height */
+    static const uint32_t COLOR = 0xff6ad5ff,
+                          SHADE = 0x101418a0; /* absent from all colormaps, and visible on any background */
+    static const float THICK = 0.11F;         /* of the letters' height */
     const float em = text_height(text);
     Sight sight = look->sight;
     sight.box = *pose;
     text_begin_within(text, look->width, look->height,
                       (int[]){look->at.x, look->at.y, look->at.width, look->at.height});
-    for (int i = 0; i < 2 * OUTLINE_EDGES; i++) { /* all the shade below all the lines */
+    for (int i = 0; i < 2 * OUTLINE_EDGES; i++) { /* draws all shades below all lines */
         double a[3], b[3], from[2], to[2];
         const bool shade = i < OUTLINE_EDGES;
         outline_edge(look->particles->box_size, i % OUTLINE_EDGES, a, b);
@@ -65,7 +66,7 @@ static void draw_outline(const Look *look, const BoxState *pose, Text *text)
 
 static const uint32_t RESTS = 0xe8eef4e0, TOUCHES = 0xff6ad5ff;
 
-/* A ring about the solid that is in the hand, or would be. */
+/* Draws a ring around the held solid, or the solid under the mouse. */
 static void draw_hold(const Play *play, const Look *look, const SightRay *ray, const double forward[3],
                       Text *text)
 {
@@ -87,7 +88,7 @@ static void draw_hold(const Play *play, const Look *look, const SightRay *ray, c
     grip_draw_ring(look, &ring, text, hold->holds ? TOUCHES : RESTS);
 }
 
-/* Where the finger is; without a drag, where it would be: at what the picture shows under the mouse. */
+/* Draws the finger; without a drag, at the place under the mouse. */
 static void draw_finger(Play *play, const Look *look, Text *text)
 {
     const Scene *scene = &play->model.open.scene;
@@ -110,7 +111,7 @@ static void draw_finger(Play *play, const Look *look, Text *text)
     grip_draw_ring(look, &ring, text, tool.holds ? TOUCHES : RESTS);
 }
 
-/* What the mouse may take, where the box goes, and what is under the mouse. */
+/* Draws handles, the outline, the finger and the readout under the mouse. */
 static void draw_marks(Play *play)
 {
     Picture *picture = &play->picture;
@@ -147,7 +148,7 @@ static void draw_fluid(Play *play)
     events_follow_hand(play);
 }
 
-/* A picture of a scene carries it. */
+/* Takes screenshots and video frames; a screenshot of a scene embeds the scene. */
 static void take_files(Play *play)
 {
     const Picture *picture = &play->picture;
@@ -163,7 +164,7 @@ static void take_files(Play *play)
     carry_free(&carried);
 }
 
-/* The fluid as it was drawn last, and what lies over it. */
+/* Presents the last drawn fluid with its overlay. */
 static void present_fluid(Play *play, bool fresh)
 {
     Picture *picture = &play->picture;
@@ -219,8 +220,9 @@ static void draw_now(Play *play)
     if (whole)
         model_take(&play->model);
     picture->dirty = picture->over = false;
-    picture->finer = picture->finer &&
-                     play->model.has_particles; /* of another scene, which has none yet: nothing to come */
+    picture->finer =
+        picture->finer &&
+        play->model.has_particles; /* after a change of the scene there is no state yet to refine */
     picture->begun_ms = began;
     if (play->model.has_particles && whole)
         draw_fluid(play);

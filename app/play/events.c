@@ -1,8 +1,8 @@
-/* What comes to the window, on its way to what is asked for. */
+/* Turns window events into requests. */
 #include "app/play/parts.h"
 #include "sim/base/stage.h"
 
-/* Before the first picture there is nothing that a mouse could take. */
+/* True for mouse events before the first picture. */
 static bool too_early(const Play *play, WindowEventKind kind)
 {
     return !play->model.has_particles &&
@@ -15,14 +15,14 @@ static bool overlay_has(const Play *play, const WindowEvent *event)
            overlay_takes(&play->overlay, &play->model, event);
 }
 
-/* The mouse acts in the panel under it; a handle that is taken is the chosen view's. */
+/* The panel for the mouse: the panel below, or for a held handle the chosen view's. */
 static int panel_of_mouse(const Play *play)
 {
     const double *mouse = play->grip.mouse;
     return play->grip.taken ? play->picture.chosen : picture_panel_at(&play->picture, mouse[0], mouse[1]);
 }
 
-/* Handles in the picture are found by the mouse unless something else has it. */
+/* Passes the event to the handles, if the mouse is free. */
 static bool grip_has(Play *play, const WindowEvent *event, bool free)
 {
     const Grip before = play->grip;
@@ -38,7 +38,7 @@ static bool grip_has(Play *play, const WindowEvent *event, bool free)
     return has;
 }
 
-/* The view under the mouse becomes the chosen one, before the event does more. */
+/* Requests the view under the mouse as the chosen view, before the event's other effects. */
 static void choose_view(Play *play, const WindowEvent *event)
 {
     const double *mouse = play->grip.mouse;
@@ -67,7 +67,7 @@ static void take_event(Play *play, const WindowEvent *event)
         input_take(&play->input, event, play_sight(play).height, &play->asks);
 }
 
-/* Letters and signs count as the user's keyboard has them. */
+/* Translates letters and signs to the user's keyboard layout. */
 static WindowEvent on_layout(const WindowEvent *event)
 {
     WindowEvent own = *event;
@@ -76,7 +76,7 @@ static WindowEvent on_layout(const WindowEvent *event)
     return own;
 }
 
-/* The script's events that are due. */
+/* Takes the next due event of the shake script. */
 static bool next_shake(Play *play, WindowEvent *event)
 {
     return play->shake_seconds > 0 && play->model.has_particles &&
@@ -89,7 +89,7 @@ static bool shaken_enough(const Play *play)
     return seconds > 0 && began > 0 && wall_ms() - began >= 1000 * seconds;
 }
 
-/* A wall that cannot go on leaves the hand: why is said once. */
+/* Drags a wall; releases a blocked wall, for which the simulator reports the reason once. */
 static void drag_wall(Play *play, const Look *look)
 {
     Ask ask = {.kind = ASK_SIZE};
@@ -100,7 +100,7 @@ static void drag_wall(Play *play, const Look *look)
         ask_add(&play->asks, &ask);
 }
 
-/* Where the mouse has taken a handle since the last picture. */
+/* Applies the mouse's drag of a handle since the last picture. */
 static void drag_grip(Play *play)
 {
     ViewSetting settings[VIEW_SETTINGS_MAX];
@@ -113,7 +113,7 @@ static void drag_grip(Play *play)
         ask_settings(&play->asks, settings, grip_settings(&play->grip, &look, settings));
 }
 
-/* A finger and a solid are taken, and let go, where the mouse was then, not where it came to since. */
+/* Presses and releases of fingers and solids use the mouse position of the event, not the present one. */
 static void take_and_act(Play *play, const WindowEvent *event)
 {
     const bool touches = event->kind == WINDOW_BUTTON && play->touch.on && play->model.has_particles;
@@ -129,7 +129,7 @@ void events_take(Play *play)
 {
     WindowEvent event;
     const double began = meter_thread_cpu_ms();
-    act_all(play); /* what the panel and the hand asked for during the last picture */
+    act_all(play); /* requests of the panel and the hand during the last picture */
     while (next_shake(play, &event))
         take_and_act(play, &event);
     play->quit |= shaken_enough(play);
@@ -145,8 +145,8 @@ void events_take(Play *play)
     meter_events(&play->meter, meter_thread_cpu_ms() - began);
 }
 
-/* What moves the box or the finger that is held. An event that asks for anything waits, and all that come
- * after it. */
+/* Takes events that move the held box or finger. The first event with a request stays in the queue, with all
+   later events. */
 static void take_moves(Play *play)
 {
     WindowEvent event;
@@ -185,10 +185,10 @@ void events_take_moves(Play *play)
 
 void events_between_passes(void *of_play)
 {
-    static const double APART_MS = 2; /* a look costs some 0.1 ms */
+    static const double APART_MS = 2; /* a look takes about 0.1 ms */
     Play *play = of_play;
-    const bool box =
-        input_holds_box(&play->input) && (!play->touch.on || play->touch.holds); /* else it may press */
+    const bool box = input_holds_box(&play->input) &&
+                     (!play->touch.on || play->touch.holds); /* otherwise the finger may need a press */
     const bool holds = box || (play->touch.holds && input_touches(&play->input)) || play->touch.hold.holds;
     if (holds && wall_ms() - play->looked_ms >= APART_MS)
         events_follow_hand(play);

@@ -56,7 +56,7 @@ static void add_view(const ViewDef *view, PlayFigures *figures)
     snprintf(figures->colormap, sizeof figures->colormap, "%s", view_colormap(view));
 }
 
-/* JSON as text; `none` where it does not fit. */
+/* Writes JSON as text; writes `none` if the text does not fit. */
 static void write_json(json_t *json, const char *none, char *text, size_t size)
 {
     const size_t length = json_dumpb(json, text, size - 1, JSON_COMPACT);
@@ -85,7 +85,7 @@ static void add_readout(const Readout *readout, PlayFigures *figures)
     write_json(all, "[]", figures->readout, sizeof figures->readout);
 }
 
-/* Keys of the view that is shown, which panel, keys and handles change. */
+/* Adds the keys of the shown view, as changed by panel, keys and handles. */
 static void add_view_settings(const Scene *scene, PlayFigures *figures)
 {
     char path[NAME_SIZE + 8];
@@ -113,7 +113,7 @@ static void add_meter(const PlayMeter *meter, PlayFigures *figures)
     figures->latency_events = meter->latencies;
 }
 
-/* Rates since the first picture. */
+/* Adds the rates since the first picture. */
 static void add_rates(const PlayMeter *meter, PlayFigures *figures)
 {
     const double wall = 1e-3 * (wall_ms() - meter->began_ms);

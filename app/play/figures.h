@@ -1,4 +1,4 @@
-/* What a session in the window was, from its parts. */
+/* Figures of a session in the window. */
 #ifndef SLOSH_PLAY_FIGURES_H
 #define SLOSH_PLAY_FIGURES_H
 

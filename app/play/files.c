@@ -71,8 +71,8 @@ void files_video(Files *files, int width, int height, Notice *notice)
         notice_error(notice, error.message);
 }
 
-/* As many times as its frames are due: a video runs at its own, even pace. What a stall of more than a second
-   left out stays out. */
+/* Adds the picture as often as frames are due: a video runs at its own, even rate. Frames lost in a stall of
+   over a second stay lost. */
 static bool add_due(Files *files, const Image *image, Error *error)
 {
     const double now = wall_ms();

@@ -21,7 +21,7 @@ static int handles_of_view(const Look *look, Handle handles[HANDLES_MAX])
     return kind && kind->handles ? kind->handles(look->view, look->particles, handles) : 0;
 }
 
-/* Those of the view, then those of the walls. */
+/* Handles of the view, then of the walls. */
 static int handles_of(const Grip *grip, const Look *look, Handle handles[HANDLES_MAX])
 {
     const int count = handles_of_view(look, handles);
@@ -31,7 +31,7 @@ static int handles_of(const Grip *grip, const Look *look, Handle handles[HANDLES
                                 handles + count);
 }
 
-/* The mouse in the panel's own pixels. */
+/* The mouse position in the panel's own pixels. */
 static void within(const Grip *grip, const Look *look, double pixel[2])
 {
     pixel[0] = grip->mouse[0] - look->at.x;
@@ -85,7 +85,7 @@ bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool fre
     return grip->taken ? event->kind == WINDOW_BUTTON : left && event->down && bare && take(grip, look);
 }
 
-/* Where the handle in the hand is now; false: where it was, or not to be told. */
+/* The held handle's new position; false if unmoved or undetermined. */
 static bool dragged(Grip *grip, const Look *look, double at[3])
 {
     double mouse[2];
@@ -117,7 +117,7 @@ int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTIN
     return kind->drag(look->view, look->particles, grip->over - 1, &grip->handle, at, settings);
 }
 
-/* Which views have a plane. */
+/* Tells the user the views that have a plane. */
 static void say_none(const Model *model)
 {
     char names[128] = "";
@@ -145,7 +145,7 @@ int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTI
 
 /* ---- drawing ---- */
 
-/* A line of that many letters' heights, dark below so that it is seen on any ground. */
+/* Draws a line, `thick` in letter heights, with a dark line below for any background. */
 static void stroke(Text *text, const double a[2], const double b[2], double thick, uint32_t rgba)
 {
     const float em = text_height(text);
@@ -201,7 +201,7 @@ void grip_draw(const Grip *grip, const Look *look, Text *text)
         return;
     text_begin_within(text, look->width, look->height,
                       (int[]){look->at.x, look->at.y, look->at.width, look->at.height});
-    for (int i = count - 1; i >= 0; i--) /* the first lies over all */
+    for (int i = count - 1; i >= 0; i--) /* the first handle is on top */
         draw_handle(&look->sight, &handles[i], text, i + 1 == lit ? LIT : REST);
     text_end(text);
 }

@@ -1,14 +1,13 @@
-/* The handles in the picture (render/frame/handle.h): the mouse finds, takes and drags them, keys step what
-   they are of. What it does are live settings, as those of the panel. A handle that is taken keeps the mouse
-   from the camera and from the box.
+/* The handles in the picture (render/frame/handle.h): the mouse finds, takes and drags handles, keys move the
+   view's plane in steps. The results are live settings, like the panel's. A held handle keeps the mouse from
+   the camera and the box.
 
-   Of several panels each has the handles of its own view; the mouse acts in the panel under it, and one that
-   is taken is the chosen view's.
+   Each panel has the handles of its own view. The mouse acts in the panel below the cursor; a held handle
+   belongs to the chosen view.
 
-   While the walls are to be taken they have handles, too, in views of the scene's own state:
-   app/touch/walls.h.
+   When walls may be taken, walls have handles too, in views of the scene's own state: app/touch/walls.h.
 
-   Handles are drawn over the window's own picture, not into screenshots and videos. */
+   Handles appear only in the window, not in screenshots and videos. */
 #ifndef SLOSH_PLAY_GRIP_H
 #define SLOSH_PLAY_GRIP_H
 
@@ -20,49 +19,49 @@
 #include "render/frame/view.h"
 #include "render/panels.h"
 
-/* How a panel shows the newest state. */
+/* A panel's mapping of the newest state to the screen. */
 typedef struct Look {
     int panel;
-    PanelPlace at;     /* in the picture, */
-    int width, height; /* of so many pixels */
+    PanelPlace at;     /* in the picture */
+    int width, height; /* of the picture, pixels */
     const ViewDef *view;
     const ParticleBuffers *particles;
-    const WorldDef *world; /* whose walls may be taken; NULL: none */
+    const WorldDef *world; /* world with movable walls; NULL: none */
     Sight sight;
 } Look;
 
 typedef struct Grip {
-    int over;        /* the handle under the mouse or in the hand, plus 1; 0: none */
-    int panel;       /* where it is */
-    bool taken;      /* it is in the hand: */
-    Handle handle;   /* as it was then */
-    SightRay first;  /* of the mouse then */
+    int over;        /* handle under the mouse or held, plus 1; 0: none */
+    int panel;       /* panel of the handle */
+    bool taken;      /* a handle is held */
+    Handle handle;   /* the held handle at the start */
+    SightRay first;  /* of the mouse at the start */
     double mouse[2]; /* pixels of the whole picture */
-    bool moved;      /* since it was last asked for what it does */
-    bool walls;      /* the walls of the box have handles */
-    bool wall;       /* the one that is taken is a wall's */
+    bool moved;      /* since the last query of settings or size */
+    bool walls;      /* the box's walls have handles */
+    bool wall;       /* the held handle belongs to a wall */
 } Grip;
 
-/* Nothing is held. */
+/* Resets: no handle is held. */
 void grip_begin(Grip *grip);
 
-/* The mouse is where an event has it: before all else that the event does. */
+/* Updates the mouse position; call before the event's other effects. */
 void grip_follow(Grip *grip, const WindowEvent *event);
 
-/* Takes notice of an event in the panel under the mouse, or in that of the handle that is taken; whether it
-   is the grip's alone. `free`: nothing else has the mouse. */
+/* Handles an event in the panel under the mouse, or of the held handle; returns true if the event belongs to
+   the grip alone. `free`: nothing else uses the mouse. */
 bool grip_event(Grip *grip, const Look *look, const WindowEvent *event, bool free);
 
-/* What the drag since the last call asks of the panel's view; how many settings. */
+/* Settings of the panel's view for the drag since the last call; returns their count. */
 int grip_settings(Grip *grip, const Look *look, ViewSetting settings[VIEW_SETTINGS_MAX]);
 
-/* The size that the drag of a wall since the last call asks for, m; false: none. */
+/* Box size for the drag of a wall since the last call, m; false: no drag. */
 bool grip_size(Grip *grip, const Look *look, double size[3]);
 
-/* What a key asks of the chosen view; 0, with a word to the user, where the view is of no plane. */
+/* Settings for a key step in the chosen view; returns 0, with a message, if the view has no plane. */
 int grip_step(const Model *model, ViewStep step, ViewSetting settings[VIEW_SETTINGS_MAX]);
 
-/* A ring as handles have it, in no colour of theirs. */
+/* Draws a ring like a handle's, in a colour of its own. */
 void grip_draw_ring(const Look *look, const Handle *ring, Text *text, uint32_t rgba);
 
 void grip_draw(const Grip *grip, const Look *look, Text *text);

@@ -14,8 +14,8 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-/* Until the window has seen that the display is gone, or a signal: with a software driver a picture lasts;
-   and until the solver has saved the session. */
+/* Patience in ms: for the window to notice a lost display, or a signal, as a picture of a software driver
+   takes long; and for the solver to save the session. */
 enum { GONE_MS = 400, SIGNAL_MS = 2000, SAVE_MS = 400 };
 
 struct Guard {
@@ -37,7 +37,7 @@ bool guard_path(const char *record, bool unsaved, char path[1024])
     return true;
 }
 
-/* The window's thread is in a call that does not return, and is left there. */
+/* Ends the program; the window's thread is left in a call that does not return. */
 _Noreturn static void end(Guard *guard, bool lost)
 {
     char path[1024], words[1200];
@@ -67,7 +67,7 @@ static void *look_after(void *of_guard)
     return NULL;
 }
 
-/* Signals are for the thread of the window. */
+/* Blocks signals in the new thread: the window's thread handles them. */
 static bool start_thread(Guard *guard)
 {
     sigset_t all, before;

@@ -1,5 +1,5 @@
-/* A second thread that ends the window where the window itself cannot: the display is gone and a driver waits
-   for it for ever, or a signal asks for the end while something lasts. The session is saved. */
+/* A second thread that ends the program if the window cannot: when the display is gone and a driver waits
+   forever, or when a signal comes during a long operation. Saves the session. */
 #ifndef SLOSH_PLAY_GUARD_H
 #define SLOSH_PLAY_GUARD_H
 
@@ -7,18 +7,19 @@
 
 typedef struct Guard Guard;
 
-/* `record`: where the session goes (may be NULL); `connection`: the display's file descriptor, or -1. Begins
-   to watch; NULL where it cannot. */
+/* Starts the guard. `record`: file for the session (may be NULL); `connection`: the display's file
+   descriptor, or -1. Returns NULL on failure. */
 Guard *guard_create(const char *record, int connection);
 
-/* Whose session it is; NULL: none, from the return on. A guard of NULL is allowed. */
+/* Sets the simulator to save; NULL: none, effective on return. A NULL guard is allowed. */
 void guard_watch(Guard *guard, Simulator *simulator);
 
-/* The window has seen it and ends by itself, or it has ended; frees nothing where the end is on its way. */
+/* Stops the guard, if the window ends by itself; if the guard is already ending the program, never
+   returns. */
 void guard_destroy(Guard *guard);
 
-/* Where the session goes at such an end: `record`; or, when it has what is not saved, a file of its own, but
-   after a Ctrl-C. False: nowhere. */
+/* File for the session at such an end: `record`; otherwise, with unsaved changes, a new file, except after
+   Ctrl-C. Returns false if the session is not saved. */
 bool guard_path(const char *record, bool unsaved, char path[1024]);
 
 #endif

@@ -1,5 +1,5 @@
-/* What the hand does: by mouse, keys and gamepad, and by motion devices. It moves box and finger at once,
-   through the simulator's own queue; all else that it asks for is queued. */
+/* Input of the hand: mouse, keys, gamepad and motion devices. Moves box and finger at once, through the
+   simulator's own queue; all other requests go to the window's queue. */
 #include "app/play/parts.h"
 #include "render/particles/particle_under.h"
 
@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians, steps in a second, at rate 1 */
+static const double CAMERA_TURN = M_PI / 2, CAMERA_ZOOM = 10; /* radians and steps per second, at rate 1 */
 
-/* What motion devices ask of the camera. */
+/* Steers the camera with motion devices. */
 static void steer(AskQueue *asks, const double rates[3])
 {
     if (rates[0] == 0 && rates[1] == 0 && rates[2] == 0)
@@ -26,7 +26,7 @@ static bool differs(const double *a, const double *b, int count)
     return differ;
 }
 
-/* While time is paused nothing else asks for a picture of what the hand does. */
+/* Requests a new picture when the target moves, as needed while time is paused. */
 static void follow_target(Play *play, const BoxTarget *target)
 {
     play->picture.over |= differs(play->wanted.position, target->position, 3) ||
@@ -59,7 +59,7 @@ void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward
     memcpy(forward, middle.along, sizeof middle.along);
 }
 
-/* What is poured comes from above what it falls on, where there is room for it. */
+/* Lifts the pouring point above the fluid, to free space. */
 static void lift(const ParticleBuffers *particles, const WorldDef *def, double at[3])
 {
     static const double SPACINGS = 2;
@@ -70,7 +70,7 @@ static void lift(const ParticleBuffers *particles, const WorldDef *def, double a
         at[k] -= length > 0 ? SPACINGS * def->spacing * down[k] / length : 0;
 }
 
-/* Said where the backend takes no new particles. */
+/* True if the backend accepts new particles; otherwise reports the error. */
 static bool may_pour(Play *play)
 {
     Error error = {{0}};
@@ -82,13 +82,13 @@ static bool may_pour(Play *play)
     return false;
 }
 
-/* Where a press begins: at the fluid under the mouse, else as deep as the middle of the box. */
+/* Begins a press: at the fluid under the mouse, otherwise at the depth of the box's centre. */
 static void press(Play *play, const SightRay *ray)
 {
     TouchTool *tool = &play->touch;
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
     double at[3] = {0, 0.5 * play->model.particles.box_size[1], 0};
-    model_take(&play->model); /* a solver on the GPU has gone on in the buffers of the one that was drawn */
+    model_take(&play->model); /* a solver on the GPU has since written to the drawn buffers */
     const FingerWay way = play->input.drag == PLAY_TOUCH_OTHER ? touch_other(left) : left;
     if (play->model.has_particles &&
         particle_place_under(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at) &&
@@ -98,7 +98,7 @@ static void press(Play *play, const SightRay *ray)
     tool->spent = way == FINGER_POUR && !may_pour(play);
 }
 
-/* A solid in the hand goes where the mouse is. */
+/* Moves the held solid with the mouse. */
 static void hold(Play *play, const SightRay *ray, const double forward[3])
 {
     Hold *held = &play->touch.hold;
@@ -114,7 +114,7 @@ static void hold(Play *play, const SightRay *ray, const double forward[3])
     held->holds = model_solid(&play->model, &command);
 }
 
-/* The finger goes where the mouse is. Returns the number of its command, or 0. */
+/* Moves the finger with the mouse. Returns the command's number, or 0. */
 static uint64_t touch(Play *play)
 {
     TouchTool *tool = &play->touch;
@@ -153,7 +153,7 @@ static uint64_t touch(Play *play)
     return model_touch(&play->model, &finger);
 }
 
-/* How the mouse looks at the chosen view's fluid; false, with a word, where that has no depth. */
+/* The ray of the mouse in the chosen view; false, with a message, in a flat view. */
 static bool looks(Play *play, SightRay *ray)
 {
     double forward[3];
@@ -208,7 +208,7 @@ void hands_take(Play *play)
     if (command.solid < 0) {
         notice_tell(&play->notice, "there is no solid under the mouse");
     } else if (model_solid(&play->model, &command)) {
-        play->touch.hold.holds = false; /* numbers are others then */
+        play->touch.hold.holds = false; /* the numbers of solids have changed */
         notice_tell(&play->notice, "the %s is taken out", solid_name(def->solids[command.solid].kind));
     }
 }
@@ -245,11 +245,11 @@ void hands_tilt_gravity(Play *play, const double amount[2])
         hands_set_gravity(play, tilted);
 }
 
-/* While the mouse touches, sticks that move nothing else then carry its place, and triggers press: a
-   gamepad's, and what of a motion device would have the camera, rates of 1 over their seconds in `camera`. */
+/* While touching, free sticks move the finger, and triggers press: a gamepad's sticks, and the axes of a
+   motion device meant for the camera; `camera`: rates of 1 times their seconds. */
 static void follow_pad(Play *play, const WindowGamepad *pad, const double camera[3])
 {
-    static const double HEIGHTS = 0.7, LONGEST = 0.1, HOLDS_MS = 150; /* of the picture in a second; s; ms */
+    static const double HEIGHTS = 0.7, LONGEST = 0.1, HOLDS_MS = 150; /* picture heights per second; s; ms */
     PadFinger *finger = &play->pad;
     const double now = wall_ms(), dt = fmin(1e-3 * (now - finger->looked_ms), LONGEST);
     double move[2] = {camera[0], camera[1]}, press = 0;

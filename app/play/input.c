@@ -8,7 +8,7 @@
 #include <string.h>
 
 static const double CLICK_REACH = 3;      /* pixels */
-static const double DRAG_TURN = 2 * M_PI; /* radians that a drag over the picture's height turns by */
+static const double DRAG_TURN = 2 * M_PI; /* radians of a drag over the picture's height */
 
 void input_begin(Input *input)
 {
@@ -21,7 +21,7 @@ static void hand_event(Input *input, const WindowEvent *event)
         input->hand_event_ms = event->when_ms;
 }
 
-/* Shift and Ctrl move the box while touching, too. */
+/* While touching, Shift and Ctrl still move the box. */
 static PlayCommand touch_of(int button, int modifiers)
 {
     if (button == GLFW_MOUSE_BUTTON_RIGHT)
@@ -46,11 +46,11 @@ static PlayCommand drag_of(const Input *input, int button, int modifiers)
                                           : PLAY_ORBIT;
 }
 
-enum { TRIGGER = -1 }; /* in the place of a button of the mouse */
+enum { TRIGGER = -1 }; /* used as a mouse button's number */
 
 void input_press(Input *input, double press)
 {
-    static const double STEPS = 16; /* so that a finger that trembles asks for nothing new */
+    static const double STEPS = 16; /* avoids new commands for a trembling finger */
     const double by = round(STEPS * fmin(fabs(press), 1)) / STEPS;
     const bool has = input_touches(input) && input->drag_button == TRIGGER;
     if (!has && (!input->touching || input->drag != PLAY_NONE || !(by > 0)))
@@ -65,7 +65,7 @@ bool input_touches(const Input *input)
     return input->drag == PLAY_TOUCH_DRAG || input->drag == PLAY_TOUCH_OTHER;
 }
 
-/* What acts between two pictures only. */
+/* True for drags that act only between two pictures. */
 static bool drags_slowly(const Input *input)
 {
     return input->drag == PLAY_PAN || input->drag == PLAY_ORBIT || input->drag == PLAY_GRAVITY_DRAG;
@@ -73,7 +73,7 @@ static bool drags_slowly(const Input *input)
 
 static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
 {
-    if (!event->down && event->button == input->drag_button) { /* never a trigger's */
+    if (!event->down && event->button == input->drag_button) { /* never for a trigger */
         if (input->drag == PLAY_PAN && !input->grabbed && event->button == GLFW_MOUSE_BUTTON_RIGHT)
             ask_command(asks, PLAY_TRAIL);
         input->drag = PLAY_NONE;
@@ -91,7 +91,7 @@ static void on_button(Input *input, const WindowEvent *event, AskQueue *asks)
         hand_event(input, event);
 }
 
-/* A right click becomes a drag once the mouse has left the place. */
+/* A right click becomes a drag once the mouse has moved away. */
 static bool is_still_a_click(Input *input, const WindowEvent *event, AskQueue *asks)
 {
     if (input->drag != PLAY_PAN || input->grabbed)
@@ -180,7 +180,7 @@ bool input_busy(const Input *input)
     return input->drag != PLAY_NONE || input_holds_box(input);
 }
 
-/* What was held is let go. */
+/* Losing the focus releases all keys and drags. */
 static void on_focus(Input *input, const WindowEvent *event, AskQueue *asks)
 {
     if (event->down)
@@ -207,7 +207,7 @@ static int modifiers_of(const bool *down)
     return (shift ? GLFW_MOD_SHIFT : 0) | (control ? GLFW_MOD_CONTROL : 0);
 }
 
-/* Some systems send it sideways while Shift is down. */
+/* Some systems report a sideways wheel while Shift is down. */
 static void on_wheel(const Input *input, const WindowEvent *event, AskQueue *asks)
 {
     const bool shift = modifiers_of(input->down) & GLFW_MOD_SHIFT;
@@ -273,7 +273,7 @@ static void add_keys(const Input *input, HandInput *hand)
             (held->command == PLAY_MOVE_KEYS ? hand->move_rate : hand->tilt_rate)[held->axis] += held->sign;
 }
 
-/* GLFW counts a stick's y downwards. */
+/* GLFW's y axis of a stick points down. */
 static void add_gamepad(Input *input, const WindowGamepad *pad, HandInput *hand, AskQueue *asks)
 {
     double left[2], right[2];
@@ -281,7 +281,7 @@ static void add_gamepad(Input *input, const WindowGamepad *pad, HandInput *hand,
     hand_stick(pad->right, right);
     hand->move_offset[0] += left[0];
     hand->move_offset[2] -= left[1];
-    if (!input->touching) { /* else it has the finger: app/play/hands.c */
+    if (!input->touching) { /* otherwise the right stick moves the finger: app/play/hands.c */
         hand->tilt_offset[0] += right[0];
         hand->tilt_offset[1] -= right[1];
     }

@@ -17,20 +17,20 @@
 
 static const double LEAVE_MS = 200, SAVE_MS = 5000, HASTE_MS = 400;
 
-/* Somebody waits for the end, or nobody sees it. */
+/* True if the program must end fast, or the display is gone. */
 static bool in_haste(const Model *model)
 {
     return interrupted() || window_gone(model->window);
 }
 
-/* Padding that differs costs advice that is not news. */
+/* Differing padding only causes repeated advice. */
 static bool same_bytes(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
 }
 
-/* The simulation is at another time, or did again what was done there: the panel shows the settings of then,
-   and the hand holds the box where it was, from where it goes on. */
+/* After a jump in time, or a repeated command, takes over the settings of that time for the panel, and the
+   box's pose of that time for the hand. */
 static void follow_travels(Model *model)
 {
     const SimulatorPast *past = &model->status.past;
@@ -47,7 +47,7 @@ static void follow_travels(Model *model)
     model->shut = model->status.shut;
 }
 
-/* The scene's solids are where the solver has them. */
+/* Takes over the solids from the solver. */
 static void follow_solids(Model *model)
 {
     WorldDef def, *own = &model->open.scene.world;
@@ -60,7 +60,7 @@ static void follow_solids(Model *model)
     memcpy(own->solids, def.solids, sizeof own->solids);
 }
 
-/* Once: a box that stands still under the hand would look broken. */
+/* Reports once that the box of a recorded run cannot be moved, as a fixed box would look broken. */
 static void tell_fixed(Model *model)
 {
     if (!atomic_exchange(&model->pulled, false) || model->told_fixed)
@@ -69,7 +69,7 @@ static void tell_fixed(Model *model)
     notice_tell(model->notice, "a recorded run: its box moves as it did");
 }
 
-/* A recorded session begins, ends, or is left. */
+/* Reports when a recorded session begins, ends, or is left. */
 static void tell_script(Model *model)
 {
     const ScriptState state = model->status.script;
@@ -142,7 +142,7 @@ bool model_has(const Model *model, const ViewDef *view, Error *error)
                                               : open->source->has(open, view, error);
 }
 
-/* What the scene itself is called among others. */
+/* Name of the scene's own states in titles. */
 static const char *own_name(const PlayScene *open)
 {
     const char *slash = strrchr(open->scene.path, '/');
@@ -183,7 +183,7 @@ static uint64_t send_target(void *open, const BoxTarget *target)
     return simulator_send(scene->simulator, &command);
 }
 
-/* The same where there is nothing to send it to. */
+/* A HandSend without a simulation. */
 static uint64_t send_nowhere(void *model, const BoxTarget *target)
 {
     (void)target;
@@ -216,9 +216,9 @@ static void adopt(Model *model, const PlayScene *opened)
     model->open.source->set_speed(&model->open, model->speed);
 }
 
-/* A software renderer keeps all processors busy by itself. A solver on as many threads waits at each of its
-   many barriers until the last of them gets its turn: on two processors a frame took 30 ms with two threads,
-   and 18 with one. The bits do not depend on it. */
+/* Gives the solver half of the processors with a software renderer, which keeps all busy. A solver with as
+   many threads as processors waits at each of its many barriers for a delayed thread: on two processors a
+   frame took 30 ms with two threads, and 18 ms with one. The bits do not depend on the count. */
 static void share_processors(WorldDef *def)
 {
     int *threads = world_threads(def);
@@ -226,7 +226,7 @@ static void share_processors(WorldDef *def)
         *threads = world_processors() > 1 ? world_processors() / 2 : 1;
 }
 
-/* Its simulation does not answer. */
+/* Saves without the last frame, if the simulation does not answer. */
 static bool save_cut(Model *model, const char *path, Error *error)
 {
     const bool ok = simulator_save_cut(model->open.simulator, path, error);
@@ -251,7 +251,7 @@ bool model_save_now(Model *model, const char *path, Error *error)
     }
 }
 
-/* With --record nothing that was done goes without a trace, though only the last session gets that name. */
+/* With --record saves every left session, though only the last session gets the given name. */
 bool model_keep_session(Model *model, Error *error)
 {
     char path[1024];
@@ -261,7 +261,7 @@ bool model_keep_session(Model *model, Error *error)
     return model->kept;
 }
 
-/* Not twice; one that can't be kept ends all the same. */
+/* Saves once; the session ends even if the save fails. */
 static void keep_session(Model *model)
 {
     Error error = {{0}};
@@ -275,7 +275,7 @@ bool model_leave(Model *model, double patience_ms)
     return play_scene_close(&model->left, patience_ms);
 }
 
-/* A frame of a large scene lasts: its solver ends behind the next one's back. */
+/* Leaves the scene. A frame of a large scene takes long, so its solver ends while the next scene runs. */
 static void leave(Model *model)
 {
     const double until = wall_ms() + SAVE_MS;
@@ -297,7 +297,8 @@ static void leave(Model *model)
     model->open = (PlayScene){.source = NULL};
 }
 
-/* On the terminal each with its place in the file, in the picture the first of them; the panel has all. */
+/* Prints all notes on the terminal, with their places in the file, and shows the first in the picture; the
+   panel has all. */
 static void tell(Model *model, const Notes *notes)
 {
     for (int i = notes->count - 1; i >= 0; i--)
@@ -331,13 +332,13 @@ bool model_open(Model *model, const char *scene, const SceneSettings *settings, 
 void model_reset(Model *model)
 {
     keep_session(model);
-    hand_post_close(model->post); /* no report comes in between: it would move the box, and be forgotten */
+    hand_post_close(model->post); /* a device report now would move the box, and would be lost */
     model->open.source->reset(&model->open);
     model->shut = flow_shut(&model->open.scene.world);
     post_open(model);
 }
 
-/* The view that the open scene would have if nobody had chosen one. */
+/* The view of the open scene without the user's choice. */
 static void file_view(const Model *model, char kind[NAME_SIZE])
 {
     const Recording *file = &model->open.recording;
@@ -349,7 +350,7 @@ static void file_view(const Model *model, char kind[NAME_SIZE])
     snprintf(kind, NAME_SIZE, "%s", parsed ? scene.view.kind : model->file_scene.view.kind);
 }
 
-/* A view that is not the file's was chosen, and stays so where a file happens to have it too. */
+/* Remembers a view chosen by the user; the choice stays even if a file has the same view by chance. */
 static void keep_view(Model *model)
 {
     char own[NAME_SIZE];
@@ -361,8 +362,8 @@ static void keep_view(Model *model)
         *model->kept_view = 0;
 }
 
-/* With the view that the user chose, and what the command line said of that view; without both where the
-   scene cannot have it. */
+/* Opens a scene with the user's view, and the command line's settings of that view; without both if the scene
+   cannot have the view. */
 static bool open_kept(Model *model, const char *path, Error *error)
 {
     char kind[16 + NAME_SIZE], own[16 + NAME_SIZE];
@@ -461,7 +462,7 @@ static void advise_anew(Model *model, const char *setting)
         notice_tell(model->notice, "%s", fresh.line[i]);
 }
 
-/* To another backend. */
+/* Moves to a new backend. */
 static void move(Model *model, const SimCommand *command, const WorldDef *before)
 {
     Error error = {{0}};
@@ -485,7 +486,7 @@ void model_loop(Model *model)
     notice_tell(model->notice, status.loop ? "stops at the end" : "begins anew at the end");
 }
 
-/* Of a recorded run: what a solver reads is as it was, and colours need what the file has. */
+/* Sets a key of a recorded run: keys of the solver are refused, and views need data of the file. */
 static bool set_recorded(Model *model, const char *setting)
 {
     Error error = {{0}};
@@ -503,7 +504,7 @@ static bool set_recorded(Model *model, const char *setting)
     return ok;
 }
 
-/* Of the scene: a view among several may show a recorded run, which lacks what it would read. */
+/* Sets a key of the scene; a view of a recorded run is refused if the run lacks its data. */
 static bool set_scene(Model *model, const char *setting, bool *concerns_world, Error *error)
 {
     Scene *scene = &model->open.scene;
@@ -514,7 +515,8 @@ static bool set_scene(Model *model, const char *setting, bool *concerns_world, E
     return true;
 }
 
-/* Where they are on a GPU and where not decides which thread steps. */
+/* Checks that the backend may change: not with solvers side by side, as backends decide the stepping
+   thread. */
 static bool may_move(const Model *model, const SimCommand *command, Error *error)
 {
     Simulator *followers[SIMULATOR_FOLLOWERS];
@@ -594,7 +596,7 @@ bool model_resize(Model *model, const double size[3])
     return true;
 }
 
-/* Whether the scene's own states need accelerations; those beside it are asked for theirs. */
+/* True if the scene's own states need accelerations; runs beside are asked for theirs. */
 static bool follow_view(Model *model, const ViewDef *view)
 {
     if (!scene_view_accelerates(view))

@@ -1,5 +1,4 @@
-/* What is shown in the window: the scene that is open, its source, simulator or recorded run, and the newest
-   state of it. */
+/* The model of the window: the open scene, its source (simulator or recorded run) and its newest state. */
 #ifndef SLOSH_PLAY_MODEL_H
 #define SLOSH_PLAY_MODEL_H
 
@@ -11,111 +10,113 @@
 
 #include <stdatomic.h>
 
-/* To be zeroed but for what is given. */
+/* Zero-initialise all but the given fields. */
 typedef struct Model {
-    Window *window;      /* given: waits take its events, a new state wakes it */
-    GlTimer *timer;      /* given: as of SimulatorSetup */
-    HandPost *post;      /* given: sends the box where the hand wants it */
+    Window *window;      /* given: waits take events, new states wake the window */
+    GlTimer *timer;      /* given: see SimulatorSetup */
+    HandPost *post;      /* given: sends the hand's target of the box */
     Notice *notice;      /* given */
-    struct Guard *guard; /* given: watches the session of what is open; NULL: nothing does */
-    const char *record;  /* given: no session goes without a trace; or NULL */
-    bool kept;           /* with it the session that is left next is saved already */
-    size_t past_bytes;   /* given: as of SimulatorSetup */
-    double speed;        /* given: simulated seconds in a second */
+    struct Guard *guard; /* given: guards the open session; NULL: no guard */
+    const char *record;  /* given: with a path every session is saved; or NULL */
+    bool kept;           /* with `record`: the session about to be left is already saved */
+    size_t past_bytes;   /* given: see SimulatorSetup */
+    double speed;        /* given: simulated seconds per second */
 
     PlayScene open;
-    PlayScene left;            /* the one before, whose solver has not ended yet; or zero */
-    Scene file_scene;          /* as its file has it */
-    ParticleBuffers particles; /* what is drawn */
+    PlayScene left;            /* previous scene, whose solver is still ending; or zero */
+    Scene file_scene;          /* as in the file */
+    ParticleBuffers particles; /* the drawn state */
     bool has_particles;
     SimulatorStatus status;
     bool paused;
-    double simulated_s;        /* of the scenes before, less what was simulated before the first picture */
-    char kept_view[NAME_SIZE]; /* that the user chose, and the next scene is to have; "": as its file says */
+    double simulated_s;        /* of earlier scenes, minus the time before the first picture */
+    char kept_view[NAME_SIZE]; /* view kept for the next scene, chosen by the user; "": the file's view */
     size_t scenes_opened;
-    size_t seeded;            /* particles of the open scene at its start */
-    unsigned saves, messages; /* that were told */
-    ScriptState told_script;  /* that was told */
-    uint64_t shut;            /* gates that shall be: world_shut */
-    unsigned travels;         /* SimulatorPast.travels that were followed; */
+    size_t seeded;            /* count of particles at the scene's start */
+    unsigned saves, messages; /* reported so far */
+    ScriptState told_script;  /* last reported */
+    uint64_t shut;            /* gates to close: world_shut */
+    unsigned travels;         /* last handled SimulatorPast.travels */
     unsigned solids;          /* SimulatorStatus.solids */
-    atomic_bool pulled;       /* somebody would move the box of a recorded run; */
-    bool told_fixed;          /* it was told that none can */
-    bool asked_acceleration;  /* a view reads it, and the solver was asked for it: once, it may take long */
+    atomic_bool pulled;       /* the user tried to move the box of a recorded run */
+    bool told_fixed;          /* reported that the box cannot move */
+    bool asked_acceleration; /* a view reads accelerations, and the solver was asked once: the change may take
+                                long */
 } Model;
 
-/* A file as a scene, with settings of its own or NULL; the scene before ends. On failure that one stays. */
+/* Opens a file as a scene, with settings or NULL; the previous scene ends. On failure the previous scene
+   stays. */
 bool model_open(Model *model, const char *scene, const SceneSettings *settings, Error *error);
 
-/* The scene before or after it in its folder, by the view that the user chose, if there is one; one that is
- * broken is told and left out. False: there is none.
- */
+/* Opens the next (`by` 1) or previous (-1) scene of the folder, with the user's view, if any; reports and
+   skips broken scenes. Returns false if there is no other scene. */
 bool model_open_neighbour(Model *model, int by);
 
-/* Whether the scene that was open before has ended. */
+/* True if the previous scene has ended. */
 bool model_leave(Model *model, double patience_ms);
 
-/* Ends all. False when a solver did not end in time: then nothing that it uses may be freed. */
+/* Ends all. Returns false if a solver did not end in time: then free nothing that the solver uses. */
 bool model_close(Model *model, double patience_ms);
 
-/* Asks the solver how it stands, and shows what it has to say. */
+/* Reads the solver's status, and shows its messages. */
 void model_listen(Model *model);
 
-/* Takes the newest state, and those of what is shown beside it. */
+/* Takes the newest state, and the states of runs shown beside the scene. */
 void model_take(Model *model);
 
-/* Whether there is one that was not taken. */
+/* True if there is a state not taken yet. */
 bool model_fresh(const Model *model);
 
-/* What a view shows: the state that was taken, and its world. */
+/* State and world shown by a view. */
 const ParticleBuffers *model_state(const Model *model, const ViewDef *view);
 const WorldDef *model_world(const Model *model, const ViewDef *view);
 
-/* Of `count` panels with these views, the name of each and in what they differ; false: all show the scene,
-   and have no titles. */
+/* Names and differences of `count` panels with these views; returns false if all show the scene, without
+   titles. */
 bool model_titles(const Model *model, const ViewDef *const views[], int count, Title titles[PANELS_MAX]);
 
-/* Whether what the view shows has all that it reads. */
+/* True if the view's source has all data that the view reads. */
 bool model_has(const Model *model, const ViewDef *view, Error *error);
 
 void model_pause(Model *model, bool paused);
-void model_step(Model *model, bool held); /* one frame, then a pause; `held`: as of simulator_single_step */
-void model_step_back(Model *model, bool held); /* the same, one frame back */
+void model_step(Model *model, bool held); /* one frame, then a pause; `held`: see simulator_single_step */
+void model_step_back(Model *model, bool held); /* one frame back, then a pause */
 void model_go_by(Model *model,
-                 double seconds);            /* on or back, as far as it goes; time runs or rests as it did */
-void model_go_to(Model *model, double time); /* as of simulator_go_to */
-void model_loop(Model *model);               /* whether a recorded run begins anew at its end, or stops */
+                 double seconds); /* forward or back, within the kept past; time runs or rests as before */
+void model_go_to(Model *model, double time); /* see simulator_go_to */
+void model_loop(Model *model);               /* toggles: a recorded run repeats at its end, or stops */
 void model_reset(Model *model);
-void model_set_speed(Model *model, double factor); /* so many times the present one, within bounds */
+void model_set_speed(Model *model, double factor); /* multiplies the present speed, within bounds */
 
-/* "path=value" of a live key: in the scene now, for the solver from its next step on. False: all stays. */
+/* Sets "path=value" of a live key: in the scene at once, for the solver from its next step on. Returns false
+   without changes. */
 bool model_set(Model *model, const char *setting);
 
-/* These gates of emitters and drains are shut from the next step on, the others open. */
+/* Closes the gates of emitters and drains in `gates` from the next step on, and opens the rest. */
 void model_shut(Model *model, uint64_t gates);
 
-/* A finger in the fluid from the next step on, or none. The number of its command; 0: it was not taken. */
+/* Sets or removes a finger in the fluid from the next step on. Returns the command's number; 0: refused. */
 uint64_t model_touch(Model *model, const Finger *finger);
 
-/* Something is done to a solid from the next step on. False, with a word to the user: it cannot be here. */
+/* Changes a solid from the next step on. Returns false, with a message, if impossible. */
 bool model_solid(Model *model, const SolidCommand *command);
 
-/* The box goes to that size (m), as fast as its walls may. False, with a word: it cannot here. */
+/* Resizes the box (m), as fast as the walls may move. Returns false, with a message, if impossible. */
 bool model_resize(Model *model, const double size[3]);
 
-/* The views have changed: solvers begin to keep what one of them reads. One that cannot is asked again when
-   it was not read meanwhile. */
+/* Call after a change of views: solvers begin to keep data read by a view. A solver that could not is asked
+   again after the data was unread for a while. */
 void model_follow_views(Model *model);
 
-/* The box stops where it is. */
+/* Stops the box at its place. */
 void model_let_go(Model *model);
 
-/* The session so far into a new file, behind the window's back; or at once, and waits for it. */
+/* Saves the session so far into a new file: in the background; or at once, waiting for the result. */
 void model_save(Model *model);
 bool model_save_now(Model *model, const char *path, Error *error);
 
-/* With --record: saves it under a name of its own before it is left, when it has gone on at all. False with
-   the reason. */
+/* With --record: saves the session under a new name before leaving, unless it made no step. Returns false
+   with the reason. */
 bool model_keep_session(Model *model, Error *error);
 
 #endif

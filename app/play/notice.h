@@ -1,10 +1,10 @@
-/* What the window has to say: a line in the picture for some seconds, and on standard error. */
+/* Messages of the window: a line in the picture for some seconds, and on standard error. */
 #ifndef SLOSH_PLAY_NOTICE_H
 #define SLOSH_PLAY_NOTICE_H
 
 #include <stdbool.h>
 
-/* Zero-initialise it. */
+/* Zero-initialise before use. */
 typedef struct Notice {
     bool quiet; /* only errors go to standard error */
     char words[320];
@@ -14,13 +14,13 @@ typedef struct Notice {
 
 void notice_tell(Notice *notice, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* The same for what is wrong, which --quiet does not silence. */
+/* Reports an error, even with --quiet. */
 void notice_error(Notice *notice, const char *message);
 
-/* The line that stands in the picture now, or NULL. */
+/* The line shown now, or NULL. */
 const char *notice_now(const Notice *notice);
 
-/* Whether a line has come or gone since the last call: then a picture is due. */
+/* True if the line has changed since the last call: then a picture is due. */
 bool notice_changed(Notice *notice);
 
 #endif

@@ -39,7 +39,7 @@ void overlay_event(Overlay *overlay, const WindowEvent *event)
             event->down ? overlay->held | 1U << event->button : overlay->held & ~(1U << event->button);
 }
 
-/* Whether the mouse came near the lower edge just now; where it left the window is not told. */
+/* True if the mouse was near the lower edge a moment ago; a mouse leaving the window is not reported. */
 static bool mouse_is_near(const Overlay *overlay)
 {
     static const float NEAR = 1.5F; /* of the time line's height */
@@ -49,7 +49,7 @@ static bool mouse_is_near(const Overlay *overlay)
            wall_ms() < overlay->moved_ms + SOON_MS;
 }
 
-/* While paused or in the past, where the mouse is near, or always. */
+/* True while paused or in the past, with the mouse near, or if always shown. */
 static bool shows_timeline(const Overlay *overlay, const Model *model)
 {
     const SimulatorPast *past = &model->status.past;
@@ -57,7 +57,7 @@ static bool shows_timeline(const Overlay *overlay, const Model *model)
            (overlay->timeline || model->paused || past->behind || overlay->scrubs || mouse_is_near(overlay));
 }
 
-/* In its stead. */
+/* True if the opener button replaces the panel. */
 static bool shows_opener(const Overlay *overlay)
 {
     return overlay->opener && !overlay->panel && !overlay->help && !overlay->scenes;
@@ -81,7 +81,7 @@ bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent
     switch (event->kind) {
     case WINDOW_BUTTON:
         return event->down && ui_covers(overlay->ui, (float)event->x, (float)event->y);
-    case WINDOW_MOVE: /* what the widgets want is of the last picture: a mouse that has left them is free */
+    case WINDOW_MOVE: /* as of the last picture: a mouse that has left the widgets is free */
         return overlay->held ? ui_wants_mouse(overlay->ui)
                              : ui_covers(overlay->ui, (float)event->x, (float)event->y);
     case WINDOW_WHEEL:
@@ -148,7 +148,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
     const ParticleBuffers *particles = &model->particles;
     find_warnings(overlay, model, facts);
     overlay->device_count = hand_post_devices(model->post, overlay->devices);
-    world_def_at(&model->open.scene.world, particles->time); /* what tables say now */
+    world_def_at(&model->open.scene.world, particles->time); /* present values of tables */
     *data = (PanelData){.scene = &model->open.scene,
                         .recorded = !model->open.source->simulates,
                         .render_stages_known = facts->gl_times != NULL,
@@ -199,7 +199,7 @@ double overlay_covered_left(const Overlay *overlay, int width)
     return part < 0.6 ? part : 0;
 }
 
-/* Bars of a motion device are live, as often as an eye can tell. */
+/* Redraws the bars of motion devices, as often as visible. */
 static void follow_devices(Overlay *overlay, HandPost *post, double now)
 {
     static const double BARS_MS = 50;
@@ -238,7 +238,7 @@ static void queue_events(const PanelEvents *events, AskQueue *asks)
         ask_command(asks, (PlayCommand)events->command);
 }
 
-/* Once for a whole drag: the scene begins anew by it. */
+/* Requests the new count of particles once after a drag, as the scene restarts. */
 static void queue_particles(Overlay *overlay, AskQueue *asks)
 {
     if (overlay->particles > 0 && overlay->held == 0)
@@ -246,7 +246,7 @@ static void queue_particles(Overlay *overlay, AskQueue *asks)
     overlay->particles = overlay->held ? overlay->particles : 0;
 }
 
-/* Of a recorded session, as far as it is done again. */
+/* Played part of a recorded session, 0 .. 1. */
 static double script_done(const SimulatorStatus *status)
 {
     if (status->script != SCRIPT_PLAYS || status->script_steps == 0)
@@ -275,7 +275,7 @@ static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFac
         ask_command(asks, (PlayCommand)events.command);
 }
 
-/* One that is pressed opens, and the list has done its work. */
+/* Draws the list; a pressed scene opens, and the list closes. */
 static void draw_scenes(Overlay *overlay, const Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
     Ask ask = {.kind = ASK_OPEN};
@@ -308,14 +308,14 @@ bool overlay_follow(Overlay *overlay)
     return more;
 }
 
-/* Views that stand beside each other may have titles in that corner. */
+/* Height of titles, which views side by side may have in that corner. */
 static float title_height(const Overlay *overlay, const Model *model)
 {
     static const float TITLE_EM = 5;
     return model->open.scene.view_count > 0 ? TITLE_EM * ui_pixels(overlay->ui) : 0;
 }
 
-/* The widgets, when any of them has changed. */
+/* Draws the widgets, if any has changed. */
 static void draw_widgets(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
     PanelEvents events = {.command = PLAY_NONE};

@@ -1,5 +1,5 @@
-/* What lies over the picture: the panel, the list of keys and the time line. What the user asks for there is
- * queued. */
+/* The overlay of the picture: the panel, the list of keys and the time line. User input goes to the request
+   queue. */
 #ifndef SLOSH_PLAY_OVERLAY_H
 #define SLOSH_PLAY_OVERLAY_H
 
@@ -14,38 +14,38 @@
 
 typedef struct Overlay {
     bool panel, help; /* shown */
-    bool opener;      /* given: where there is no panel a button opens it: it had no room at the start */
-    bool scenes;      /* the list of scenes is */
+    bool opener;      /* given: a button opens a closed panel, which had no room at the start */
+    bool scenes;      /* the list of scenes is shown */
     SceneCards cards;
-    bool timeline; /* always shown, not only while paused or near the mouse */
+    bool timeline; /* always shown, even if running and without the mouse near */
     Ui *ui;
     Panel *widgets;
     WidgetInput input;
-    float mouse[2];   /* where the last event had it, */
-    unsigned held;    /* buttons of the mouse, a bit each */
-    double moved_ms;  /* wall time of that */
-    int height;       /* of the picture drawn last */
-    bool scrubs;      /* the mouse holds the time line, */
-    double wished;    /* at this time, s */
-    double particles; /* wished in the panel, for when the mouse lets go; 0: none */
-    double time;      /* s: of the state drawn last */
+    float mouse[2];   /* position at the last event */
+    unsigned held;    /* pressed mouse buttons, a bit each */
+    double moved_ms;  /* wall time of the last move */
+    int height;       /* of the last drawn picture */
+    bool scrubs;      /* the mouse drags the time line */
+    double wished;    /* to this time, s */
+    double particles; /* count chosen in the panel, for the release of the mouse; 0: none */
+    double time;      /* of the last drawn state, s */
     double drawn_ms;  /* wall time of the last drawing */
-    int shown;        /* what was drawn then */
-    bool watches;     /* with the gauges, */
+    int shown;        /* bits of the last drawn parts */
+    bool watches;     /* gauges are watched */
     bool watches_probes;
     const char *warnings[8 + NOTES_MAX];
     int warning_count;
-    char lost[64]; /* one of them */
+    char lost[64]; /* a warning of lost particles */
     HandDevice devices[HAND_POST_DEVICES_MAX];
     int device_count;
-    uint64_t reports_shown; /* of motion devices, when their bars were last drawn anew */
-    double bars_ms;         /* wall time of that */
+    uint64_t reports_shown; /* reports of motion devices at the last drawing of their bars */
+    double bars_ms;         /* wall time of that drawing */
 } Overlay;
 
-/* What it shows beside the model. */
+/* Data for the overlay beside the model. */
 typedef struct OverlayFacts {
     int width, height; /* of the picture */
-    double range[2];   /* of its colours */
+    double range[2];   /* of the picture's colours */
     double opacity_range[2], size_range[2];
     const char *renderer;
     const PlayMeter *meter;
@@ -53,35 +53,34 @@ typedef struct OverlayFacts {
     bool movie;                 /* a video is being recorded */
 } OverlayFacts;
 
-/* Letters so many pixels high. */
+/* Starts the overlay; `letters`: text height, pixels. */
 bool overlay_start(Overlay *overlay, float letters, Error *error);
-void overlay_end(Overlay *overlay);                        /* also after a start that failed */
-void overlay_set_letters(Overlay *overlay, float letters); /* where they cannot be had the old ones stay */
+void overlay_end(Overlay *overlay);                        /* also after a failed start */
+void overlay_set_letters(Overlay *overlay, float letters); /* keeps the old letters on failure */
 
-/* Tells the widgets of an event; whether one is theirs alone, while nothing is dragged. */
+/* overlay_event: passes an event to the widgets; overlay_takes: true if the event belongs to the widgets
+   alone, while nothing is dragged. */
 void overlay_event(Overlay *overlay, const WindowEvent *event);
 bool overlay_takes(const Overlay *overlay, const Model *model, const WindowEvent *event);
 
-/* Draws what is shown. Whether the next picture is to show more of what was done, or windows in their place.
- */
+/* Draws the shown parts. Returns true if the next picture will still change: unhandled input, or moving
+   windows. */
 bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, AskQueue *asks);
 
-/* Opens or closes the list of scenes. False with the reason why it has no pictures; it is there nevertheless.
- */
+/* Opens or closes the list of scenes. Returns false with the reason if the list has no pictures; the list
+   opens anyway. */
 bool overlay_toggle_scenes(Overlay *overlay, const Model *model, Error *error);
 
-/* Once in a while: whether there is more to show though nothing was done. */
+/* Call once in a while: true if there is more to show without user input. */
 bool overlay_follow(Overlay *overlay);
 
-/* Whether anything is. */
+/* True if any part is shown. */
 bool overlay_shown(const Overlay *overlay, const Model *model);
 
-/* How high the time line stands over the lower edge, pixels; 0: it is not shown. */
+/* Height of the time line above the lower edge, pixels; 0: hidden. */
 float overlay_covered_below(const Overlay *overlay, const Model *model);
 
-/* How much of the width the panel takes from the box, 0 .. 1: one that leaves less than two fifths takes
- * nothing.
- */
+/* Part of the width taken by the panel, 0 .. 1; 0 if less than two fifths would remain. */
 double overlay_covered_left(const Overlay *overlay, int width);
 
 #endif

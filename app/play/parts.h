@@ -1,5 +1,5 @@
-/* The parts of a live window, each with its owner. What flows goes one way: input -> what is asked for ->
-   model -> picture; only the files that are named below, and play.c, see all of them. */
+/* The parts of a live window, each with its owner. Data flows one way: input -> requests -> model -> picture;
+   only play.c and the files named below see all parts. */
 #ifndef SLOSH_PLAY_PARTS_H
 #define SLOSH_PLAY_PARTS_H
 
@@ -21,33 +21,33 @@
 #include "app/window/shake.h"
 #include "app/window/window.h"
 
-/* A finger on a gamepad, or on a motion device whose axes have the camera else. */
+/* A finger moved by a gamepad, or by a motion device whose axes normally move the camera. */
 typedef struct PadFinger {
     double looked_ms;       /* wall time of the last look */
-    double press, until_ms; /* of a device: how it presses, and until when without more news */
+    double press, until_ms; /* of a device: pressure, and its end without further reports */
 } PadFinger;
 
-/* A scene whose file is saved in an editor while it is open. */
+/* Watches the open scene's file for saves by an editor. */
 typedef struct Reload {
     Watch watch;
-    size_t opened; /* Model.scenes_opened of what it watches */
-    Error broken;  /* why the file is not taken, until it is mended: stands in the picture; "": it is */
+    size_t opened; /* Model.scenes_opened at the start of the watch */
+    Error broken;  /* reason for not taking the broken file, shown in the picture; "": none */
 } Reload;
 
 typedef struct Play {
     Window *window;
     HandPost *post;
     Input input;
-    AskQueue asks; /* done between two pictures */
+    AskQueue asks; /* executed between two pictures */
     Model model;
     PlayCamera camera;
     Grip grip;
     TouchTool touch;
-    unsigned solids; /* Model.solids that the views show */
+    unsigned solids; /* Model.solids shown by the views */
     PadFinger pad;
-    unsigned wall_messages; /* SimulatorStatus.messages when a wall was taken */
-    BoxTarget wanted;       /* where the hand wants the box, */
-    bool outlined;          /* and an outline shows it */
+    unsigned wall_messages; /* SimulatorStatus.messages at the taking of a wall */
+    BoxTarget wanted;       /* the hand's target of the box */
+    bool outlined;          /* an outline shows the target */
     Readout readout;
     PlayViews views;
     Picture picture;
@@ -56,15 +56,15 @@ typedef struct Play {
     Reload reload;
     PlayMeter meter;
     Notice notice;
-    double shake_seconds; /* given: more than 0: a script shakes the box for so long, then all ends */
+    double shake_seconds; /* given: more than 0: a script shakes the box for that time, then all ends */
     WindowShake shake;
-    double looked_ms; /* wall time of the last look in the middle of a picture */
-    double asked_ms;  /* wall time at which the user was asked whether to close without saving; 0: never */
+    double looked_ms; /* wall time of the last look during a picture */
+    double asked_ms;  /* wall time of the question to close without saving; 0: never asked */
     bool drawing;     /* a picture is being drawn */
     bool quit;
 } Play;
 
-/* What of the picture a camera fills: a panel. Several lie beside what covers the picture. */
+/* The area of a panel for the camera. Several panels lie beside the overlay's panel, not below. */
 static inline CameraSight play_sight_in(const Play *play, int panel)
 {
     const double covered = overlay_covered_left(&play->overlay, play->picture.width);
@@ -74,13 +74,13 @@ static inline CameraSight play_sight_in(const Play *play, int panel)
                          play->picture.panels ? panels_legend(play->picture.panels) : 0};
 }
 
-/* The same of the chosen view. */
+/* The area of the chosen view's panel. */
 static inline CameraSight play_sight(const Play *play)
 {
     return play_sight_in(play, play->picture.chosen);
 }
 
-/* How a panel shows the newest state; there must be one. */
+/* A panel's mapping of the newest state to the screen; needs a state. */
 static inline Look play_look(const Play *play, int panel)
 {
     const CameraSight sight = play_sight_in(play, panel);
@@ -100,50 +100,50 @@ static inline Look play_look(const Play *play, int panel)
     return look;
 }
 
-/* events.c: once a loop, between two pictures: all that has come, each event done before the next one is
-   looked at. */
+/* events.c: once per loop, between two pictures: handles all waiting events, each completely before the
+   next. */
 void events_take(Play *play);
 
-/* In the middle of a picture: what is held follows a picture sooner. The second one is called between the
-   passes of a picture (gl_timer_between, with a Play), and looks only where the mouse or a key holds
-   something. */
+/* Look at the hand during a picture, so that held inputs act sooner. events_between_passes is called between
+   the passes of a picture (gl_timer_between, with a Play), and looks only while mouse or keys hold the box, a
+   finger or a solid. */
 void events_follow_hand(Play *play);
 void events_between_passes(void *of_play);
 
-/* While something else is being done, between two pictures: what moves the box or the finger. */
+/* During a long operation between two pictures: handles motions of the box and the finger. */
 void events_take_moves(Play *play);
 
-/* hands.c: what the hand does, between two pictures or in the middle of one; there must be a state. */
+/* hands.c: applies the hand's input, between two pictures or during a picture; needs a state. */
 void hands_look(Play *play);
 
-/* hands.c: how the mouse looks at the fluid in a panel: what is under it, and where the camera looks. */
+/* hands.c: the mouse's ray into a panel, and the camera's direction. */
 void hands_ray(const Play *play, const Look *look, SightRay *ray, double forward[3]);
 
-/* hands.c: a solid is put where the mouse is, of that shape (SolidCommand.like; SOLID_LIKE: as the solid
-   under the mouse), or the one there is taken out. */
+/* hands.c: hands_put puts a solid at the mouse, of the given shape (SolidCommand.like; SOLID_LIKE: like the
+   solid under the mouse); hands_take removes the solid there. */
 void hands_put(Play *play, int like);
 void hands_take(Play *play);
 
-/* hands.c: gravity, in the world's frame, m/s2; so many radians more to the right and away in the picture. */
+/* hands.c: sets gravity, in the world's frame, m/s2; or tilts by radians to the right and away in the
+   picture. */
 void hands_set_gravity(Play *play, const double gravity[3]);
 void hands_tilt_gravity(Play *play, const double amount[2]);
 
-/* act.c: all that waits, in the order in which it was asked for. */
+/* act.c: executes all waiting requests in order. */
 void act_all(Play *play);
 
-/* Opens a scene: what it was before stays where it cannot be opened. */
+/* Opens a scene; on failure the old scene stays. */
 bool act_open(Play *play, const char *scene, const SceneSettings *settings, Error *error);
 
-/* After app/play/again.h: the scene has begun anew, or its views are others, or something else of it. */
+/* Call after app/play/again.h: `begun`: the scene was restarted; `views`: its views changed. */
 void act_follow_again(Play *play, bool begun, bool views);
 
-/* reload.c: once a loop, between two pictures: a file that was saved is read again, and what has changed is
-   there at once. */
+/* reload.c: once per loop, between two pictures: rereads a saved file and applies its changes at once. */
 void reload_look(Play *play);
 
-/* draw.c: one picture of the newest state on the screen. While time is paused what lies over the fluid may be
-   drawn anew without it: on a software driver a fluid takes a while, and the mouse asks all the time. Whether
-   one with the fluid is due. */
+/* draw.c: draws the newest state on the screen. While time is paused the overlay may be redrawn over the old
+   fluid, as a software driver draws fluid slowly and the mouse moves often. draw_needs_fluid: true if a new
+   picture of the fluid is due. */
 void draw_picture(Play *play);
 bool draw_needs_fluid(const Play *play);
 

@@ -9,9 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const double LETTERS = 14; /* pixels high at scale 1 */
+static const double LETTERS = 14; /* pixels of height at scale 1 */
 static const double SHADERS_MS = 300;
-static const double SETTLE_MS = 100; /* that a picture stands before what was not waited for is mended */
+static const double SETTLE_MS = 100; /* age of a picture before late numbers are corrected */
 
 float picture_letters(const Window *window)
 {
@@ -28,7 +28,7 @@ void picture_meet(Picture *picture, const Window *window)
         picture->timer = gl_timer_create(GL_CLOCK_QUERY);
 }
 
-/* What a panel shows: the scene's view is the chosen one. */
+/* The view of a panel: the scene's `view` is the chosen one. */
 static const ViewDef *shown(const Scene *scene, int chosen, int panel)
 {
     return panel == chosen ? &scene->view : scene_view(scene, panel);
@@ -40,7 +40,7 @@ static const WorldDef *world_of(const PlayScene *open, const ViewDef *view)
     return beside ? beside : &open->scene.world;
 }
 
-/* On failure the old ones stay. */
+/* Creates new panels; on failure the old panels stay. */
 static bool replace_panels(Picture *picture, const PlayScene *open, int width, int height, Error *error)
 {
     Subject subjects[PANELS_MAX] = {{NULL}};
@@ -54,7 +54,8 @@ static bool replace_panels(Picture *picture, const PlayScene *open, int width, i
         return false;
     panels_destroy(picture->panels);
     picture->panels = panels;
-    panels_set_late(panels, !gl_renderer_is_software()); /* which has done all that was asked of it */
+    panels_set_late(panels,
+                    !gl_renderer_is_software()); /* a software renderer has already finished all requests */
     panels_set_more(panels, true);
     panels_set_presents(panels, true);
     picture->chosen = picture->chosen < count ? picture->chosen : 0;
@@ -80,7 +81,7 @@ void picture_end(Picture *picture)
     panels_destroy(picture->panels);
 }
 
-/* All of them, one by one. */
+/* Sets the views of all panels. */
 static bool set_views(Picture *picture, const PlayScene *open, int chosen, Error *error)
 {
     bool set = true;
@@ -134,7 +135,7 @@ bool picture_follow_size(Picture *picture, const Window *window, Error *error)
     picture->height = height;
     picture->dirty = true;
     if (width > 0 && height > 0 && !panels_place(panels_count(picture->panels), width, height, places))
-        picture->width = 0; /* as if it were minimised: so small a window has no room for several views */
+        picture->width = 0; /* as if minimised: the window is too small for several views */
     return picture->width < 1 || height < 1 || panels_resize(picture->panels, width, height, error);
 }
 
@@ -189,8 +190,8 @@ void picture_draw(Picture *picture, const ParticleBuffers *const states[], const
 {
     Error error;
     for (int i = 0; i < panels_count(picture->panels); i++)
-        panels_set_title(picture->panels, i, &titles[i], &error); /* no font: it has the one before */
-    panels_set_covered(picture->panels, covered_left, &error);    /* no room: they lie where they were */
+        panels_set_title(picture->panels, i, &titles[i], &error); /* without a font the old title stays */
+    panels_set_covered(picture->panels, covered_left, &error);    /* without room the old layout stays */
     panels_draw(picture->panels, states, picture->timer ? picture->timer : picture->pauses);
     picture->finer = panels_unfinished(picture->panels);
     gl_timer_frame(picture->timer, &picture->gl_times);
@@ -214,8 +215,7 @@ void picture_clear(const Picture *picture, const ViewDef *view)
 
 enum { WORD_LINES = 4, WORD_LINE = 400 };
 
-/* Breaks at blanks what is wider than so many pixels; the last line has the rest. Returns how many there are.
- */
+/* Breaks text wider than `most` pixels at blanks; the last line gets the rest. Returns the count of lines. */
 static int break_lines(Text *text, const char *words, float most, char lines[WORD_LINES][WORD_LINE])
 {
     int count = 0;

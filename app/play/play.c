@@ -18,18 +18,18 @@
 #include <unistd.h>
 
 static const float PANEL_FROM_EM =
-    56; /* the panel takes less than half of a window as wide as so many letters */
+    56; /* the panel takes less than half of windows wider than so many letters */
 static const double IDLE_MS = 100, HELD_MS = 8, PATIENCE_MS = 1000, WORK_MS = 4;
 
-/* The parts, and what comes from outside. */
+/* The window's parts and resources. */
 typedef struct Session {
     Play play;
     const PlaySetup *setup;
-    Devices *devices; /* NULL: not started yet, or left alone */
-    jmp_buf back;     /* to the end, from functions of a window whose display is gone */
+    Devices *devices; /* NULL: not started, or not used */
+    jmp_buf back;     /* jump to the end, from window functions after the display is gone */
 } Session;
 
-/* A HandPost whose devices the window leaves to it. */
+/* A WindowClaimed: true if a HandPost uses the device. */
 static bool claimed(void *post, uint16_t vendor, uint16_t product)
 {
     return hand_post_claims(post, vendor, product);
@@ -76,14 +76,14 @@ static bool start(Session *session, Error *error)
                           .speed = 1};
     const float letters = picture_letters(play->window);
     play->overlay.panel =
-        (float)play->picture.width > PANEL_FROM_EM * letters; /* beside the fluid, not over it */
+        (float)play->picture.width > PANEL_FROM_EM * letters; /* beside the fluid, not above */
     play->overlay.opener = !play->overlay.panel;
     return act_open(play, setup->scene, setup->settings, error) &&
            picture_start(&play->picture, &play->model.open, letters, error) &&
            overlay_start(&play->overlay, letters, error);
 }
 
-/* Motion devices begin when there is a box that they could move. */
+/* Starts motion devices when a box can be moved. */
 static bool start_devices(Session *session, Error *error)
 {
     const PlaySetup *setup = session->setup;
@@ -102,7 +102,7 @@ static void follow_scale(Play *play)
         overlay_set_letters(&play->overlay, letters);
 }
 
-/* With --shaders: those that have changed are read again. */
+/* With --shaders: rereads changed files. */
 static void follow_shaders(Play *play)
 {
     Error error = {{0}};
@@ -122,8 +122,8 @@ static bool hand_busy(const Play *play)
     return input_busy(&play->input) || window_gamepad(play->window, &pad);
 }
 
-/* A picture when there is something new to see, and no more than the display shows. A solver on the GPU has
-   its turns in between. */
+/* Draws a picture if there are changes, at most at the display's rate. A solver on the GPU works in
+   between. */
 static void pause_or_draw(Play *play)
 {
     const Picture *picture = &play->picture;
@@ -139,7 +139,7 @@ static void pause_or_draw(Play *play)
         window_wait(play->window, 1e-3 * fmin(hand_busy(play) ? HELD_MS : IDLE_MS, work));
 }
 
-/* Somebody wants to know how it stands. */
+/* Reports the figures on request. */
 static void tell_figures(Session *session)
 {
     static PlayFigures figures;
@@ -151,8 +151,8 @@ static void tell_figures(Session *session)
         notice_error(&session->play.notice, error.message);
 }
 
-/* While a mesh is read, also in the middle of what was asked for: the fluid is seen, and moves with the hand;
-   what asks for more waits. */
+/* Called while a mesh is read, even during a request: the fluid is drawn and follows the hand; further
+   requests wait. */
 static void stay_awake(void *of_session)
 {
     Session *session = of_session;
@@ -163,7 +163,7 @@ static void stay_awake(void *of_session)
         return;
     }
     events_take_moves(play);
-    open->source->status(open, &play->model.status); /* no more of model_listen, which changes the scene */
+    open->source->status(open, &play->model.status); /* model_listen would also change the scene */
     if (interrupt_asked())
         tell_figures(session);
     pause_or_draw(play);
@@ -217,18 +217,18 @@ static bool save_session(Session *session, Error *error)
 {
     Model *model = &session->play.model;
     const char *record = session->setup->record;
-    const bool asked = !interrupted() && !window_gone(session->play.window); /* by who could have saved it */
+    const bool asked = !interrupted() && !window_gone(session->play.window); /* the user could have saved */
     char path[1024];
     if (!record && (asked || !model->open.source->simulates))
         return true;
     return !guard_path(record, model->status.unsaved, path) || model_save_now(model, path, error);
 }
 
-/* The window goes at once; what is being written is finished behind it. */
+/* Hides the window at once, then finishes writing files. */
 static bool finish(Session *session, Error *error)
 {
     Play *play = &session->play;
-    if (play->files.shoot && !window_gone(play->window)) /* asked for in the last moment */
+    if (play->files.shoot && !window_gone(play->window)) /* requested in the last moment */
         draw_picture(play);
     mesh_file_meanwhile(NULL, NULL);
     window_hide(play->window);
@@ -239,7 +239,7 @@ static bool finish(Session *session, Error *error)
     return saved && (movie || error_set(error, "the video was not written"));
 }
 
-/* Behind all that is written, before libraries end what the solver's thread still uses. */
+/* Ends the process after all writes, before libraries free objects that the solver's thread still uses. */
 static void end_at_once(int status, void *nothing)
 {
     (void)nothing;
@@ -247,8 +247,8 @@ static void end_at_once(int status, void *nothing)
     _exit(status);
 }
 
-/* False: the solver is in a frame that lasts seconds, or the driver would wait for a display that is gone;
-   the end of the process ends it. */
+/* Returns false if the solver is in a frame of seconds, or the driver would wait for a lost display: then
+   only the end of the process ends them. */
 static bool close_all(Session *session)
 {
     Play *play = &session->play;
@@ -266,7 +266,7 @@ static bool close_all(Session *session)
     return true;
 }
 
-/* Said at once; the first one stays in the figures. */
+/* Prints the error; the first error stays in the figures. */
 static void failed(const Error *error, PlayFigures *figures)
 {
     fprintf(stderr, "%s\n", error->message);

@@ -1,4 +1,4 @@
-/* The live window: a scene simulated on a thread of its own, drawn, and moved by hand. */
+/* The live window: simulates a scene on a separate thread, draws the scene, and moves the box by hand. */
 #ifndef SLOSH_PLAY_H
 #define SLOSH_PLAY_H
 
@@ -8,18 +8,18 @@
 
 typedef struct PlaySetup {
     const char *scene;
-    const SceneSettings *settings; /* of that scene; others open as their files have them */
+    const SceneSettings *settings; /* of that scene; scenes opened later use their files */
     int width, height;             /* of the window, in screen coordinates */
-    const char *record;            /* the session is written there at the end; or NULL */
-    size_t past_bytes;             /* memory for states to step back to; 0: none */
-    const Mapping *mapping;        /* of motion devices; NULL: they are left alone */
-    const char *device;            /* --device, or NULL: what is plugged in */
-    double shake_seconds;          /* more than 0: the box is shaken by a script for so long, then all ends */
-    const char *json; /* SIGUSR1 writes the figures so far there; NULL: to standard error, for people */
+    const char *record;            /* file for the session at the end; or NULL */
+    size_t past_bytes;             /* memory for states to go back to; 0: none */
+    const Mapping *mapping;        /* of motion devices; NULL: devices are not used */
+    const char *device;            /* --device, or NULL: the plugged in devices */
+    double shake_seconds;          /* more than 0: a script shakes the box for that time, then all ends */
+    const char *json;              /* file for the figures on SIGUSR1; NULL: standard error, for people */
     bool quiet;
 } PlaySetup;
 
-/* Runs until the user, a signal or the script ends it. Returns the exit code; on failure the message has been
+/* Runs until the user, a signal or the script ends the window. Returns the exit code; errors have been
    printed. */
 int play(const PlaySetup *setup, PlayFigures *figures);
 

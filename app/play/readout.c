@@ -18,7 +18,7 @@ static int panel_at(const Panels *panels, const double pixel[2])
     return panels_at(panels_places(panels), panels_count(panels), pixel[0], pixel[1]);
 }
 
-/* In a panel's own pixels. */
+/* Converts to a panel's own pixels. */
 static void within(const Panels *panels, int panel, const double pixel[2], double own[2])
 {
     const PanelPlace *place = &panels_places(panels)[panel];
@@ -26,7 +26,7 @@ static void within(const Panels *panels, int panel, const double pixel[2], doubl
     own[1] = pixel[1] - place->y;
 }
 
-/* Whether there may be a value under the mouse; not where something else has it. */
+/* True if there may be a value under the mouse, and the mouse is free. */
 static bool may_tell(const Readout *readout, const Panels *panels)
 {
     double own[2];
@@ -66,7 +66,7 @@ void readout_unpin(Readout *readout)
     readout->pinning = 0;
 }
 
-/* "pressure 1234 Pa" */
+/* Writes "pressure 1234 Pa". */
 static void value_words(const ViewProbe *probe, char words[96])
 {
     char unit[32];
@@ -82,7 +82,7 @@ static void value_words(const ViewProbe *probe, char words[96])
                                                    : "no number");
 }
 
-/* "particle 12: x 0.1  y 0.2  z 0 m" */
+/* Writes "particle 12: x 0.1  y 0.2  z 0 m". */
 static void place_words(const ViewProbe *probe, char words[128])
 {
     char who[32] = "";
@@ -91,7 +91,7 @@ static void place_words(const ViewProbe *probe, char words[128])
     snprintf(words, 128, "%sx %.3g  y %.3g  z %.3g m", who, probe->at[0], probe->at[1], probe->at[2]);
 }
 
-/* Two lines to the right of the place and below it, or where there is room. */
+/* Draws two lines to the right of and below the place, or on sides with room. */
 static void draw_words(const ViewProbe *probe, int width, int height, Text *text)
 {
     char value[96], place[128];
@@ -123,7 +123,7 @@ static void draw_found(const ViewProbes *found, const PanelPlace *place, Text *t
     }
 }
 
-/* What a panel is asked for: the pins, and what is under the mouse or to be pinned there. */
+/* Requests to a panel: the pins, and the place under the mouse or to pin. */
 static ViewAsks asks_of(const Readout *readout, const Panels *panels, int panel)
 {
     ViewAsks asks = {.count = readout->pin_count};
@@ -135,7 +135,7 @@ static ViewAsks asks_of(const Readout *readout, const Panels *panels, int panel)
     return asks;
 }
 
-/* What was to be pinned first is, or there is none. */
+/* Pins the first waiting place, or reports that the place has no value. */
 static void pin(Readout *readout, const ViewProbes *found, Notice *notice)
 {
     readout->pinning--;
@@ -146,7 +146,7 @@ static void pin(Readout *readout, const ViewProbes *found, Notice *notice)
         say_none(notice);
 }
 
-/* Whether all of it is known, or never will be. */
+/* Draws a panel's readout; returns true if all values are known, or never will be. */
 static bool draw_panel(Readout *readout, const Panels *panels, int panel, const int size[2], Text *text,
                        Notice *notice)
 {

@@ -14,7 +14,7 @@ static void found(void *watch, const char *what, const char *path)
     watch_add(watch, path);
 }
 
-/* Its file, and those that it names. */
+/* Watches the scene's file, and the files named by the scene. */
 static void begin(Reload *reload, const Model *model)
 {
     const PlayScene *open = &model->open;
@@ -32,7 +32,7 @@ static void begin(Reload *reload, const Model *model)
 static void tell_broken(Play *play, const Error *error)
 {
     Reload *reload = &play->reload;
-    const SimulatorStatus *status = &play->model.status; /* of a save model_listen has told */
+    const SimulatorStatus *status = &play->model.status; /* model_listen has already reported saves */
     if (strcmp(reload->broken.message, error->message) != 0 &&
         strcmp(status->saved ? "" : status->save_message, error->message) != 0)
         notice_error(&play->notice, error->message);
@@ -76,5 +76,5 @@ void reload_look(Play *play)
     }
     act_follow_again(play, result == AGAIN_BEGUN, result == AGAIN_VIEW);
     tell(play, result, words);
-    begin(reload, model); /* it may name other files now */
+    begin(reload, model); /* the scene may name different files now */
 }

@@ -12,7 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A solver that moves to or from a GPU changes its thread, which only the window can do. */
+/* Checks that a session stays on its backend: a move to or from a GPU changes the solver's thread, which only
+   the window can do. */
 static bool check_session(const char *path, const Recording *recording, Error *error)
 {
     for (size_t i = 0; i < recording->count; i++)
@@ -25,7 +26,7 @@ static bool check_session(const char *path, const Recording *recording, Error *e
     return true;
 }
 
-/* Nobody recorded what was shown beside it. */
+/* Removes views of runs beside the scene, which the session did not record. */
 static void leave_out_beside(Scene *scene)
 {
     int kept = 0;
@@ -49,7 +50,7 @@ static bool read_session(PlayScene *open, const char *path, const SceneSettings 
     return true;
 }
 
-/* Of a scene that a picture carries: what of the picture is not there again. */
+/* For a scene embedded in a picture: notes that the simulation starts at the scene's start. */
 static void tell_picture(const char *path, Notes *notes)
 {
     PictureText text;
@@ -116,7 +117,7 @@ bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *set
     return true;
 }
 
-/* A key that was changed and has no effect: said for as long as the scene is open. */
+/* Adds a note on a changed key without effect, for as long as the scene is open. */
 static void advise_unused(PlayScene *open, const char *setting)
 {
     char path[128];

@@ -1,5 +1,5 @@
-/* Where the states in the window come from: a simulation, or a recorded run. The window asks either in the
-   same words; what one of them cannot do its table says. */
+/* Source of the window's states: a simulation or a recorded run, behind one interface with a table for
+   each. */
 #ifndef SLOSH_PLAY_SOURCE_H
 #define SLOSH_PLAY_SOURCE_H
 
@@ -9,18 +9,19 @@
 struct PlayScene;
 
 typedef struct SourceKind {
-    bool simulates; /* the box can be moved, keys of the solver set, the session saved */
+    bool simulates; /* the box can be moved, solver keys can be set, the session can be saved */
     bool (*start)(struct PlayScene *open, const SimulatorSetup *how, Error *error);
-    bool (*close)(struct PlayScene *open, double patience_ms); /* as of play_scene_close */
+    bool (*close)(struct PlayScene *open, double patience_ms); /* see play_scene_close */
 
-    /* Does what is due; in how many ms more will be: as of simulator_work. */
+    /* Does the due work; returns the ms until more is due: see simulator_work. */
     double (*work)(struct PlayScene *open, double budget_ms);
     void (*status)(struct PlayScene *open, SimulatorStatus *status);
     bool (*fresh)(struct PlayScene *open);
     bool (*take)(struct PlayScene *open, ParticleBuffers *out);
-    bool (*has)(const struct PlayScene *open, const ViewDef *view, Error *error); /* what it reads */
+    bool (*has)(const struct PlayScene *open, const ViewDef *view,
+                Error *error); /* true if the source has all data of the view */
 
-    /* Time: as of simulator_pause and so on. */
+    /* Time: see simulator_pause and the following functions. */
     void (*pause)(struct PlayScene *open, bool paused);
     void (*step)(struct PlayScene *open, int frames, bool held); /* 1 or -1, then paused */
     void (*go_by)(struct PlayScene *open, double seconds);

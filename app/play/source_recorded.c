@@ -1,4 +1,4 @@
-/* A recorded run as the window's source: app/playback/player.h does the work. */
+/* A recorded run as the window's source, built on app/playback/player.h. */
 #include "app/play/scene.h"
 #include "sim/base/stage.h"
 
@@ -16,7 +16,7 @@ static bool close(PlayScene *open, double patience_ms)
     (void)patience_ms; /* a step is read in milliseconds */
     player_destroy(open->player);
     if (open->recorded)
-        recorded_close(open->recorded); /* where no player has taken it over */
+        recorded_close(open->recorded); /* if no player has taken the content */
     free(open->recorded);
     return true;
 }

@@ -1,4 +1,4 @@
-/* A simulation as the window's source: app/session/simulator.h does the work. */
+/* A simulation as the window's source, built on app/session/simulator.h. */
 #include "app/beside/beside.h"
 #include "app/play/scene.h"
 #include "render/renderer.h"
@@ -42,7 +42,7 @@ static bool fresh(PlayScene *open)
 static bool take(PlayScene *open, ParticleBuffers *out)
 {
     const Scene *scene = &open->scene;
-    unsigned attributes = renderer_attributes(&scene->view) | PARTICLE_ID; /* for a click on one of them */
+    unsigned attributes = renderer_attributes(&scene->view) | PARTICLE_ID; /* for clicks on particles */
     if (!simulator_on_gpu(open->simulator))
         return upload_take(open->upload, out);
     for (int i = 0; i < scene->view_count; i++)

@@ -42,7 +42,7 @@ void views_follow(const PlayViews *views, Scene *scene)
         copy_camera(&scene->view, &scene->views[i]);
 }
 
-/* The kind behind that of `view` in the list, round and round. */
+/* Sets the next kind of view in the list, in a circle. */
 static void next_kind(ViewDef *view)
 {
     int at = 0;
@@ -52,7 +52,7 @@ static void next_kind(ViewDef *view)
     snprintf(view->kind, sizeof view->kind, "%s", next->name);
 }
 
-/* The last one that shows the scene: what others show may have scalars that the scene lacks. */
+/* The last view of the scene's own states: views of runs may use scalars that the scene lacks. */
 static const ViewDef *last_own(const PlayViews *views, const Scene *scene)
 {
     for (int i = views->known; i-- > 0;)
@@ -78,7 +78,7 @@ void views_cycle(PlayViews *views, Scene *scene)
     views_follow(views, scene);
     scene->view_count = shown == 1 ? 2 : shown < PANELS_MAX ? PANELS_MAX : 0;
     make(views, scene, scene->view_count);
-    if (scene->view_count == 2 && views->chosen > 1) { /* the chosen one stays in sight */
+    if (scene->view_count == 2 && views->chosen > 1) { /* keeps the chosen view visible */
         const ViewDef first = scene->views[1];
         scene->views[1] = scene->views[views->chosen];
         scene->views[views->chosen] = first;
