@@ -27,7 +27,8 @@ static void make_header(int solids, char header[HEADER_SIZE])
     }
 }
 
-/* Copies the rows up to `keep`, of a table with that header. */
+/* Copies the rows up to time `keep` from a table with the same header. Returns false for a different
+   header. */
 static bool keep_rows(FILE *from, FILE *to, const char *header, double keep)
 {
     char *line = NULL;
@@ -97,7 +98,7 @@ static void write_push(FILE *file, const Push *push)
         fprintf(file, ",%.9g", k < 3 ? push->force[k] : push->torque[k - 3]);
 }
 
-/* The table may be read, and gone on with, from now on; what follows is added to it. */
+/* Names the table, which may be read and resumed from now on; later rows are appended. */
 static bool name_table(ForcesLog *log, Error *error)
 {
     log->named = true;

@@ -32,7 +32,7 @@ static void on_png_warning(png_structp png, png_const_charp message)
     (void)png, (void)message;
 }
 
-/* A short write must be seen: libpng's own writer sees it, its flush does not. */
+/* Detects short writes: libpng's own writer checks them, but its flush does not. */
 static void write_bytes(png_structp png, png_bytep data, size_t size)
 {
     if (fwrite(data, 1, size, png_get_io_ptr(png)) != size)
@@ -45,7 +45,7 @@ static void flush_bytes(png_structp png)
         png_error(png, strerror(errno));
 }
 
-/* libpng copies what it is given. */
+/* Adds the text; libpng copies the strings. */
 static void add_text(png_structp png, png_infop info, const ImageText *text)
 {
     char time[40];

@@ -14,27 +14,28 @@ typedef struct Image {
     uint8_t *rgb; /* owned */
 } Image;
 
-/* What a picture shows, which its file carries as text: IMAGE_TEXT_SCENE and so on (app/base/picture_text.h).
- */
+/* The scene embedded in a picture's file as text: PICTURE_SCENE and further keywords
+   (app/base/picture_text.h). */
 typedef struct ImageText {
-    const char *scene; /* its YAML */
-    const char *name;  /* of its file, without folders */
-    double time;       /* s, that the picture is of */
+    const char *scene; /* YAML of the scene */
+    const char *name;  /* name of the scene file, without folders */
+    double time;       /* time of the picture, s */
 } ImageText;
 
-/* False when memory is short. */
+/* Returns false if memory is short. */
 bool image_create(Image *image, int width, int height);
 void image_destroy(Image *image);
 
-/* Writes into an open stream and flushes it; false, with the reason, when any of it fails (a full disk too).
-   `name` is for the message. The stream stays open. `text`: NULL for none. */
+/* Writes into an open stream and flushes the stream, which stays open. Returns false with the reason on any
+   failure, such as a full disk. `name` is for messages. `text`: NULL for none. */
 bool image_write_stream(const Image *image, const ImageText *text, FILE *stream, const char *name,
                         Error *error);
 
-/* Writes the file `path`; on failure none is left. The caller renames if it must appear whole. */
+/* Writes the file `path`; leaves no file on failure. Use a temporary name and rename for files that must
+   appear complete. */
 bool image_write(const Image *image, const ImageText *text, const char *path, Error *error);
 
-/* Reads a PNG file, of whatever kind its pixels are; false with the reason, and nothing to destroy. */
+/* Reads a PNG file with any kind of pixels; returns false with the reason, and nothing to destroy. */
 bool image_read(const char *path, Image *image, Error *error);
 
 #endif

@@ -45,7 +45,7 @@ static void frame_path(const Pictures *pictures, size_t index, char path[1088])
     snprintf(path, 1088, "%s%sframe_%05zu.png", pictures->path, slash, index);
 }
 
-/* The folder, and whether a file can be written in it. */
+/* Makes the folder, and checks that a file can be written there. */
 static bool begin_folder(Pictures *pictures, Error *error)
 {
     char frame[1088];

@@ -1,4 +1,4 @@
-/* Where `render` puts its pictures: one PNG, a video, or a folder of PNG files; the name says which. */
+/* Output of `render`, chosen by the name: one PNG, a video, or a folder of PNG files. */
 #ifndef SLOSH_PICTURES_H
 #define SLOSH_PICTURES_H
 
@@ -10,34 +10,34 @@
 
 typedef enum PicturesKind { PICTURES_PNG, PICTURES_VIDEO, PICTURES_FOLDER } PicturesKind;
 
-/* NAME.png, NAME.mp4 or NAME.gif, or a folder: no extension, or a slash at the end. False for any other
- * extension. */
+/* Kinds: NAME.png; NAME.mp4 or NAME.gif; or a folder: no extension, or a final slash. Returns false for other
+   extensions. */
 bool pictures_kind(const char *path, PicturesKind *kind, Error *error);
 
 typedef struct Pictures Pictures;
 
-/* A folder that is missing is created (not those above it). NULL with the reason, see output_begin and
-   video_create. */
+/* Creates the output. A missing folder is created, but not its parents. Returns NULL with the reason, see
+   output_begin and video_create. */
 Pictures *pictures_create(const char *path, int width, int height, double fps, Error *error);
 
-/* PNG files from now on carry the scene that is said there, which must live as long; NULL: none. */
+/* Embeds the scene of `text` in all later PNG files; `text` must outlive `pictures`; NULL: none. */
 void pictures_carry(Pictures *pictures, const ImageText *text);
 
-/* One more picture, of that size. In a folder each is a whole file of its own, frame_00000.png and so on; a
-   second one into a PNG is a mistake of the caller. */
+/* Adds a picture of the given size. In a folder each picture is a separate complete file, frame_00000.png and
+   so on. Adding a second picture to a PNG is an error of the caller. */
 bool pictures_add(Pictures *pictures, const Image *image, Error *error);
 
-/* Into `frame`, the next frame of a folder when there is one already: of an earlier run, that was longer.
-   False when there is none. */
+/* Finds the folder's next frame, if left by an earlier, longer run; `frame` gets its path. Returns false if
+   there is none. */
 bool pictures_has_older(const Pictures *pictures, char frame[1088]);
 
-/* Finishes the file and frees `pictures`; false, and nothing half-written left, on failure. */
+/* Finishes the file and frees `pictures`; on failure returns false and leaves no partial file. */
 bool pictures_finish(Pictures *pictures, Error *error);
 
-/* Removes what is half-written and frees; NULL is allowed. Frames of a folder are whole and stay. */
+/* Removes partial files and frees; NULL is allowed. Frames in a folder are complete and stay. */
 void pictures_discard(Pictures *pictures);
 
-/* How many frames of a folder stay if it is discarded; NULL is allowed. */
+/* Count of frames left in a folder after a discard; NULL is allowed. */
 size_t pictures_staying(const Pictures *pictures);
 
 #endif

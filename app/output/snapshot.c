@@ -1,5 +1,5 @@
 /* After: H5Part, Howison and others, "H5hut: a high-performance I/O library for particle-based simulations",
-   2010, and what ParaView's reader of it accepts. */
+   2010, and the layout accepted by ParaView's reader. */
 #include "app/output/snapshot.h"
 
 #include "app/base/hdf5_error.h"
@@ -16,18 +16,18 @@
 enum { DIRECTORY_K = 128, DIRECTORY_NAME_BYTES = 16 * 2 * DIRECTORY_K };
 
 struct Snapshot {
-    const SnapshotShare *share; /* NULL: one process writes it */
-    Output output;              /* of who shares it the first one's; of the others `path` alone */
-    OutputLock lock, older;     /* on the file; on the one that it will replace */
+    const SnapshotShare *share; /* NULL: a single process writes */
+    Output output;          /* of the first process when shared; the following processes use `path` only */
+    OutputLock lock, older; /* on the file; on the file to replace */
     hid_t file;
-    ColumnRows saved; /* columns of its worlds' states */
-    bool emits;       /* births are written: else all began at time 0 */
+    ColumnRows saved; /* columns of the worlds' states */
+    bool emits;       /* births are written; otherwise all particles began at time 0 */
     size_t steps;
-    double time; /* of the last one written */
+    double time; /* of the last written step */
     bool failed;
-    SnapshotStep buffer; /* of the last world, arrays of `capacity` particles */
+    SnapshotStep buffer; /* of the last world; arrays of `capacity` particles */
     size_t capacity;
-    float *position, *velocity; /* 4 a particle, as world_read gives them */
+    float *position, *velocity; /* 4 values per particle, as from world_read */
     uint32_t *fluid;
 };
 
@@ -39,9 +39,9 @@ hid_t snapshot_access(void)
     return access;
 }
 
-/* ---- processes that share it ---- */
+/* ---- sharing processes ---- */
 
-/* Whether this one looks after the file's name, locks and room. */
+/* True for the process that handles the file's name, locks and disk space. */
 static bool is_first(const Snapshot *snapshot)
 {
     return !snapshot->share || snapshot->share->first;
@@ -57,7 +57,7 @@ static hid_t access_of(const Snapshot *snapshot)
     return snapshot->share ? snapshot->share->access() : snapshot_access();
 }
 
-/* Where this one's particles stand among those of all. */
+/* The range of the process' particles among the particles of all processes. */
 static Extent extent_of(const Snapshot *snapshot, size_t own)
 {
     Extent extent = {0, own, own, H5P_DEFAULT};
@@ -68,14 +68,14 @@ static Extent extent_of(const Snapshot *snapshot, size_t own)
 
 /* ---- the file ---- */
 
-/* With a directory that has room for 256 names (twice K) of 16 bytes before it must grow. */
+/* Creates the file; the directory has room for 256 names (twice K) of 16 bytes before growing. */
 static hid_t create_file(const Snapshot *snapshot, const char *path)
 {
     hid_t creation = H5Pcreate(H5P_FILE_CREATE);
     hid_t access = access_of(snapshot);
     H5Pset_local_heap_size_hint(creation, DIRECTORY_NAME_BYTES);
     H5Pset_sym_k(creation, 0, DIRECTORY_K);
-    H5Pset_istore_k(creation, 4); /* a field has one chunk or a few: the default keeps room for 64 */
+    H5Pset_istore_k(creation, 4); /* a field has one chunk or a few: the default reserves room for 64 */
     hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, creation, access);
     H5Pclose(access);
     H5Pclose(creation);
@@ -102,7 +102,7 @@ static bool begin(Snapshot *snapshot, const char *path, const Scene *scene, Erro
     return agree(snapshot, begun, error);
 }
 
-/* A zeroed one, for all or for none. */
+/* Makes a zeroed snapshot, for all processes or for none. */
 static Snapshot *made(const char *path, const SnapshotShare *share, Error *error)
 {
     Snapshot *snapshot = calloc(1, sizeof *snapshot);
@@ -213,8 +213,8 @@ size_t snapshot_steps(const Snapshot *snapshot)
 
 /* ---- one step ---- */
 
-/* Takes the room for one more step, or fails while the file is still whole: HDF5 writes its directory and its
-   data in no order that would survive a full disk. */
+/* Reserves disk space for one more step, or fails while the file is still intact: HDF5 writes directory and
+   data in an order that a full disk would break. */
 static bool reserve(const Snapshot *snapshot, size_t bytes, Error *error)
 {
     const Output *output = &snapshot->output;
@@ -264,7 +264,7 @@ static bool grow_buffers(Snapshot *snapshot, size_t count, Error *error)
     if (count <= snapshot->capacity && snapshot->capacity > 0)
         return true;
     free_buffers(snapshot);
-    count = count > 0 ? count : 1; /* a first step without particles has all datasets too */
+    count = count > 0 ? count : 1; /* so that a first step without particles has all datasets */
     snapshot->position = malloc(4 * count * sizeof(float));
     snapshot->velocity = malloc(4 * count * sizeof(float));
     snapshot->fluid = malloc(count * sizeof(uint32_t));
@@ -296,7 +296,7 @@ static bool read_world(Snapshot *snapshot, World *world, const WorldInfo *info)
                    [SCALAR_COMPRESSION] = step->compression,
                    [SCALAR_BORN] = step->born},
         .fluid = snapshot->fluid,
-        .whole_id = (ParticleId *)step->id, /* less than 2^63 */
+        .whole_id = (ParticleId *)step->id, /* ids are less than 2^63 */
     };
     for (int k = 0; k < step->own_count; k++)
         arrays.own[step->own[k].place] = step->own[k].values;

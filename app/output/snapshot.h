@@ -1,11 +1,11 @@
-/* Snapshots: a file of states in the H5Part layout, that ParaView opens as a time series.
+/* Snapshots: a file of states in the H5Part layout, which ParaView opens as a time series.
 
-   Group Step#k (k = 0, 1, ... without a gap) is one state: the attribute TimeValue (s), one-dimensional
-   datasets of one value a particle, and as attributes the pose and rates of the box, gravity, the step
-   number, `restart` (the WorldNumbers of sim/world/world_state.h, from which with the particles a run goes
-   on) and `complete`, which is written last. All in SI units and in the box's frame; pose and rates of the
-   box in the world's. Attributes of the root say what scene it was, `settings` each key as slosh info prints
-   it, `units` the unit of each dataset. */
+   Group Step#k (k = 0, 1, ... without a gap) is one state. It has the attribute TimeValue (s) and
+   one-dimensional datasets with a value per particle. Further attributes: the pose and rates of the box,
+   gravity, the step number, `restart` (the WorldNumbers of sim/world/world_state.h, which with the particles
+   restart a run) and `complete`, which is written last. All values are in SI units and in the box's frame;
+   pose and rates of the box are in the world's frame. Attributes of the root describe the scene: `settings`
+   has each key as printed by slosh info, `units` the unit of each dataset. */
 #ifndef SLOSH_SNAPSHOT_H
 #define SLOSH_SNAPSHOT_H
 
@@ -31,157 +31,161 @@
     X("fluid", int32_t, fluid)                                                                               \
     X("id", int64_t, id)
 
-/* One state as the file has it. */
+/* A state as in the file. */
 typedef struct SnapshotStep {
     double time;          /* s */
     uint64_t step;        /* substeps since the start */
     BoxState box;         /* in the world's frame */
     double gravity[3];    /* in the box's frame, m/s2 */
-    WorldNumbers restart; /* version 0: a file that has none */
-    size_t count;         /* particles; each array below has as many */
+    WorldNumbers restart; /* version 0: missing in the file */
+    size_t count;         /* particles, also the length of each array below */
     float *position[3];   /* box frame, m */
     float *velocity[3];   /* box frame, m/s */
     float *density;       /* kg/m3 */
     float *pressure;      /* Pa */
-    float *compression; /* density over that at rest, less 1: a method that carries density goes on from it */
-    int32_t *fluid;     /* index into the root's fluid_names */
+    float *
+        compression; /* density over rest density, minus 1: the restart value of methods that carry density */
+    int32_t *fluid;  /* index into the root's fluid_names */
     int64_t *id;
-    float *born; /* s; NULL: nothing is emitted, or the file does not say (shown: snapshot_step_own_scalar) */
-    int own_count; /* columns not every method has that a run goes on from: snapshot_step_own */
+    float *born;   /* s; NULL: no emitters, or unknown (for display: snapshot_step_own_scalar) */
+    int own_count; /* count of columns of single methods for a restart: snapshot_step_own */
     struct {
         char name[32]; /* of the dataset */
         int place;     /* in ParticleColumns.own */
         float *values;
     } own[COLUMNS_OWN];
-    int shown_count; /* and those of them that views can show: of snapshot_read_shown alone */
+    int shown_count; /* count of the columns shown by views: only from snapshot_read_shown */
     struct {
         Scalar scalar;
         float *values;
     } shown[SCALAR_STATE_COUNT - SCALAR_OWN];
-    unsigned lacks; /* bit k: the file has no k-th field of SNAPSHOT_FIELDS; only of snapshot_read_shown */
+    unsigned lacks; /* bit k: field k of SNAPSHOT_FIELDS is missing; only from snapshot_read_shown */
 } SnapshotStep;
 
-/* Where the solids that float are in it, by number. */
+/* Poses of the floating solids in the step, by number. */
 void snapshot_floating(const SnapshotStep *step, BoxState floating[SOLIDS_MAX]);
 
-/* Arrays for `count` particles, not initialised; false, and nothing to free, when memory is short. */
+/* Allocates arrays for `count` particles, uninitialised; returns false, and nothing to free, if memory is
+   short. */
 bool snapshot_step_allocate(SnapshotStep *step, size_t count);
-/* The same for what is no method's of a saved state's columns (columns_saved). */
+/* Allocates the method's own columns of a saved state (columns_saved); returns false if memory is short. */
 bool snapshot_step_own(SnapshotStep *step, const ColumnRows *saved);
-/* The same for the births. */
+/* Allocates the births; returns false if memory is short. */
 bool snapshot_step_born(SnapshotStep *step);
-/* The same for one such scalar that is shown: its array; NULL when memory is short. */
+/* Allocates the array of a shown scalar; NULL if memory is short. */
 float *snapshot_step_show(SnapshotStep *step, Scalar scalar);
-void snapshot_step_free(SnapshotStep *step); /* a zeroed one is allowed */
+void snapshot_step_free(SnapshotStep *step); /* a zeroed step is allowed */
 
 /* ---- writing ---- */
 
 typedef struct Snapshot Snapshot;
 
-/* A new file. Until its first step is whole it has a temporary name and an older file stays as it is. NULL
-   with the reason: see output_begin; or another program is writing a file of that name. */
+/* Creates a file, under a temporary name until the first step is complete: an older file stays until then.
+   Returns NULL with the reason: see output_begin; or another program is writing a file of that name. */
 Snapshot *snapshot_create(const char *path, const Scene *scene, Error *error);
 
-/* Notes in a new file what moves the box beside the scene: a mark such as hand_replay_mark's; "": nothing. */
+/* Notes in a new file the source of the box's motion beside the scene: a mark such as hand_replay_mark's; "":
+   none. */
 bool snapshot_note_hand(Snapshot *snapshot, const char *mark, Error *error);
 
-/* Adds a state and brings it to the disk: a program that is killed afterwards leaves it whole. Room for all
-   of it is reserved first, so that a full disk leaves the file with its whole steps. After a failure the file
-   takes no more steps. */
+/* Adds a state and syncs it to the disk: a program killed later leaves the step complete. Disk space for the
+   step is reserved first, so that a full disk leaves a file of complete steps. After a failure the file takes
+   no more steps. */
 bool snapshot_append(Snapshot *snapshot, World *world, Error *error);
 bool snapshot_append_step(Snapshot *snapshot, const SnapshotStep *step, Error *error);
 
-/* Steps that are whole; the time of the last one that was written here, s (-1: none). */
+/* Count of complete steps; time of the last step written by this program, s (-1: none). */
 size_t snapshot_steps(const Snapshot *snapshot);
 double snapshot_time(const Snapshot *snapshot);
 
-/* NULL is allowed. A file without a whole step leaves nothing behind. */
+/* NULL is allowed. A file without a complete step is removed. */
 void snapshot_close(Snapshot *snapshot);
 
-/* A file to go on with behind its last whole step; `state` becomes that step's. What a killed program left
-   behind it is dropped. NULL with the reason: no such file, not HDF5, no whole step, a scene with other
-   settings (but for title, views and threads), steps with a gap, a file too old to go on from, another `hand`
-   than was noted; or, and then *busy is true, another program is writing it. */
+/* Opens a file for continuing after its last complete step; `state` becomes that step's. Partial data left
+   after the last step by a killed program are dropped. Returns NULL with the reason: no such file, not HDF5,
+   no complete step, a scene with different settings (except title, views and threads), steps with a gap, a
+   file too old to continue, a `hand` other than noted; or another program is writing the file, then *busy is
+   true. */
 Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
                           bool *busy, Error *error);
 
-/* The particles that a run began with, to make a world of before it is loaded with a later state: where what
-   they were made from may be gone. */
+/* The initial particles of a run, for making the world before loading a later state: the files used at the
+   start may be gone. */
 typedef struct SnapshotFirst {
     float *position;
     uint8_t *fluid;
-    InitialState initial; /* of these */
+    InitialState initial; /* points at the arrays above */
 } SnapshotFirst;
 
-/* False with the reason, and nothing to free. */
+/* Returns false with the reason, and nothing to free. */
 bool snapshot_first(const char *path, SnapshotFirst *first, Error *error);
-void snapshot_first_free(SnapshotFirst *first); /* a zeroed one is allowed */
+void snapshot_first_free(SnapshotFirst *first); /* a zeroed struct is allowed */
 
 /* ---- reading ---- */
 
 typedef struct SnapshotReader SnapshotReader;
 
-/* NULL with the reason: no such file, not HDF5. */
+/* Returns NULL with the reason: no such file, not HDF5. */
 SnapshotReader *snapshot_open(const char *path, Error *error);
 
-/* The same for who shows a file and does not go on with it: steps are counted by their names, which takes
-   milliseconds for thousands of them; one that is not whole is found at the end of the file, or when it is
-   read. */
+/* Opens a file for display only, not for a restart: counts steps by name, which takes milliseconds for
+   thousands of steps. An incomplete step is found at the file's end, or on reading. */
 SnapshotReader *snapshot_open_shown(const char *path, Error *error);
 
-/* For a reader of snapshot_open_shown: opens the file again where it has changed, since it may have grown.
-   False with the reason: it is gone or another one now, or this is a moment between two writes; then no step
-   can be read until a later call succeeds. */
+/* For a reader of snapshot_open_shown: reopens a changed file, which may have grown. Returns false with the
+   reason: the file is gone or was replaced, or is between two writes; then no step can be read until a later
+   call succeeds. */
 bool snapshot_follow(SnapshotReader *reader, Error *error);
 
-/* Whole steps; what a killed program left half-written at the end does not count. */
+/* Count of complete steps, without a partial step left at the end by a killed program. */
 size_t snapshot_count_steps(const SnapshotReader *reader);
 
-/* Whether steps stand behind the first that is missing or not whole, where nothing reads them: in words. */
+/* True, with a message, if unreadable steps follow the first missing or incomplete step. */
 bool snapshot_gap(const SnapshotReader *reader, char words[256]);
 
-/* The time of step `index`, s; cheaper than the step. */
+/* The time of step `index`, s; cheaper than reading the step. */
 bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Error *error);
 
-/* The colours of the fluids as in the scene file, sRGB 0 to 1. Returns how many fluids have one: 0 where the
-   file knows none. */
+/* The colours of the fluids as in the scene file, sRGB 0 to 1. Returns the count of fluids with a colour: 0
+   if the file has no colours. */
 size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_MAX][3]);
 
-/* What the file says of its scene. */
+/* The scene's figures in the file. */
 typedef struct SnapshotScene {
     int dimensions;
     double spacing, support_radius; /* m */
     double box_size[3];             /* m */
-    bool periodic[3];               /* the sides across this axis are one */
+    bool periodic[3];               /* periodic axes */
     size_t fluid_count;
     double density[FLUIDS_MAX]; /* of each fluid at rest, kg/m3 */
-    double stiffness_scale;     /* relative change of density over that of number density */
+    double stiffness_scale;     /* relative change of density over relative change of number density */
 } SnapshotScene;
 
-/* False with what is missing or cannot be: afterwards lengths and densities are more than 0. */
+/* Returns false and names the missing or impossible value; on success lengths and densities are more than
+   0. */
 bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Error *error);
 
-/* The name of the kernel that its method sums with, as its settings say; false where they do not. */
+/* Name of the kernel for sums of the file's method, from its settings; false if unknown. */
 bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE]);
 
-/* The volume of particle i, 1 / number density, m3 (of two dimensions m2): what the views have of it
-   (ParticleArrays.position). At most 20 spacings^3; not finite where the density is not or the fluid is
+/* The volume of particle i, 1 / number density, m3 (in two dimensions m2), as used by the views
+   (ParticleArrays.position). At most 20 spacings^3; not finite if the density is not finite or the fluid is
    unknown. */
 double snapshot_volume(const SnapshotScene *scene, const SnapshotStep *step, size_t i);
 
-/* Reads step `index` into new arrays, that the caller frees. */
+/* Reads step `index` into new arrays, which the caller frees. */
 bool snapshot_read_step(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
 
-/* The same for who shows it: the file may lack velocities, density, pressure, compression, fluid and id,
-   which step->lacks says; these are 0 then. It has the scalars of OWN_SCALAR_LIST and the births that the
-   file has. */
+/* Reads step `index` for display. The file may lack velocities, density, pressure, compression, fluid and id,
+   which are then 0 and marked in step->lacks. Also reads the scalars of OWN_SCALAR_LIST and the births in the
+   file. */
 bool snapshot_read_shown(SnapshotReader *reader, size_t index, SnapshotStep *step, Error *error);
 
-/* Of a step of snapshot_read_shown: its values of a scalar of OWN_SCALAR_LIST or the birth; NULL: the file
- * has none. */
+/* For a step of snapshot_read_shown: the values of a scalar of OWN_SCALAR_LIST or of the birth; NULL:
+   missing. */
 const float *snapshot_step_own_scalar(const SnapshotStep *step, Scalar scalar);
 
-/* Whether it lacks that field. */
+/* True if the step lacks the field. */
 bool snapshot_step_lacks(const SnapshotStep *step, const char *name);
 
 /* Reads into that step the columns of snapshot_step_own, and the births that the file has. False, and the
@@ -189,7 +193,7 @@ bool snapshot_step_lacks(const SnapshotStep *step, const char *name);
 bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
                        Error *error);
 
-/* Whether the first step of a file has a scalar of OWN_SCALAR_LIST or the birth. */
+/* True if the first step of the file has the scalar of OWN_SCALAR_LIST or the birth. */
 bool snapshot_file_has(const char *path, Scalar scalar);
 
 void snapshot_reader_close(SnapshotReader *reader); /* NULL is allowed */

@@ -12,7 +12,8 @@ unsigned snapshot_attributes(const SnapshotStep *step)
 #undef X
     for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
         has |= snapshot_step_own_scalar(step, (Scalar)s) ? PARTICLE_SCALAR(s) : 0;
-    return (has & ~lacks) | PARTICLE_FLUID; /* all are of the first fluid where the file says nothing */
+    return (has & ~lacks) |
+           PARTICLE_FLUID; /* without fluids in the file all particles are of the first fluid */
 }
 
 static double volume_of(const SnapshotScene *scene, const SnapshotStep *step, SnapshotVolume volume, size_t i)
@@ -50,7 +51,7 @@ static float scalar_of(const SnapshotStep *step, Scalar scalar, size_t i)
 {
     const float *const *v = (const float *const *)step->velocity;
     switch (scalar) {
-    case SCALAR_SPEED: /* as sim/world/particles.c has it, to the bit */
+    case SCALAR_SPEED: /* the same bits as sim/world/particles.c */
         return sqrtf(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
     case SCALAR_DENSITY:
         return step->density[i];

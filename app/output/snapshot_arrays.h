@@ -1,18 +1,18 @@
-/* A step of a file as views have a state. */
+/* Converts a step of a file to the arrays of views. */
 #ifndef SLOSH_SNAPSHOT_ARRAYS_H
 #define SLOSH_SNAPSHOT_ARRAYS_H
 
 #include "app/output/snapshot.h"
 #include "sim/world/reading.h"
 
-/* What the volume of a particle is. */
+/* Definition of a particle's volume. */
 typedef enum SnapshotVolume {
-    SNAPSHOT_VOLUME,      /* 1 / number density, as a world's own (snapshot_volume) */
-    SNAPSHOT_MASS_DENSITY /* mass / density; the same but where density is not in proportion to number density
+    SNAPSHOT_VOLUME,      /* 1 / number density, as in a world (snapshot_volume) */
+    SNAPSHOT_MASS_DENSITY /* mass / density; different only if density is not proportional to number density
                            */
 } SnapshotVolume;
 
-/* X(field of a step, what it is the only source of: PARTICLE_*) */
+/* X(field of a step, PARTICLE_* attributes with this field as their only source) */
 #define SNAPSHOT_SOURCES(X)                                                                                  \
     X("velocity_0", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
     X("velocity_1", PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_SPEED))                                       \
@@ -23,12 +23,12 @@ typedef enum SnapshotVolume {
     X("fluid", PARTICLE_FLUID | PARTICLE_SCALAR(SCALAR_FLUID))                                               \
     X("id", PARTICLE_ID | PARTICLE_SCALAR(SCALAR_ID))
 
-/* PARTICLE_*: what can be had of it. */
+/* The PARTICLE_* attributes available from the step. */
 unsigned snapshot_attributes(const SnapshotStep *step);
 
-/* Fills those of `to` that are not NULL, with room for step->count particles each. Without densities a
-   particle has the volume of fluid at rest; with a density that is not more than 0, or a fluid that the file
-   does not know, none. */
+/* Fills the arrays of `to` that are not NULL, with room for step->count particles each. Without densities a
+   particle has the volume of fluid at rest; with a density not more than 0, or an unknown fluid, the volume
+   is 0. */
 void snapshot_arrays(const SnapshotScene *scene, const SnapshotStep *step, SnapshotVolume volume,
                      const ParticleArrays *to);
 

@@ -8,7 +8,7 @@
 #include <hdf5.h>
 #include <stdint.h>
 
-/* HDF5's type of a field of SnapshotStep; the file has the same. */
+/* HDF5's type of a field of SnapshotStep, also used in the file. */
 #define SNAPSHOT_TYPE(field)                                                                                 \
     _Generic((field), float * : H5T_IEEE_F32LE, int32_t * : H5T_STD_I32LE, int64_t * : H5T_STD_I64LE)
 
@@ -21,53 +21,53 @@
     X("box_angular_velocity", 3, step->box.angular_velocity)                                                 \
     X("gravity", 3, step->gravity)
 
-/* The settings of the scene, of the root: see scene_print. */
+/* Attribute of the root: the settings of the scene, see scene_print. */
 #define SNAPSHOT_SETTINGS "settings"
 
-/* The folder that the files of the scene were found from, of the root. */
+/* Attribute of the root: the folder for the scene's relative file names. */
 #define SNAPSHOT_FOLDER "scene_folder"
 
-/* The units of the datasets, of the root: a line "NAME = UNIT" each. */
+/* Attribute of the root: the units of the datasets, a line "NAME = UNIT" each. */
 #define SNAPSHOT_UNITS "units"
 
-/* What moved the box, of the root: see snapshot_note_hand. */
+/* Attribute of the root: the source of the box's motion, see snapshot_note_hand. */
 #define SNAPSHOT_HAND "hand"
 
-/* The colours of the fluids, of the root: red, green, blue of each as in the scene file, sRGB 0 to 1. */
+/* Attribute of the root: the colours of the fluids, red, green, blue of each as in the scene file, sRGB 0 to
+   1. */
 #define SNAPSHOT_COLORS "fluid_colors"
 
-/* What a run goes on from: WORLD_NUMBERS doubles of a step. */
+/* Attribute of a step for a restart: WORLD_NUMBERS doubles. */
 #define SNAPSHOT_RESTART "restart"
 
-/* The field that files of older versions lack. */
+/* A field missing in files of older versions. */
 #define SNAPSHOT_COMPRESSION "compression"
 
-/* A step's number of substeps, and the mark of a whole step: each one integer. */
+/* A step's number of substeps, and the mark of a complete step: one integer each. */
 #define SNAPSHOT_STEP_NUMBER "step"
 #define SNAPSHOT_COMPLETE    "complete"
 
-/* "Step#k": no leading zeros, or ParaView does not find it. */
+/* Makes "Step#k" without leading zeros, as required by ParaView. */
 static inline void snapshot_group_name(size_t index, char name[32])
 {
     snprintf(name, 32, "Step#%zu", index);
 }
 
-/* Access without file locks: others may look at a file that is being written, and network folders that have
-   no locks still work. -1 on failure; the caller closes it. */
+/* Access without file locks, so that other programs may read during writing, and network folders without
+   locks work. Returns -1 on failure; the caller closes the access. */
 hid_t snapshot_access(void);
 
-/* How many groups Step#0, Step#1, ... the file has without a gap, by their names alone; false when it cannot
-   be read. */
+/* Counts the groups Step#0, Step#1, ... without a gap, by name only; returns false if the file is
+   unreadable. */
 bool snapshot_count_names(hid_t file, size_t *steps);
 
-/* A Snapshot that appends states of a world to a file that has so many whole steps, and takes over its lock,
-   which is then no longer the caller's. `share`: of app/output/snapshot_share.h, or NULL. NULL with the
-   reason. */
+/* Makes a Snapshot that appends states of a world to a file with `steps` complete steps; takes ownership of
+   the file's lock. `share`: see app/output/snapshot_share.h, or NULL. Returns NULL with the reason. */
 struct SnapshotShare;
 Snapshot *snapshot_continue(const char *path, const WorldDef *world, size_t steps, OutputLock *lock,
                             const struct SnapshotShare *share, Error *error);
 
-/* The text attribute of the root in new memory; NULL when there is none. */
+/* A text attribute of the root in new memory; NULL if missing. */
 char *snapshot_root_text(const SnapshotReader *reader, const char *name);
 
 #endif

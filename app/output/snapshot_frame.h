@@ -1,4 +1,4 @@
-/* The frame of reference of a step: the box's, as snapshots have it, or the world's. */
+/* The frame of reference of a step: the box's, as in snapshots, or the world's. */
 #ifndef SLOSH_SNAPSHOT_FRAME_H
 #define SLOSH_SNAPSHOT_FRAME_H
 
@@ -17,8 +17,8 @@ typedef enum SnapshotFrame {
 
 const char *snapshot_frame_name(SnapshotFrame frame);
 
-/* Positions and velocities of a step as it was read become those in the world's frame, by the pose and the
-   rates that it has: a particle at rest in a box that turns then moves. Gravity and pose stay as they are. */
+/* Transforms positions and velocities of a step from the file to the world's frame, with the step's pose and
+   rates: a particle at rest in a turning box then moves. Gravity and pose stay unchanged. */
 void snapshot_step_to_world(SnapshotStep *step);
 
 #endif

@@ -1,10 +1,10 @@
-/* Steps counted by the names of their groups: no step is opened. */
+/* Counts steps by the names of their groups, without opening steps. */
 #include "app/output/snapshot_file.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* Which of the first `room` names are there; without room they are counted. */
+/* Marks the existing names among the first `room`; with room 0 only counts names. */
 typedef struct Names {
     size_t count, room;
     bool *there;

@@ -14,14 +14,14 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { SUPPORT_MOST = 10 }; /* spacings: a lattice is summed up within it; scenes have 1.5 to 4 */
+enum { SUPPORT_MOST = 10 }; /* spacings; a lattice is summed within this radius; scenes have 1.5 to 4 */
 
 struct SnapshotReader {
     char path[1024];
     hid_t file;
     size_t steps;
     struct stat was; /* the file when it was opened */
-    bool still;      /* its settings say that nothing is emitted: all was born at time 0 */
+    bool still;      /* no emitters in the settings: all particles were born at time 0 */
 };
 
 static bool read_values(hid_t at, const char *name, hid_t type, size_t count, void *values)
@@ -55,7 +55,7 @@ static bool step_is_complete(hid_t file, size_t index)
     return whole;
 }
 
-/* -1 with the reason. */
+/* Returns -1 with the reason on failure. */
 static hid_t open_file(const char *path, struct stat *was, Error *error)
 {
     hdf5_listen();
@@ -70,7 +70,7 @@ static hid_t open_file(const char *path, struct stat *was, Error *error)
     return file;
 }
 
-/* By a line of settings that begins with fluids[N].emit[. */
+/* True if no line of the settings begins with fluids[N].emit[. */
 static bool emits_nothing(const SnapshotReader *reader)
 {
     static const char fluid[] = "\nfluids[", emit[] = "].emit[";
@@ -110,7 +110,8 @@ SnapshotReader *snapshot_open(const char *path, Error *error)
     return reader;
 }
 
-/* A step that is half-written is at the end; a file of another program has no marks at all. */
+/* Counts steps by name, and skips incomplete steps at the end; a file of another program has no marks, so no
+   steps. */
 static bool count_shown(hid_t file, const char *path, size_t *steps, Error *error)
 {
     if (!snapshot_count_names(file, steps))
@@ -137,7 +138,7 @@ static bool was_just_written(const char *path)
     return stat(path, &now) == 0 && S_ISREG(now.st_mode) && time(NULL) - now.st_mtim.tv_sec < 2;
 }
 
-/* Between two writes of a run that goes on there may be nothing to read, for a moment. */
+/* Retries for a moment: between two writes of an active run there may be nothing to read. */
 SnapshotReader *snapshot_open_shown(const char *path, Error *error)
 {
     enum { TRIES = 20, PAUSE_NS = 10000000 };
@@ -172,7 +173,7 @@ bool snapshot_follow(SnapshotReader *reader, Error *error)
         return error_set(error, "%s: is another file now; open it anew", reader->path);
     if (reader->file >= 0 && is_unchanged(&reader->was, &now))
         return true;
-    close_file(reader); /* while it is open HDF5 goes on with what it knows of it */
+    close_file(reader); /* an open file would keep HDF5's old knowledge of the file */
     reader->file = open_file(reader->path, &reader->was, error);
     if (reader->file >= 0 && count_shown(reader->file, reader->path, &reader->steps, error))
         return true;
@@ -193,10 +194,10 @@ size_t snapshot_count_steps(const SnapshotReader *reader)
     return reader->steps;
 }
 
-/* What stands where no step can be read. */
+/* Unreadable groups after the last step. */
 typedef struct Stray {
-    size_t steps, count; /* whole ones before; those behind */
-    char first[64];      /* the first of them by name */
+    size_t steps, count; /* complete steps before; stray groups after */
+    char first[64];      /* the first stray group by name */
 } Stray;
 
 static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info, void *user)
@@ -208,7 +209,8 @@ static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info,
         return 0;
     const size_t index = strtoul(name + 5, NULL, 10);
     snapshot_group_name(index, own);
-    if (index <= stray->steps && strcmp(name, own) == 0) /* the last: being written, or left by a kill */
+    if (index <= stray->steps &&
+        strcmp(name, own) == 0) /* the last step: being written, or left by a killed program */
         return 0;
     if (stray->count++ == 0)
         snprintf(stray->first, sizeof stray->first, "%s", name);
@@ -239,7 +241,7 @@ bool snapshot_read_time(SnapshotReader *reader, size_t index, double *time, Erro
     return read || error_set(error, "%s: Step#%zu: 'TimeValue' is missing", reader->path, index);
 }
 
-/* `width` numbers of each fluid; returns of how many fluids. */
+/* Reads `width` numbers per fluid; returns the count of fluids. */
 static size_t read_fluids(const SnapshotReader *reader, const char *name, size_t width, double *values)
 {
     size_t count = H5Aexists(reader->file, name) > 0 ? FLUIDS_MAX : 0;
@@ -253,14 +255,14 @@ size_t snapshot_read_colors(const SnapshotReader *reader, double colors[FLUIDS_M
     return read_fluids(reader, SNAPSHOT_COLORS, 3, colors[0]);
 }
 
-/* The word behind `key`, which is "\nkey = "; false: there is none. */
+/* The word after `key`, which is a newline, a key and " = "; false if missing. */
 static bool setting_word(const char *settings, const char *key, char word[NAME_SIZE])
 {
     const char *at = settings ? strstr(settings, key) : NULL;
     return at && sscanf(at + strlen(key), "%31s", word) == 1;
 }
 
-/* Puts the file's choices into the method's own settings. */
+/* Sets the method's own choices from the file's settings. */
 static void choose_as_said(const char *settings, const Method *method, WorldDef *def)
 {
     for (const Key *key = method->keys; key && key->path; key++) {
@@ -271,7 +273,7 @@ static void choose_as_said(const char *settings, const Method *method, WorldDef 
     }
 }
 
-/* The kernels of the file's method; all NULL where it does not say. */
+/* The kernels of the file's method; all NULL if unknown. */
 static MethodKernels read_kernels(const SnapshotReader *reader, const Method **method)
 {
     char own[NAME_SIZE] = "", *settings = snapshot_root_text(reader, SNAPSHOT_SETTINGS);
@@ -287,7 +289,7 @@ static MethodKernels read_kernels(const SnapshotReader *reader, const Method **m
     return kernels;
 }
 
-/* As sim/world/constants.c calibrates a density that is summed up; particles may carry it instead. */
+/* Calibrates a summed density like sim/world/constants.c; a carried density needs no scale. */
 static double read_stiffness_scale(const SnapshotReader *reader, const SnapshotScene *scene)
 {
     Lattice lattice = {.stiffness_scale = 1};
@@ -308,7 +310,7 @@ bool snapshot_kernel(const SnapshotReader *reader, char name[NAME_SIZE])
     return kernel != NULL;
 }
 
-/* What the settings say of box.periodic: "[x, z]". */
+/* Reads box.periodic from the settings: "[x, z]". */
 static void read_periodic(const SnapshotReader *reader, bool periodic[3])
 {
     static const char key[] = "\nbox.periodic = ";
@@ -321,7 +323,8 @@ static void read_periodic(const SnapshotReader *reader, bool periodic[3])
     free(settings);
 }
 
-/* Numbers of a damaged file: other code takes them as they are. NaN is none of these. */
+/* Checks the numbers of a damaged file, which later code would use unchecked. The comparisons also reject
+   NaN. */
 static bool check_scene(const SnapshotReader *reader, const SnapshotScene *scene, Error *error)
 {
     const double *box = scene->box_size, support = scene->support_radius / scene->spacing;
@@ -358,7 +361,7 @@ bool snapshot_read_scene(const SnapshotReader *reader, SnapshotScene *scene, Err
     scene->fluid_count = read_fluids(reader, "fluid_densities", 1, scene->density);
     if (!check_scene(reader, scene, error))
         return false;
-    /* a box of two dimensions is a spacing deep: WorldDef */
+    /* a two-dimensional box is a spacing deep: WorldDef */
     scene->dimensions = scene->box_size[2] > 1.001 * scene->spacing ? 3 : 2;
     scene->stiffness_scale = read_stiffness_scale(reader, scene);
     read_periodic(reader, scene->periodic);
@@ -383,7 +386,7 @@ char *snapshot_root_text(const SnapshotReader *reader, const char *name)
     return text;
 }
 
-/* The length of a one-dimensional dataset; false when there is no such dataset. */
+/* The length of a one-dimensional dataset; false if there is no such dataset. */
 static bool field_length(hid_t group, const char *name, size_t *length)
 {
     hid_t set = H5Lexists(group, name, H5P_DEFAULT) > 0 ? H5Dopen2(group, name, H5P_DEFAULT) : -1;
@@ -410,7 +413,8 @@ static bool read_field(hid_t group, const char *name, hid_t type, size_t count, 
     return read;
 }
 
-/* What files of before have at the end may have changed: it is left out. */
+/* Reads the restart numbers; of older files only the first WORLD_NUMBERS_LEAST, as the rest may have
+   changed. */
 static bool read_restart(hid_t group, WorldNumbers *restart)
 {
     enum { MOST = 1024 };
@@ -425,8 +429,8 @@ static bool read_restart(hid_t group, WorldNumbers *restart)
     return false;
 }
 
-/* Whether a field that cannot be read may be left out: files of before have no compression; what is shown may
-   lack more, but not have it at another length. */
+/* True if an unreadable field may be missing: old files have no compression; for display further fields may
+   be missing, but not have a wrong length. */
 static bool may_lack(hid_t group, const char *name, const SnapshotStep *step, bool shown)
 {
     if (!shown)
@@ -434,7 +438,7 @@ static bool may_lack(hid_t group, const char *name, const SnapshotStep *step, bo
     return strlen(name) > strlen("x") && H5Lexists(group, name, H5P_DEFAULT) <= 0;
 }
 
-/* The name of the first attribute or dataset that is not as it must be, or NULL. */
+/* Reads a group; returns the name of the first wrong attribute or dataset, or NULL. */
 static const char *read_group(hid_t group, SnapshotStep *step, bool shown)
 {
     unsigned field = 0;
@@ -444,11 +448,11 @@ static const char *read_group(hid_t group, SnapshotStep *step, bool shown)
     SNAPSHOT_ATTRIBUTES(X)
 #undef X
     if (H5Aexists(group, SNAPSHOT_RESTART) > 0 && !read_restart(group, &step->restart))
-        step->restart.version = 0; /* of another version of slosh */
+        step->restart.version = 0; /* from a different version of slosh */
     if (!read_values(group, SNAPSHOT_STEP_NUMBER, H5T_NATIVE_UINT64, 1, &step->step))
         return SNAPSHOT_STEP_NUMBER;
     if (H5Lexists(group, SNAPSHOT_COMPRESSION, H5P_DEFAULT) <= 0)
-        step->restart.version = 0; /* of a slosh before it had that field */
+        step->restart.version = 0; /* from a version of slosh without this field */
 #define X(name, type, field_of)                                                                              \
     if (!read_field(group, name, SNAPSHOT_TYPE(step->field_of), step->count, step->field_of)) {              \
         if (!may_lack(group, name, step, shown))                                                             \
@@ -461,7 +465,7 @@ static const char *read_group(hid_t group, SnapshotStep *step, bool shown)
     return NULL;
 }
 
-/* The dataset of such a scalar: of three NAME_0 for NAME_x. */
+/* Name of the scalar's dataset: NAME_0 for NAME_x, and so on. */
 static void dataset_of(Scalar scalar, char name[COLUMN_NAME_SIZE])
 {
     const size_t end = (size_t)snprintf(name, COLUMN_NAME_SIZE, "%s", scalar_name(scalar)) - 1;
@@ -469,7 +473,7 @@ static void dataset_of(Scalar scalar, char name[COLUMN_NAME_SIZE])
         name[end] = (char)('0' + name[end] - 'x');
 }
 
-/* What methods and terms keep, as far as the group has it. */
+/* Reads the scalars of methods and terms in the group. */
 static const char *read_shown(hid_t group, SnapshotStep *step)
 {
     char name[COLUMN_NAME_SIZE];
@@ -495,7 +499,7 @@ bool snapshot_step_lacks(const SnapshotStep *step, const char *name)
     return lacks != 0;
 }
 
-/* A damaged file may say any number. */
+/* Checks the count, as a damaged file may contain any number. */
 static bool fits_memory(size_t count)
 {
     size_t bytes = 0;
@@ -523,7 +527,7 @@ static bool read_step(SnapshotReader *reader, size_t index, bool shown, Snapshot
     missing = missing ? missing : read_group(group, step, shown);
     missing = missing || !shown ? missing : read_shown(group, step);
     if (!missing && shown && reader->still && !snapshot_step_own_scalar(step, SCALAR_BORN) &&
-        !snapshot_step_show(step, SCALAR_BORN)) /* 0 */
+        !snapshot_step_show(step, SCALAR_BORN)) /* calloc leaves all births at 0 */
         missing = scalar_name(SCALAR_BORN);
     if (group >= 0)
         H5Gclose(group);
@@ -558,7 +562,7 @@ bool snapshot_file_has(const char *path, Scalar scalar)
     return has;
 }
 
-/* As ParticleColumns says. */
+/* Fills a missing column with the default of ParticleColumns. */
 static void not_known(SnapshotStep *step, int k)
 {
     for (size_t i = 0; i < step->count; i++)

@@ -1,4 +1,4 @@
-/* A run goes on where its file ends. */
+/* Resumes a run from the end of its file. */
 #include "app/output/snapshot_file.h"
 #include "app/output/snapshot_share.h"
 #include "app/scene/keys.h"
@@ -8,14 +8,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A line of settings, "key = value", within its text. */
+/* A line of settings, "key = value", within a text. */
 typedef struct Line {
     const char *text;
     int size;
 } Line;
 
-/* Whether the line's key changes no bit of a run: by its row, and of a key that is no more by the row of the
-   mapping that it stood in. What a preset fills in has lines of its own. */
+/* True if the line's key changes no bit of a run: by the key's row, or, for a removed key, by the row of the
+   mapping above. Values of presets have lines of their own. */
 static bool is_idle(Line line)
 {
     char path[128];
@@ -28,7 +28,7 @@ static bool is_idle(Line line)
     return key && key->flags & KEY_IDLE;
 }
 
-/* The next line of `*text` that counts; false at the end. */
+/* Finds the next relevant line of `*text`; false at the end. */
 static bool next_line(const char **text, Line *line)
 {
     while (**text) {
@@ -41,7 +41,7 @@ static bool next_line(const char **text, Line *line)
     return false;
 }
 
-/* The line, or where it is long its key and what stands about place `at`. */
+/* Writes the line; of a long line the key and the text around `at`. */
 static void line_words(Line line, int at, char words[256])
 {
     enum { WHOLE = 160, BEFORE = 50, SHOWN = 110 };
@@ -82,7 +82,7 @@ static bool same_settings(const char *path, const char *file, const char *scene,
     }
 }
 
-/* The next step would meet one that has its name. */
+/* Checks for stray steps, as a new step could have the same name. */
 static bool check_steps(const SnapshotReader *reader, const char *path, Error *error)
 {
     char words[256];
@@ -165,7 +165,7 @@ static bool read_last(SnapshotReader *reader, const char *path, const WorldDef *
                              path);
 }
 
-/* How many whole steps there are, 0 with the reason. */
+/* Returns the count of complete steps, or 0 with the reason. */
 static size_t read_end(const char *path, const Scene *scene, const char *hand, WorldState *state,
                        Error *error)
 {

@@ -1,5 +1,5 @@
 #define _GNU_SOURCE /* fallocate */
-/* Room on the disk for a file of snapshots, taken before a step is written. */
+/* Disk space for a file of snapshots, reserved before a step is written. */
 #include "app/output/snapshot_parts.h"
 
 #include <errno.h>
@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* What a step takes beside its values: group, headers, directory (measured: 18 KiB), with room to spare. */
+/* Size of a step beside its values: group, headers, directory (measured: 18 KiB), with a margin. */
 enum { STEP_OVERHEAD_BYTES = 64 << 10 };
 
 size_t snapshot_step_bytes(const SnapshotStep *step, size_t count)
@@ -17,11 +17,11 @@ size_t snapshot_step_bytes(const SnapshotStep *step, size_t count)
 #define X(name, type, field) bytes += sizeof(type);
     SNAPSHOT_FIELDS(X)
 #undef X
-    return STEP_OVERHEAD_BYTES + bytes * count + bytes * count / 256; /* the last: trees of chunks */
+    return STEP_OVERHEAD_BYTES + bytes * count + bytes * count / 256; /* last term: trees of chunks */
 }
 
-/* The file for the system's calls, -1 where it cannot be opened; *own: to be closed. Of a shared one HDF5 has
-   no such number. */
+/* The file's descriptor for system calls, -1 on failure; *own: the caller closes. HDF5 has no descriptor for
+   a shared file. */
 static int system_file(hid_t file, const char *path, const SnapshotShare *share, bool *own)
 {
     int *number = NULL;
@@ -31,7 +31,7 @@ static int system_file(hid_t file, const char *path, const SnapshotShare *share,
     return H5Fget_vfd_handle(file, H5P_DEFAULT, (void **)&number) < 0 ? -1 : *number;
 }
 
-/* 0, or why the file, which has that size, cannot grow by so many bytes here, as errno has it. */
+/* Returns 0, or the errno if the process' limit forbids the file to grow from `size` by `bytes`. */
 static int over_limit(off_t size, size_t bytes)
 {
     struct rlimit limit;
@@ -41,7 +41,7 @@ static int over_limit(off_t size, size_t bytes)
                : 0;
 }
 
-/* The same for the disk: takes the room. */
+/* Reserves the space on the disk; returns 0 or errno. */
 static int take_room(int file, off_t size, size_t bytes)
 {
     const bool full = fallocate(file, FALLOC_FL_KEEP_SIZE, size, (off_t)bytes) != 0 &&
@@ -71,5 +71,5 @@ void snapshot_trim(const char *path)
 {
     struct stat status;
     if (stat(path, &status) == 0 && truncate(path, status.st_size) != 0)
-        return; /* the room stays reserved, nothing else */
+        return; /* harmless: the space stays reserved */
 }

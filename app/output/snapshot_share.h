@@ -1,5 +1,5 @@
-/* Several processes that write one file of snapshots, each its own particles: all of them make the same calls
-   in the same order, with the same scene and worlds that differ in their particles alone. */
+/* Several processes that write one file of snapshots, each its own particles. All processes make the same
+   calls in the same order, with the same scene, and with worlds that differ only in their particles. */
 #ifndef SLOSH_SNAPSHOT_SHARE_H
 #define SLOSH_SNAPSHOT_SHARE_H
 
@@ -8,19 +8,20 @@
 #include <hdf5.h>
 
 typedef struct SnapshotShare {
-    bool first;              /* the process that names, locks and removes the file, and takes room for it */
-    hid_t (*access)(void);   /* to open it together; the caller closes it */
-    hid_t (*transfer)(void); /* to write a dataset together; the caller closes it */
-    /* Whether it is so for all; else each one's error is that of the first for which it is not. */
+    bool first;              /* the process that names, locks and removes the file, and reserves disk space */
+    hid_t (*access)(void);   /* for collective opening; the caller closes the result */
+    hid_t (*transfer)(void); /* for collective writing of a dataset; the caller closes the result */
+    /* True if `ok` on all processes; otherwise each process gets the error of the first failing process. */
     bool (*agree)(bool ok, Error *error);
-    void (*end)(const Error *error);             /* ends all: the others wait for this one within HDF5 */
-    void (*tell)(void *bytes, size_t size);      /* what the first one has becomes that of all */
-    size_t (*held)(void);                        /* this one's particles: world_read gives them */
-    size_t (*before)(size_t count, size_t *all); /* those of the processes before this one, and of all */
+    void (*end)(const Error *error);             /* ends all processes, as the rest wait within HDF5 */
+    void (*tell)(void *bytes, size_t size);      /* copies the first process' bytes to all */
+    size_t (*held)(void);                        /* count of the process' particles, from world_read */
+    size_t (*before)(size_t count, size_t *all); /* count of particles on the processes before, and on all */
 } SnapshotShare;
 
-/* As snapshot_create and snapshot_resume; `share` outlives it. They fail for all or for none, as
-   snapshot_append then does. Of the state to go on from the first process alone has the particles. */
+/* Like snapshot_create and snapshot_resume; `share` must outlive the result. These functions fail on all
+   processes or on none, as snapshot_append then does. Only the first process gets the particles of
+   `state`. */
 Snapshot *snapshot_create_shared(const char *path, const Scene *scene, const SnapshotShare *share,
                                  Error *error);
 Snapshot *snapshot_resume_shared(const char *path, const Scene *scene, const SnapshotShare *share,

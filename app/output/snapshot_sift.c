@@ -15,7 +15,7 @@ SnapshotFlaws snapshot_flaws(const SnapshotReader *reader, bool strict)
     return flaws;
 }
 
-/* The worst that is wrong with particle i; FLAW_COUNT: nothing. `dense`: the file has densities. */
+/* The worst flaw of particle i; FLAW_COUNT: none. `dense`: the file has densities. */
 static Flaw flaw_of(const SnapshotFlaws *flaws, const SnapshotStep *step, bool dense, size_t i)
 {
     bool finite = isfinite(step->pressure[i]);
@@ -95,7 +95,7 @@ size_t snapshot_flaws_left_out(const SnapshotFlaws *flaws)
     return count;
 }
 
-/* What is done with the particles of a flaw, as the end of a sentence. */
+/* Prints the handling of a flaw's particles, as the end of a sentence. */
 static void print_fate(const SnapshotFlaws *flaws, Flaw flaw, FILE *file)
 {
     const bool one = flaws->of[flaw].particles == 1;

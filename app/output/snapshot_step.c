@@ -1,4 +1,4 @@
-/* The arrays of one state in memory. */
+/* The arrays of a state in memory. */
 #include "app/output/snapshot.h"
 
 #include <math.h>
@@ -39,7 +39,7 @@ bool snapshot_step_allocate(SnapshotStep *step, size_t count)
     return all;
 }
 
-/* The components of a column of three are datasets NAME_0, NAME_1, NAME_2, as those of the velocity. */
+/* Adds the datasets of a column; three components are NAME_0, NAME_1, NAME_2, like the velocity. */
 static bool add_own(SnapshotStep *step, const ColumnDef *column, size_t some)
 {
     const int first = column_own(column);

@@ -1,4 +1,4 @@
-/* The attributes and datasets of a file of snapshots. */
+/* Writes the attributes and datasets of a file of snapshots. */
 #include "app/output/snapshot_parts.h"
 
 #include "app/scene/keys.h"
@@ -52,7 +52,7 @@ static bool write_settings(hid_t file, const Scene *scene)
     return written;
 }
 
-/* Of a scene that is not there any more, or was never in a file: none. */
+/* Writes the folder of the scene file; none if the scene was never in a file, or the folder is gone. */
 static bool write_folder(hid_t file, const Scene *scene)
 {
     char copy[sizeof scene->path];
@@ -64,7 +64,7 @@ static bool write_folder(hid_t file, const Scene *scene)
     return written;
 }
 
-/* What the file does not name has none: numbers, and shares. */
+/* Datasets not listed have no unit: numbers and fractions. */
 static const char units[] = "TimeValue = s\nx = m\ny = m\nz = m\nvelocity_0 = m/s\nvelocity_1 = m/s\n"
                             "velocity_2 = m/s\ndensity = kg/m3\npressure = Pa\n";
 
@@ -95,7 +95,7 @@ bool snapshot_write_root(hid_t file, const Scene *scene)
            write_doubles(file, SNAPSHOT_COLORS, 3 * count, colors[0]);
 }
 
-/* Shuffled bytes and the lightest gzip; a field without particles can't be chunked. */
+/* Shuffled bytes and fastest gzip; a field without particles cannot be chunked. */
 static hid_t field_layout(size_t count)
 {
     hsize_t chunk = count < CHUNK_VALUES ? count : CHUNK_VALUES;
@@ -108,7 +108,7 @@ static hid_t field_layout(size_t count)
     return layout;
 }
 
-/* The part of a dataset that is this process' own. */
+/* Selects the process' own part of a dataset. */
 static bool choose(hid_t space, hid_t memory, const Extent *extent)
 {
     const hsize_t begin = extent->begin, own = extent->own;
@@ -153,10 +153,10 @@ static bool write_fields(hid_t group, const SnapshotStep *step, const Extent *ex
            snapshot_write_values(group, SNAPSHOT_STEP_NUMBER, H5T_STD_U64LE, SNAPSHOT_SCALAR, &step->step);
 }
 
-/* A program may be killed between any two writes to the disk. So the step is built where the file's directory
-   does not yet lead, goes to the disk, gets its mark, and only then its name; the directory has room for the
-   name without growing, so that the last flush overwrites a few bytes in place. Where it does have to grow,
-   once in 128 steps, four writes are left between which a kill makes the file unreadable. */
+/* A program may be killed between any two writes to the disk. So the step is built as an unlinked group,
+   synced to the disk, marked as complete, and only then named. The directory has room for the name without
+   growing, so that the last flush overwrites a few bytes in place. Only when the directory must grow, once in
+   128 steps, four writes remain during which a kill makes the file unreadable. */
 bool snapshot_write_step(hid_t file, size_t number, const SnapshotStep *step, const Extent *extent)
 {
     const int32_t complete = 1;

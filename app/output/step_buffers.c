@@ -13,7 +13,7 @@ void step_buffers_destroy(StepBuffers *buffers)
     *buffers = (StepBuffers){0};
 }
 
-/* Births that a file says need no ids to be found by. */
+/* Births come from the file, so need no ids. */
 unsigned step_attributes(Scalar scalar)
 {
     const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
@@ -54,7 +54,8 @@ static ParticleBuffers state_of(const SnapshotScene *scene, const SnapshotStep *
     return state;
 }
 
-/* For at least so many particles; those of a series may become more. `attributes`: PARTICLE_*. */
+/* Makes buffers for at least `count` particles, with a margin, as counts in a series may grow. `attributes`:
+   PARTICLE_*. */
 static bool follow_count(StepBuffers *buffers, size_t count, unsigned attributes, Error *error)
 {
     if (buffers->upload && count <= buffers->capacity)

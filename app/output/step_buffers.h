@@ -1,6 +1,6 @@
-/* A step of a file in GL buffers, with a scalar that is derived from it: what exports of numbers read.
+/* A step of a file in GL buffers, with a scalar derived from the step, for exports of numbers.
 
-   Needs a current OpenGL 4.5 core context, but for what a step itself has. */
+   Needs a current OpenGL 4.5 core context, except for scalars stored in the step. */
 #ifndef SLOSH_STEP_BUFFERS_H
 #define SLOSH_STEP_BUFFERS_H
 
@@ -8,24 +8,24 @@
 #include "render/derived/derived.h"
 #include "render/particles/upload.h"
 
-/* What one step leaves to the next: programs and buffers. Zero-initialise it. */
+/* Programs and buffers reused for each step. Zero-initialise before use. */
 typedef struct StepBuffers {
     Derived derived;
     Upload *upload;
     size_t capacity; /* particles of `upload` */
 } StepBuffers;
 
-void step_buffers_destroy(StepBuffers *buffers); /* a zeroed one needs no context */
+void step_buffers_destroy(StepBuffers *buffers); /* a zeroed struct needs no context */
 
-/* What of a step the scalar needs besides places: PARTICLE_*. */
+/* The PARTICLE_* attributes that the scalar needs besides positions. */
 unsigned step_attributes(Scalar scalar);
 
-/* The step with its places, what the scalar is made of, and the scalar; up to the next call. False when
-   memory is short. */
+/* Makes buffers of the step with positions, inputs of the scalar, and the scalar; valid until the next call.
+   Returns false if memory is short. */
 bool step_buffers_make(StepBuffers *buffers, const SnapshotScene *scene, const SnapshotStep *step,
                        SnapshotVolume volume, Scalar scalar, ParticleBuffers *out, Error *error);
 
-/* The scalar of each particle, as views have it; of a step's own ones without a context. */
+/* Writes the scalar of each particle, as in the views; scalars stored in the step need no context. */
 bool step_buffers_scalar(StepBuffers *buffers, const SnapshotScene *scene, const SnapshotStep *step,
                          Scalar scalar, float *values, Error *error);
 

@@ -18,19 +18,19 @@
 extern char **environ;
 
 enum { LOG_BYTES = 4096, GIF_FPS = 50 };
-enum { PIPE_BYTES = 1 << 20 }; /* so that ffmpeg works while the next picture is drawn */
+enum { PIPE_BYTES = 1 << 20 }; /* large, so that ffmpeg works while the next picture is drawn */
 
 struct Video {
     Output output;
-    pid_t process; /* 0: none any more */
-    int pipe;      /* pictures go in here; -1: closed */
-    int log;       /* ffmpeg's messages: in memory, since a pipe could fill and a disk be full */
-    size_t bytes;  /* of a picture */
+    pid_t process; /* 0: ended */
+    int pipe;      /* for writing pictures; -1: closed */
+    int log;       /* ffmpeg's messages: a memory file, as a pipe could fill, and a disk could be full */
+    size_t bytes;  /* of one picture */
     size_t pictures;
 };
 
-/* The colours of BT.709, as players expect them. fillborders takes planes; left alone, ffmpeg would make them
-   with the older colours of BT.601. */
+/* Uses the colours of BT.709, as expected by players; by default ffmpeg would use the older BT.601.
+   fillborders needs planes. */
 static void write_filter(char filter[192], int width, int height)
 {
     int right = width % 2, bottom = height % 2;
@@ -47,7 +47,7 @@ bool video_is_gif(const char *path)
     return dot && strcasecmp(dot, ".gif") == 0;
 }
 
-/* The options behind the input. A palette a picture: one for all would keep all pictures in memory. */
+/* Options after the input. One palette per picture: a common palette would keep all pictures in memory. */
 static const char *const as_gif[] = {
     "-filter_complex",
     "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4",
@@ -58,7 +58,7 @@ static const char *const as_gif[] = {
     "-f",
     "gif",
     NULL};
-/* H.264, the index in front. */
+/* H.264, with the index at the file's start. */
 static const char *const as_mp4[] = {
     "-c:v",         "libx264",     "-preset",   "veryfast",         "-crf",  "18",         "-pix_fmt",
     "yuv420p",      "-colorspace", "bt709",     "-color_primaries", "bt709", "-color_trc", "bt709",
@@ -75,7 +75,7 @@ static void add_all(char *arguments[ARGUMENTS_MAX], const char *const more[])
         arguments[count++] = (char *)more[i];
 }
 
-/* Quiet. Returns 0 or the system's error number. */
+/* Starts ffmpeg, without messages on the terminal. Returns 0 or the system's error number. */
 static int spawn_ffmpeg(Video *video, int input, int width, int height, double fps)
 {
     char size[32], rate[32], filter[192];
@@ -101,7 +101,7 @@ static int spawn_ffmpeg(Video *video, int input, int width, int height, double f
     posix_spawn_file_actions_adddup2(&actions, video->log, STDERR_FILENO);
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setsigdefault(&attributes, &defaults);
-    posix_spawnattr_setpgroup(&attributes, 0); /* a Ctrl-C in the terminal is not for ffmpeg */
+    posix_spawnattr_setpgroup(&attributes, 0); /* Ctrl-C in the terminal must not reach ffmpeg */
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     int reason = posix_spawnp(&video->process, "ffmpeg", &actions, &attributes, arguments, environ);
     posix_spawnattr_destroy(&attributes);
@@ -151,7 +151,7 @@ Video *video_create(const char *path, int width, int height, double fps, Error *
     return NULL;
 }
 
-/* ffmpeg's last line, in `log`; empty when it said nothing. */
+/* The last line of ffmpeg's messages, in `log`; empty if there are none. */
 static char *last_line(const Video *video, char log[LOG_BYTES])
 {
     off_t size = lseek(video->log, 0, SEEK_END);
@@ -164,7 +164,7 @@ static char *last_line(const Video *video, char log[LOG_BYTES])
     return newline ? newline + 1 : log;
 }
 
-/* Without the temporary name, that nobody asked for. */
+/* Sets the error, with the temporary name replaced by the path. */
 static bool fail_with_words(const Video *video, const char *words, Error *error)
 {
     const char *path = video->output.path;
@@ -175,7 +175,7 @@ static bool fail_with_words(const Video *video, const char *words, Error *error)
                      words, path, temp + strlen(video->output.temp));
 }
 
-/* Closes the pipe and waits; the exit status as of waitpid. */
+/* Closes the pipe and waits; returns the exit status as from waitpid. */
 static int wait_for_end(Video *video)
 {
     int status = 0;
