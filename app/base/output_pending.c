@@ -12,8 +12,7 @@
 
 enum { PENDING_MAX = 8 };
 
-static pthread_mutex_t adding =
-    PTHREAD_MUTEX_INITIALIZER; /* the window's and the solver's thread both save */
+static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER; /* the window and the solver's thread save */
 
 /* The only state reachable by a signal handler. */
 static struct {

@@ -20,8 +20,8 @@ void scene_path_names(SceneNames *names);
 /* For scandir: true if the entry's name is a scene file's. */
 int scene_path_is_yaml(const struct dirent *entry);
 
-/* The file of `name`: a path; otherwise a path or a bare name (with or without .yaml) in slosh's own folder;
-   then in the user's folder (app/base/place.h); then a bare name in the present folder. Folders come last, as
+/* The file of `name`: a path, otherwise a path or a bare name (with or without .yaml) in slosh's own folder.
+   Then the user's folder (app/base/place.h), then a bare name in the present folder. Folders come last, as
    outputs have the names of scenes too. If there is no file, returns false with the searched places and the
    nearest scene name. */
 bool scene_path_find(const char *name, char path[SCENE_PATH_SIZE], Error *error);

@@ -12,8 +12,7 @@
 /* Opens a closed stream: open returns the lowest free number, and the numbers below are in use. */
 static void fill(int stream)
 {
-    const int flags =
-        stream == STDERR_FILENO ? O_WRONLY : O_RDONLY; /* writes to closed standard output must fail */
+    const int flags = stream == STDERR_FILENO ? O_WRONLY : O_RDONLY; /* keeps standard output unwritable */
     if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF)
         return;
     if (open("/dev/null", flags) < 0)

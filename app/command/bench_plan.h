@@ -15,8 +15,7 @@ typedef struct Plan {
     SceneSettings settings;
     int sweep_count;
     Sweep sweeps[ARGS_SWEEPS_MAX];
-    const char
-        *narrowed[ARGS_SWEEPS_MAX]; /* for a table: source of the single value, as in SceneSettings.said */
+    const char *narrowed[ARGS_SWEEPS_MAX]; /* for a table: source of the single value, as in SceneSettings */
 } Plan;
 
 bool plan_make(const Args *args, Plan *plan, Error *error);

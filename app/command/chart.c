@@ -30,8 +30,7 @@ static bool make_rows(const ChartPlan *plan, Runs *runs, Error *error)
         if (!chart_prepare(&plan->subject, &plan->jobs[i], &scene, &rows->row[i], NULL, error))
             return false;
         const ChartRow *old = chart_rows_find(&runs->kept, rows->row[i].key);
-        runs->made[i] =
-            old && old->outcome.kind != OUTCOME_NONE; /* failures other than the fluid's are run again */
+        runs->made[i] = old && old->outcome.kind != OUTCOME_NONE; /* other failures run again */
         runs->there += runs->made[i];
         if (runs->made[i])
             rows->row[i] = *old;

@@ -19,11 +19,9 @@
 #include <strings.h>
 #include <sys/stat.h>
 
-enum {
-    FILES_MAX = 2 * ARGS_SCENES_MAX + 256
-}; /* one per scene, and for some scenes tables or meshes per fill */
+enum { FILES_MAX = 2 * ARGS_SCENES_MAX + 256 }; /* a scene each, and for some a table or mesh per fill */
 
-typedef enum Use { FILE_READ, FILE_REPLACED, FILE_NEW /* refused where it is there */ } Use;
+typedef enum Use { FILE_READ, FILE_REPLACED, FILE_NEW /* refused if the file exists */ } Use;
 
 typedef struct File {
     Use use;

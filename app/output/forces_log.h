@@ -1,7 +1,7 @@
 /* Forces on box and solids over a run (sim/matter/forces.h), as a CSV table with a row per frame. Columns:
-   time (s), at the end of the row's mean; length of the mean (s); for the box, then for each solid by number:
-   force_x, _y, _z (N) and torque_x, _y, _z (N m), along the box's axes: the box's torque around the box's
-   origin, a solid's around its centre. */
+   time (s), at the end of the row's mean, and length of the mean (s). Then for the box and for each solid by
+   number: force_x, _y, _z (N) and torque_x, _y, _z (N m), along the box's axes. The box's torque is around
+   the box's origin, a solid's around its centre. */
 #ifndef SLOSH_FORCES_LOG_H
 #define SLOSH_FORCES_LOG_H
 

@@ -43,9 +43,8 @@ typedef struct SnapshotStep {
     float *velocity[3];   /* box frame, m/s */
     float *density;       /* kg/m3 */
     float *pressure;      /* Pa */
-    float *
-        compression; /* density over rest density, minus 1: the restart value of methods that carry density */
-    int32_t *fluid;  /* index into the root's fluid_names */
+    float *compression; /* density over rest density, minus 1: restart value of methods that carry density */
+    int32_t *fluid;     /* index into the root's fluid_names */
     int64_t *id;
     float *born;   /* s; NULL: no emitters, or unknown (for display: snapshot_step_own_scalar) */
     int own_count; /* count of columns of single methods for a restart: snapshot_step_own */
@@ -103,9 +102,9 @@ void snapshot_close(Snapshot *snapshot);
 
 /* Opens a file for continuing after its last complete step; `state` becomes that step's. Partial data left
    after the last step by a killed program are dropped. Returns NULL with the reason: no such file, not HDF5,
-   no complete step, a scene with different settings (except title, views and threads), steps with a gap, a
-   file too old to continue, a `hand` other than noted; or another program is writing the file, then *busy is
-   true. */
+   no complete step, steps with a gap, or a file too old to continue. Also NULL for a scene with different
+   settings (except title, views and threads), or a `hand` other than noted. If another program is writing the
+   file, *busy is true. */
 Snapshot *snapshot_resume(const char *path, const Scene *scene, const char *hand, WorldState *state,
                           bool *busy, Error *error);
 
@@ -188,8 +187,8 @@ const float *snapshot_step_own_scalar(const SnapshotStep *step, Scalar scalar);
 /* True if the step lacks the field. */
 bool snapshot_step_lacks(const SnapshotStep *step, const char *name);
 
-/* Reads into that step the columns of snapshot_step_own, and the births that the file has. False, and the
-   step is empty, where the file lacks one. */
+/* Reads the columns of snapshot_step_own and the births of the file into the step. Returns false with an
+   empty step if the file lacks a column. */
 bool snapshot_read_own(SnapshotReader *reader, size_t index, const ColumnRows *saved, SnapshotStep *step,
                        Error *error);
 

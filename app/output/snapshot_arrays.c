@@ -12,8 +12,7 @@ unsigned snapshot_attributes(const SnapshotStep *step)
 #undef X
     for (int s = SCALAR_OWN; s < SCALAR_STATE_COUNT; s++)
         has |= snapshot_step_own_scalar(step, (Scalar)s) ? PARTICLE_SCALAR(s) : 0;
-    return (has & ~lacks) |
-           PARTICLE_FLUID; /* without fluids in the file all particles are of the first fluid */
+    return (has & ~lacks) | PARTICLE_FLUID; /* default: all particles are of the first fluid */
 }
 
 static double volume_of(const SnapshotScene *scene, const SnapshotStep *step, SnapshotVolume volume, size_t i)

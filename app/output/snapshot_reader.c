@@ -209,8 +209,7 @@ static herr_t look_at_link(hid_t file, const char *name, const H5L_info_t *info,
         return 0;
     const size_t index = strtoul(name + 5, NULL, 10);
     snapshot_group_name(index, own);
-    if (index <= stray->steps &&
-        strcmp(name, own) == 0) /* the last step: being written, or left by a killed program */
+    if (index <= stray->steps && strcmp(name, own) == 0) /* the last: being written, or left by a kill */
         return 0;
     if (stray->count++ == 0)
         snprintf(stray->first, sizeof stray->first, "%s", name);

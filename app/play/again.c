@@ -273,8 +273,8 @@ static bool takes(const char *setting)
            (key && key->flags & KEY_LIVE && strlen(setting) < SIM_SETTING_SIZE);
 }
 
-/* True if the running scene can take all changes; runs beside the scene copy it at their start, so changed
-   views would need a restart. */
+/* True if the running scene can take all changes. Runs beside the scene start together with the scene, so
+   changed views would need a restart. */
 static bool is_live(const Renewal *renewal)
 {
     const SettingList *due = &renewal->due.settings;

@@ -45,9 +45,8 @@ static void follow_outline(Play *play, BoxState *pose)
 /* Draws the outline into a picture of the scene's own state. */
 static void draw_outline(const Look *look, const BoxState *pose, Text *text)
 {
-    static const uint32_t COLOR = 0xff6ad5ff,
-                          SHADE = 0x101418a0; /* absent from all colormaps, and visible on any background */
-    static const float THICK = 0.11F;         /* of the letters' height */
+    static const uint32_t COLOR = 0xff6ad5ff, SHADE = 0x101418a0; /* in no colormap; seen on any ground */
+    static const float THICK = 0.11F;                             /* of the letters' height */
     const float em = text_height(text);
     Sight sight = look->sight;
     sight.box = *pose;
@@ -220,9 +219,7 @@ static void draw_now(Play *play)
     if (whole)
         model_take(&play->model);
     picture->dirty = picture->over = false;
-    picture->finer =
-        picture->finer &&
-        play->model.has_particles; /* after a change of the scene there is no state yet to refine */
+    picture->finer = picture->finer && play->model.has_particles; /* a new scene has no state yet to refine */
     picture->begun_ms = began;
     if (play->model.has_particles && whole)
         draw_fluid(play);

@@ -187,8 +187,8 @@ void events_between_passes(void *of_play)
 {
     static const double APART_MS = 2; /* a look takes about 0.1 ms */
     Play *play = of_play;
-    const bool box = input_holds_box(&play->input) &&
-                     (!play->touch.on || play->touch.holds); /* otherwise the finger may need a press */
+    const bool box =
+        input_holds_box(&play->input) && (!play->touch.on || play->touch.holds); /* otherwise may press */
     const bool holds = box || (play->touch.holds && input_touches(&play->input)) || play->touch.hold.holds;
     if (holds && wall_ms() - play->looked_ms >= APART_MS)
         events_follow_hand(play);

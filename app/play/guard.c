@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 /* Patience in ms: for the window to notice a lost display, or a signal, as a picture of a software driver
-   takes long; and for the solver to save the session. */
+   takes long. Then for the solver to save the session. */
 enum { GONE_MS = 400, SIGNAL_MS = 2000, SAVE_MS = 400 };
 
 struct Guard {

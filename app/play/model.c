@@ -217,7 +217,7 @@ static void adopt(Model *model, const PlayScene *opened)
 }
 
 /* Gives the solver half of the processors with a software renderer, which keeps all busy. A solver with as
-   many threads as processors waits at each of its many barriers for a delayed thread: on two processors a
+   many threads as processors waits at each of its many barriers for a delayed thread. On two processors a
    frame took 30 ms with two threads, and 18 ms with one. The bits do not depend on the count. */
 static void share_processors(WorldDef *def)
 {

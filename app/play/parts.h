@@ -104,7 +104,7 @@ static inline Look play_look(const Play *play, int panel)
    next. */
 void events_take(Play *play);
 
-/* Look at the hand during a picture, so that held inputs act sooner. events_between_passes is called between
+/* Look at the hand during a picture, so that held inputs act sooner. The second function is called between
    the passes of a picture (gl_timer_between, with a Play), and looks only while mouse or keys hold the box, a
    finger or a solid. */
 void events_follow_hand(Play *play);

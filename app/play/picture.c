@@ -54,8 +54,7 @@ static bool replace_panels(Picture *picture, const PlayScene *open, int width, i
         return false;
     panels_destroy(picture->panels);
     picture->panels = panels;
-    panels_set_late(panels,
-                    !gl_renderer_is_software()); /* a software renderer has already finished all requests */
+    panels_set_late(panels, !gl_renderer_is_software()); /* whose requests are already finished */
     panels_set_more(panels, true);
     panels_set_presents(panels, true);
     picture->chosen = picture->chosen < count ? picture->chosen : 0;

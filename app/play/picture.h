@@ -43,8 +43,8 @@ float picture_letters(const Window *window);
 PanelPlace picture_place(const Picture *picture, int panel, double covered_left);
 int picture_panel_at(const Picture *picture, double x, double y);
 
-/* Call between two pictures, after a change of the view or of the chosen panel; or to follow the window's
-   size and the display's scale: if new letters fail the old letters stay. */
+/* Call between two pictures: set_view after a change of the view or of the chosen panel; follow_size and
+   follow_scale for the window's size and the display's scale. If new letters fail the old letters stay. */
 void picture_set_view(Picture *picture, const PlayScene *open, int chosen, Notice *notice);
 bool picture_follow_size(Picture *picture, const Window *window, Error *error);
 bool picture_follow_scale(Picture *picture, float letters); /* returns true if changed */

@@ -18,8 +18,7 @@ typedef struct SourceKind {
     void (*status)(struct PlayScene *open, SimulatorStatus *status);
     bool (*fresh)(struct PlayScene *open);
     bool (*take)(struct PlayScene *open, ParticleBuffers *out);
-    bool (*has)(const struct PlayScene *open, const ViewDef *view,
-                Error *error); /* true if the source has all data of the view */
+    bool (*has)(const struct PlayScene *open, const ViewDef *view, Error *error); /* the view's data */
 
     /* Time: see simulator_pause and the following functions. */
     void (*pause)(struct PlayScene *open, bool paused);

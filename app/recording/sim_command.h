@@ -46,7 +46,7 @@ bool sim_command_poses(const SimCommand *command);
    memory is short. */
 bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, Error *error);
 
-/* sim_command_moves: true if the command changes how the world is made: the backend, or data kept for views.
+/* moves: true if the command changes how the world is made: the backend, or data kept for views.
    sets_backend: true for the backend. needs_gpu: true for a backend on a GPU, for which a context must be
    current. */
 bool sim_command_moves(const SimCommand *command);

@@ -65,8 +65,7 @@ static void advise_overlaps(const Tree *tree, const WorldDef *def, Notes *notes)
         BodyOverlap overlap;
         const double *axis = def->solids[k].hinge_axis;
         if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0 && bodies_overlap(bodies, k, &overlap) &&
-            !(overlap.other > k &&
-              solid_floats(&def->solids[overlap.other]))) /* the other solid reports this overlap */
+            !(overlap.other > k && solid_floats(&def->solids[overlap.other]))) /* the other solid reports */
             advise_overlap(tree, &def->solids[k], k, &overlap, notes);
     }
     bodies_destroy(bodies);

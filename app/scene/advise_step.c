@@ -117,8 +117,7 @@ static void ends_along(const FluidDef *fluid, const double up[3], double *bottom
     }
 }
 
-/* Greatest pressure of heavier fluids on a fluid, Pa: of their columns higher than the bottom of the
-   fluid. */
+/* Greatest pressure of heavier fluids on a fluid, Pa: of their columns above the fluid's bottom. */
 static double borne(const WorldDef *def, int f, const double gravity[3])
 {
     const double g = sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
@@ -209,8 +208,7 @@ void advise_places(const Tree *tree, const Scene *scene, Notes *notes)
 
 void advise_sound(const Tree *tree, const Scene *scene, Notes *notes)
 {
-    static const double least = 1.75,
-                        good = 3; /* c over the speed of the flow, for compressions of 18 and 6 % */
+    static const double least = 1.75, good = 3; /* c over the speed of the flow: compressed by 18 and 6 % */
     const WorldDef *def = &scene->world;
     const double c = def->sound_speed, speed = scene_greatest_speed(def);
     if (!method_find(def->method)->incompressible && c < least * speed)

@@ -77,8 +77,7 @@ bool scene_check_bounds(const Tree *tree, const Scene *scene, double spacing, Er
         for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
             most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions));
     most /= pow(spacing, scene->world.dimensions);
-    if (!scene_fits_memory(
-            0.5 * most)) /* half: rounding to the lattice can lose at most half of so many particles */
+    if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can lose at most half of many */
         return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
     if (points_walked(&scene->world, spacing) > 0x1p30) /* for example a wide fill thinner than a spacing */
         return too_many(&check, points_walked(&scene->world, spacing));

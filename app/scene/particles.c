@@ -70,7 +70,7 @@ static double greatest_spacing(const Scene *scene)
     return 0.5 * (scene->world.dimensions == 3 ? fmin(width, size[2]) : width);
 }
 
-/* The step chosen by a scene for its spacing, or NULL: a fixed step, or the longest step of a method
+/* The step chosen by a scene for its spacing, or NULL. A fixed step, or the longest step of a method
    without sound, which scales like the time of a fall through a spacing. Steps by Courant number scale by
    themselves. */
 static double *step_chosen(Scene *scene, const char **key, double *scale)

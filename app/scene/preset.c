@@ -15,11 +15,11 @@ const Key preset_keys[] = {
 };
 
 const Preset preset_list[] = {
-    /* In the plane a square lattice of 2.1 to 2.8 spacings per support radius resists shear: waves are 3 to 7
-       % too fast, and a tank shaken off its resonance has 55 to 80 % of its motion. At 3 spacings the lattice
-       hardly resists (docs/validation.md). pbf has its iterations for a whole frame. The pressure of a blow
-       is about rho v^2, and dfsph tolerates 0.25 h / sqrt(p / rho): a Courant number above 0.2 boils in hard
-       shaking. */
+    /* In the plane a square lattice of 2.1 to 2.8 spacings per support radius resists shear. Waves are then 3
+       to 7 % too fast, and a tank shaken off its resonance has 55 to 80 % of its motion. At 3 spacings the
+       lattice hardly resists (docs/validation.md). pbf has its iterations for a whole frame. The pressure of
+       a blow is about rho v^2, and dfsph tolerates steps up to 0.25 h / sqrt(p / rho): a Courant number above
+       0.2 boils in hard shaking. */
     {"play",
      "the defaults: fast, at large steps",
      {{"particles.support", "3", NULL, 2, NULL},
@@ -41,9 +41,9 @@ const Preset preset_list[] = {
        spacings hardly resists shear any more; at 2.6 spacings shear resistance makes waves 5 % too fast, at
        any resolution. In three dimensions, where 2.6 means 74 neighbours, and for mueller's spiky kernel more
        does not pay. dfsph gains nothing from more neighbours, and longer steps cost more iterations than they
-       save. Where two fluids slide along each other, particles pass over each other: with Wendland's kernel
+       save. Where two fluids slide along each other, particles pass over each other. With Wendland's kernel
        particles feel the rows of the other fluid, and a wave between the fluids grows by a quarter too
-       slowly; the quintic kernel is thirty times smoother there, for more time. */
+       slowly. The quintic kernel is thirty times smoother there, for more time. */
     {"accurate",
      "wcsph as slosh validate measures it: kernel, support, diffusion, friction, step",
      {{"solver.method", "wcsph", NULL, 0, NULL},

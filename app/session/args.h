@@ -51,8 +51,8 @@ typedef enum ColorChoice {
     COLOR_CHOICE_PRESSURE
 } ColorChoice;
 
-/* --sweep KEY=a,b,c of bench, --compare KEY=a,b of render: `key` is "particles" or the path of a scene key
-   (short names such as backend, method, view and threads become full paths: solver.backend, ...). */
+/* --sweep KEY=a,b,c of bench, --compare KEY=a,b of render. `key` is "particles" or the path of a scene key;
+   short names (backend, method, view, threads) become full paths: solver.backend, ... */
 typedef struct Sweep {
     const char *key;
     int count;
@@ -92,9 +92,8 @@ typedef struct Args {
     double level, cell;     /* of the surface; 0: not given */
     ColorChoice color_by;   /* export: of a .ply or a .obj */
     double error, frame_ms; /* fit: percent, ms; 0: not given */
-    const char
-        *slice; /* export: "{point: ..., normal: ...}"; NULL: no slice; the next three are for the slice */
-    const char *trails;          /* export: "{stride: 20, ...}"; NULL: no trails */
+    const char *slice;  /* export: "{point: ..., normal: ...}"; NULL: no slice, and no --kernel or --raw */
+    const char *trails; /* export: "{stride: 20, ...}"; NULL: no trails */
     const char *scalar, *kernel; /* NULL: not given */
     bool raw;
     bool full, coarse; /* validate: finer or coarser than the default set */

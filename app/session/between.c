@@ -50,8 +50,7 @@ bool still_read(Still *still, World *world, unsigned attributes)
 /* Position between the states: s from 0 to 1, length of the step in seconds, and the four Hermite weights. */
 typedef struct Blend {
     double s, dt;
-    double from, leave, to,
-        arrive; /* weights of position and velocity before, of position and velocity after */
+    double from, leave, to, arrive; /* of position, velocity before; position, velocity after */
 } Blend;
 
 static Blend blend_at(double before, double after, double time)

@@ -365,8 +365,7 @@ static bool is_due(const Past *past, bool now)
 
 void past_keep(Past *past, World *world, const Scene *scene, size_t next, bool now)
 {
-    if (!is_due(past, now) ||
-        !world_sound(world)) /* world_sound waits for a GPU, so that the copy is timed alone */
+    if (!is_due(past, now) || !world_sound(world)) /* waits, so that the copy is timed alone */
         return;
     WorldInfo info;
     world_info(world, &info);

@@ -101,8 +101,7 @@ bool session_reached(const Session *session, double time)
    comes early, and the next frame is taken. */
 static bool falls_out(double interval, double dt, double frames, double span)
 {
-    const double early =
-        span / interval * (interval / dt - frames); /* earliness of the last product, in frames */
+    const double early = span / interval * (interval / dt - frames); /* of the last product, in frames */
     return early > ROUNDING || early < ROUNDING - 1;
 }
 

@@ -66,8 +66,8 @@ bool session_reached(const Session *session, double time);
 bool session_step(Session *session, Error *error);
 bool session_substep(Session *session, Error *error); /* one step of a frame */
 
-/* Warns on standard error if `what`, one per `interval` s for `span` s, will be at uneven times: in mode
-   fixed, when the frame does not divide the interval and the error shows within the span. */
+/* Warns on standard error if `what`, one per `interval` s for `span` s, will be at uneven times. Only in mode
+   fixed, if the frame does not divide the interval and the error shows within the span. */
 void session_tell_uneven(const Session *session, const char *what, double interval, double span);
 
 /* True once per new trouble; marks the trouble as reported. */

@@ -4,8 +4,8 @@
 
    If the scene says `realtime` the pace follows the wall clock times the speed; frames that come too late are
    skipped, dt stays. Otherwise the thread runs as fast as possible. The solver never waits for the view. On a
-   software driver, views open parallel regions on the window's thread too (planes, trails, layers of points);
-   then two regions run side by side, each with threads of its own. All functions here must be called from one
+   software driver, views open parallel regions on the window's thread too (planes, trails, layers of points).
+   Then two regions run side by side, each with threads of its own. All functions here must be called from one
    thread, the window's thread.
 
    A GPU backend steps on the window's thread instead, where the context is: simulator_work does the due work,
@@ -115,7 +115,7 @@ void simulator_reset(Simulator *simulator);
    which takes more keys than exist. */
 uint64_t simulator_send(Simulator *simulator, const SimCommand *command);
 
-/* Resizes the box towards `size`, m, from the next step on, each side as fast as its wall may: a growing
+/* Resizes the box towards `size`, m, from the next step on, each side as fast as its wall may. A growing
    side jumps, a shrinking side moves at a small part of the speed of sound. Ends when the size is reached,
    another size is wanted, time jumps, or the solver refuses with a message. Each change is a command of
    the session. */

@@ -264,8 +264,7 @@ static void arrive(Simulator *simulator)
     simulator->status.time = info.time;
     pthread_mutex_unlock(&simulator->lock);
     simulator_tell_travel(simulator);
-    if (!simulator->follows &&
-        simulator->follower_count == 0 && /* otherwise simulator_lead_travel shows all states together */
+    if (!simulator->follows && simulator->follower_count == 0 && /* otherwise: simulator_lead_travel */
         !simulator_publish(simulator, &error))
         simulator_tell(simulator, true, error.message);
     simulator_gauge_back(simulator, info.time);

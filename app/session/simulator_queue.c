@@ -8,7 +8,8 @@ static bool same_key(const char *a, const char *b)
     return key == strcspn(b, "=") && strncmp(a, b, key) == 0;
 }
 
-/* True if `newer` may replace `older`. A finger that returns in a different way was absent in between. */
+/* True if `newer` may replace `older`. A finger does not replace a waiting end of touching: a finger that
+   returns elsewhere was lifted in between. */
 static bool replaces(const SimCommand *newer, const SimCommand *older)
 {
     return newer->kind == older->kind &&

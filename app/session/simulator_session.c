@@ -85,8 +85,7 @@ void simulator_make_world(Simulator *simulator)
     Error error = {{0}};
     snprintf(simulator->start.world.backend, sizeof simulator->start.world.backend, "%s",
              simulator->scene.world.backend); /* the present backend, which this thread supports */
-    simulator->start.world.acceleration |=
-        simulator->scene.world.acceleration; /* accelerations stay on once kept */
+    simulator->start.world.acceleration |= simulator->scene.world.acceleration; /* stay on once kept */
     simulator->scene = simulator->start;
     simulator_stop_resizing(simulator);
     world_destroy(simulator->world);
@@ -339,8 +338,7 @@ void simulator_frame_step(Simulator *simulator)
     world_info(simulator->world, &info);
     tell_news(simulator, &info);
     if (ok)
-        watch_fluid(
-            simulator); /* before the state is shown, as viewers may take the frame as finished then */
+        watch_fluid(simulator); /* before the state is shown: viewers may take the frame as finished */
     const double led = lead(simulator, ok, &info);
     if (ok && shows(simulator, &info)) {
         if (simulator->on_gpu)

@@ -18,7 +18,7 @@ enum {
 };
 
 /* Commands waiting for the next step. All waiting commands apply at the same step, so a new command makes
-   earlier ones moot: the queue never holds more than one pose of each kind and one value of each key. */
+   earlier ones moot. The queue never holds more than one pose of each kind and one value of each key. */
 typedef struct CommandQueue {
     int count;
     SimCommand commands[COMMAND_QUEUE_MAX];
@@ -125,12 +125,13 @@ struct Simulator {
     double pace_began_ms, pace_began_s;
 };
 
-/* simulator_queue.c. Adds a copy, which replaces moot commands: a target the waiting target, a pose jump all
-   poses, a finger the same finger motion, a finger's end all of its commands, a setting the setting of the
-   same key. Returns false if the queue is full. */
+/* simulator_queue.c. Adds a copy, which replaces moot commands. A target replaces the waiting target, a pose
+   jump all poses, a finger the same finger motion, a finger's end all finger commands, a setting the setting
+   of the same key. Returns false if the queue is full. */
 bool command_queue_add(CommandQueue *queue, const SimCommand *command);
 
-/* Drops targets, pose jumps and fingers: the scene restarts with the box at home. */
+/* Drops all commands except settings (poses, fingers, gates, solids, sizes): the scene restarts with the box
+   at home, or time jumps. */
 void command_queue_drop_hand(CommandQueue *queue);
 
 /* simulator_session.c: for the stepping thread. */

@@ -327,8 +327,7 @@ bool simulator_move(Simulator *simulator, const SimCommand *command, Upload *upl
         simulator_cut_for(simulator, &now, 1);
         simulator_obey(simulator, &now);
         simulator->on_gpu = world_on_gpu(&simulator->scene.world);
-        if (strcmp(before, simulator->scene.world.backend) !=
-            0) { /* no way back across a change of backend */
+        if (strcmp(before, simulator->scene.world.backend) != 0) { /* no way back from there */
             simulator_past_begin(simulator);
             simulator_past_keep(simulator);
         }

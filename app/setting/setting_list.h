@@ -23,9 +23,9 @@ void setting_list_add_text(SettingList *list, const char *path, const char *text
 void setting_list_join(SettingList *list, const SettingList *more);
 void setting_list_join_scene(SettingList *list, const SceneSettings *settings);
 
-/* Remove settings: of the paths in `paths`; whole lists ("solids=[{...}]") if `paths` has a key of an
-   element ("solids[0].slip"); keys of elements of lists that are whole in `paths`; settings with the
-   prefix `begin`. */
+/* Remove settings. remove: of the paths in `paths`. around: whole lists ("solids=[{...}]") if `paths` has a
+   key of an element ("solids[0].slip"). within: keys of elements of lists that are whole in `paths`. under:
+   settings that begin with `begin`. */
 void setting_list_remove(SettingList *list, const SettingList *paths);
 void setting_list_remove_around(SettingList *list, const SettingList *paths);
 void setting_list_remove_within(SettingList *list, const SettingList *paths);

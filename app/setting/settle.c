@@ -24,8 +24,7 @@ static void turn(SolidDef *solid, const double by[4])
         quat_multiply(by, rest, rest);
         axis_of(rest, solid->axis, &solid->angle_deg);
     }
-    for (int i = 0; i < solid->motion_count;
-         i++) /* turns rotating motions only: translations keep their directions */
+    for (int i = 0; i < solid->motion_count; i++) /* rotations only: translations stay */
         if (!motion_translates(&solid->motions[i]))
             quat_rotate(by, solid->motions[i].axis, solid->motions[i].axis);
 }
