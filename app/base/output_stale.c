@@ -1,4 +1,5 @@
-/* Removes remains of killed writers: only the next writer of the same output knows that they are useless. */
+/* Removes files left by killed writers: only the next writer of the same output knows that such files are
+   useless. */
 #include "app/base/output.h"
 
 #include "app/base/output_pending.h"

@@ -14,7 +14,7 @@ static bool too_large(const char *path, size_t limit, const char *what, Error *e
                      giga ? "GiB" : "MiB", what);
 }
 
-/* Reads slightly more than the limit at most. */
+/* Reads the file, but stops slightly above the limit. */
 static char *read_bytes(FILE *file, size_t limit, size_t *size)
 {
     size_t room = 1 << 16;

@@ -196,7 +196,7 @@ static void show_scenes(Play *play)
 /* True if the session is saved, or the user asks a second time. */
 static bool may_close(Play *play)
 {
-    static const double PATIENCE_MS = 4000; /* the question is shown as long */
+    static const double PATIENCE_MS = 4000; /* the question is shown for this time */
     const double now = wall_ms();
     const bool lost = play->model.status.unsaved && !play->model.record;
     if (!lost || (play->asked_ms > 0 && now < play->asked_ms + PATIENCE_MS))
