@@ -20,8 +20,10 @@ UNIFORM_BLOCK(TermBlock, TERM_BLOCK)
     float curvature_least; /* curvature_weight of sim/matter/tension.h: limit without a surface; limit of a
                               full surface */
     float curvature_whole;
-    float curvature_full; /* these four: CurvatureScale */
+    float curvature_crowd_least; /* CROWD_LEAST of sim/matter/tension.h */
+    float curvature_full;        /* from here to curvature_most: CurvatureScale */
     float curvature_few;
+    float curvature_crowd;
     float curvature_offset;
     float curvature_most;
     FluidTerms fluid_terms[FLUIDS_MOST];

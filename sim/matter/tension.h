@@ -31,11 +31,18 @@ typedef struct CurvatureScale {
     float full;   /* 1 over |N| of that layer, 1/m */
     float layers; /* sum of curvature_weight over the lattice's layers */
     float few;    /* sum of (1 - r/h)^3 t^2, t along the surface, below which a curvature is none, m2 */
+    float crowd;  /* 1 over sum (1 - r/h)^3 t^2 at the surface of a fluid in motion, 1/m2 */
     float offset; /* by how much less it is than sum over all directions, m: see curvature_calibrate */
     float most;   /* greatest curvature, 1/m: that of a drop of some spacings */
 } CurvatureScale;
 
 enum { CURVATURE_LEAST = 10, CURVATURE_WHOLE = 40 }; /* percent of |N|: no surface; a surface */
+
+/* The force of a particle is divided by x^(3/8), x the crowd along the surface: sum (1 - r/h)^3 t^2 over the
+   sum at the surface of a fluid in motion. New particles come up into a stretched surface only later. Without
+   the division a stretched surface would pull less than a shrinking one, and the flow would gain energy.
+   Sparser surfaces than the least crowd count as that crowd. */
+#define CROWD_LEAST 0.2F
 
 /* x t^2 (3 - 2 t), t from 0 at x = 0.1 to 1 at 0.4: what is unordered within the fluid is no surface. */
 double curvature_weight(double x);

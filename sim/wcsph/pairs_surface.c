@@ -136,12 +136,19 @@ static f8 wetting(const PairArgs *args, size_t i)
     return f8_load(wet);
 }
 
+/* x^(3/8) of the crowd x along a surface: see CROWD_LEAST in sim/matter/tension.h. */
+SIMD_INLINE f8 crowding(f8 x)
+{
+    const f8 root = f8_sqrt(f8_sqrt(greater(x, f8_splat(CROWD_LEAST))));
+    return root * f8_sqrt(root);
+}
+
 /* The curvature is (d - 1) sum w (n_i - n_j) . x_ij over sum w t^2, where t^2 is the squared length of x_ij
    without its part along (n_i + n_j) / 2: correct for a few particles along a surface and for a full
    neighbourhood. Mirrors alone would give a contact angle of 90 degrees; the wall's pull changes the angle.
-   The force is -sigma times the curvature along the normal, over all layers, reduced by the pressure
-   missing at the surface. A hollow counts as at most a tenth of the greatest curvature, otherwise single
-   particles escape. */
+   The force is -sigma times the curvature along the normal, over all layers, reduced where particles
+   crowd along the surface and by the pressure missing at the surface. A hollow counts as at most a tenth of
+   the greatest curvature, otherwise single particles escape. */
 PAIR_LOOP(wcsph_curvature)
 {
     const Constants *s = args->constants;
@@ -161,11 +168,12 @@ PAIR_LOOP(wcsph_curvature)
         if (images_of(args, &far, i, begin, end, &images))
             pull = wetting(args, i) * bend_by_walls(args, &images, i, n, fi, &sum);
         const f8 along = f8_positive(sum.along); /* entries past a list's end have no weight */
-        const f8 bend =
-            (f8_splat(around) * sum.bend - pull * along) / (along + f8_splat(scale->few) * n.weight + tiny);
+        const f8 whole = along + f8_splat(scale->few) * n.weight + tiny;
+        const f8 bend = (f8_splat(around) * sum.bend - pull * along) / whole;
         const f8 curvature = lesser(greater(bend, f8_splat(-0.1F) * most), most);
-        const f8 force =
-            -f8_load(args->tension + i) * curvature * (f8_splat(1) - f8_splat(scale->offset) * curvature);
+        const f8 crowd = f8_splat(scale->crowd) * whole / greater(n.weight, f8_splat(1e-4F));
+        const f8 force = -f8_load(args->tension + i) * curvature *
+                         (f8_splat(1) - f8_splat(scale->offset) * curvature) / crowding(crowd);
         lanes_add(args->fx, i, begin, end, force * x);
         lanes_add(args->fy, i, begin, end, force * y);
         lanes_add(args->fz, i, begin, end, force * z);

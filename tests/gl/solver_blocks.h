@@ -42,9 +42,10 @@
               STEP(felt_origin), STEP(felt_alpha), STEP(felt_omega), STEP(kick_gravity)),                    \
         BLOCK("sim/term_block.h", TermBlock, TERM(colour_scale), TERM(drag_range), TERM(friction_scale),     \
               TERM(curvature_least), TERM(curvature_whole), TERM(curvature_full), TERM(curvature_few),       \
-              TERM(curvature_offset), TERM(curvature_most), TERM(fluid_terms[0].tension),                    \
-              TERM(fluid_terms[0].wet), TERM(fluid_terms[7].wet), TERM(drag_nodes), TERM(drag_steps),        \
-              TERM(drag_offset), TERM(lid_velocity)),                                                        \
+              TERM(curvature_crowd), TERM(curvature_crowd_least), TERM(curvature_offset),                    \
+              TERM(curvature_most), TERM(fluid_terms[0].tension), TERM(fluid_terms[0].wet),                  \
+              TERM(fluid_terms[7].wet), TERM(drag_nodes), TERM(drag_steps), TERM(drag_offset),               \
+              TERM(lid_velocity)),                                                                           \
         BLOCK("sim/wcsph/wcsph_block.h", WcsphBlock, WCSPH(gradient_scale), WCSPH(diffusion),                \
               WCSPH(radial_friction), WCSPH(shift_speed), WCSPH(density_return), WCSPH(kernel_shape),        \
               WCSPH(corrected_gradient), WCSPH(any_artificial), WCSPH(wcsph_fluids[0].tait),                 \

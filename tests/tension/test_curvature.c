@@ -151,6 +151,48 @@ static void drop_swings(void **state)
     world_destroy(world);
 }
 
+/* The rate at which the heights of a drop's swings fade: of a straight line through their logarithms. */
+static double fading(World *world, const WorldDef *def, double radius, int swings)
+{
+    double before = 1, height = 0, at = 0, time = 0, sum[4] = {0};
+    int count = -1; /* the first is the start's */
+    while (count < swings && time < 2) {
+        fixture_step(world, 10);
+        time += 10 * def->dt;
+        const Shape shape = shape_of(world, def, radius);
+        const double now = sqrt(shape.moment[0]) - sqrt(shape.moment[1]);
+        if (now * before < 0) {
+            const double terms[4] = {at, log(height), at * at, at * log(height)};
+            for (int k = 0; k < 4 && count >= 0; k++)
+                sum[k] += terms[k];
+            count++;
+            height = 0;
+        }
+        if (fabs(now) > height) {
+            height = fabs(now);
+            at = time;
+        }
+        before = now;
+    }
+    assert_int_equal(count, swings);
+    return -(count * sum[3] - sum[0] * sum[1]) / (count * sum[2] - sum[0] * sum[0]);
+}
+
+/* At 2 n (n - 1) nu / R^2, n = 2: Lamb, Hydrodynamics, 355, in the plane. A force that is the same in any
+   crowd of the surface's particles gives half of the energy back. */
+static void a_swing_fades(void **state)
+{
+    (void)state;
+    WorldDef def = drop(2, 0.005, 0.015, 1.1);
+    def.fluids[0].viscosity = 0.0175;
+    World *world = fixture_world(&def);
+    const double area = shape_of(world, &def, 0.005).area, rate = fading(world, &def, 0.005, 8),
+                 right = 4 * def.fluids[0].viscosity / 1000 / (area / M_PI);
+    world_destroy(world);
+    printf("a swing fades at %.2f 1/s, right %.2f, %.1f %%\n", rate, right, 100 * (rate / right - 1));
+    assert_true(fabs(rate / right - 1) < 0.25);
+}
+
 /* The height of a segment's centre of mass over the root of its area, of that angle. */
 static double segment(double angle)
 {
@@ -218,9 +260,9 @@ static void other_methods_refuse_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(pressure_in_a_drop),      cmocka_unit_test(drop_swings),
-        cmocka_unit_test(angle_on_a_floor),        cmocka_unit_test(wholly_wet_and_dry),
-        cmocka_unit_test(other_methods_refuse_it),
+        cmocka_unit_test(pressure_in_a_drop), cmocka_unit_test(drop_swings),
+        cmocka_unit_test(a_swing_fades),      cmocka_unit_test(angle_on_a_floor),
+        cmocka_unit_test(wholly_wet_and_dry), cmocka_unit_test(other_methods_refuse_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,9 +50,11 @@ vec3 curvature_force(uint i, vec3 x, ivec3 at)
     WALK_OWN_FLUID(i, x, at, bend_meet)
     float pull = fluid_terms[bend_fluid].wet * bend_by_walls(x, at, front);
     float along = max(along_sum, 0.0), tiny = 1e-20 * support * support, most = curvature_most;
-    float bend = (float(dimensions - 1) * bend_sum - pull * along) / (along + curvature_few * front.w + tiny);
-    float curvature = clamp(bend, -0.1 * most, most);
-    return -fluid_terms[bend_fluid].tension * curvature * (1.0 - curvature_offset * curvature) * outward[i].xyz;
+    float whole = along + curvature_few * front.w + tiny;
+    float curvature = clamp((float(dimensions - 1) * bend_sum - pull * along) / whole, -0.1 * most, most);
+    float crowd = max(curvature_crowd * whole / max(front.w, 1e-4), curvature_crowd_least);
+    float force = fluid_terms[bend_fluid].tension * curvature * (1.0 - curvature_offset * curvature) / pow(crowd, 0.375);
+    return -force * outward[i].xyz;
 }
 
 // Near a wall no shift goes out through the surface: keep_notches of sim/wcsph/force.c.

@@ -164,7 +164,9 @@ void compute_term_constants(Compute *c)
     terms.curvature_least = CURVATURE_LEAST / 100.0F;
     terms.curvature_whole = CURVATURE_WHOLE / 100.0F;
     terms.curvature_full = s->curvature.full;
+    terms.curvature_crowd_least = CROWD_LEAST;
     terms.curvature_few = s->curvature.few;
+    terms.curvature_crowd = s->curvature.crowd;
     terms.curvature_offset = s->curvature.offset;
     terms.curvature_most = s->curvature.most;
     if (s->no_slip)
