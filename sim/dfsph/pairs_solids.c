@@ -5,9 +5,9 @@
 #include "sim/cpu/pair_shape.h"
 #include "sim/dfsph/passes.h"
 
-/* Sums over boundary particles of F x, and of F v . x with their velocity. */
+/* Sums over boundary particles of F x, of F x x^T, and of F v . x with their velocity. */
 typedef struct Solid {
-    f8 x, y, z, flow;
+    f8 x, y, z, xx, yy, zz, xy, yz, zx, flow;
 } Solid;
 
 SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Separation *d, const Place *sign,
@@ -17,9 +17,10 @@ SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Sep
     const i8 solid = f8_gather(args->own[INVERSE_MASS], j) == zero;
     const f8 f = f8_masked(solid, shape(q, DFSPH_KERNEL));
     const f8x4 v = motion(args, j);
-    sum->x += sign->x * f * d->x;
-    sum->y += sign->y * f * d->y;
-    sum->z += sign->z * f * d->z;
+    const f8 x = sign->x * d->x, y = sign->y * d->y, z = sign->z * d->z, fx = f * x, fy = f * y, fz = f * z;
+    sum->x += fx, sum->y += fy, sum->z += fz;
+    sum->xx += fx * x, sum->yy += fy * y, sum->zz += fz * z;
+    sum->xy += fx * y, sum->yz += fy * z, sum->zx += fz * x;
     sum->flow += f * (v.x * d->x + v.y * d->y + v.z * d->z);
 }
 
@@ -39,16 +40,29 @@ SIMD_INLINE void add_images(const PairArgs *args, const WallsFar *far, size_t i,
     }
 }
 
+/* The mean of F y^2 over directions y along the solid: across sum F x. */
+SIMD_INLINE f8 along(const Solid *sum, float dimensions)
+{
+    const f8 x = sum->x, y = sum->y, z = sum->z, square = x * x + y * y + z * z, two = f8_splat(2),
+             across = x * x * sum->xx + y * y * sum->yy + z * z * sum->zz +
+                      two * (x * y * sum->xy + y * z * sum->yz + z * x * sum->zx),
+             all = sum->xx + sum->yy + sum->zz;
+    return f8_masked(square > f8_splat(0), all - across / greater(square, f8_splat(1e-30f))) *
+           f8_splat(1 / (dimensions - 1));
+}
+
 PAIR_LOOP(dfsph_solids)
 {
     const WallsFar far = out_of_sight(args->constants);
-    const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient), one = f8_splat(1),
-             zero = f8_splat(0);
+    const DfsphBlock *factors = dfsph_constants(args->constants);
+    const f8 gradient = f8_splat(factors->gradient), one = f8_splat(1), zero = f8_splat(0),
+             share = f8_splat(factors->gradient * args->constants->rest_number_density /
+                              factors->pressure_of_term);
     const Place unturned = {one, one, one};
     GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
         const Near near = near_of(args, i);
-        Solid sum = {zero, zero, zero, zero};
+        Solid sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
         NEIGHBOURS (near, j) {
             Separation d = separation(args, at, j);
             if (__builtin_expect(near.coincident, 0))
@@ -60,5 +74,7 @@ PAIR_LOOP(dfsph_solids)
         lanes_store(args->own[SOLID_SLOPE + 1], i, begin, end, gradient * sum.y);
         lanes_store(args->own[SOLID_SLOPE + 2], i, begin, end, gradient * sum.z);
         lanes_store(args->own[SOLID_FLOW], i, begin, end, gradient * sum.flow);
+        lanes_store(args->own[SOLID_SHARE], i, begin, end,
+                    share * along(&sum, (float)args->constants->dimensions));
     }
 }

@@ -80,7 +80,7 @@ const Pass dfsph_state = {
     .shader = "dfsph/factor",
     .reads = "position id fluid kept_term",
     .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass "
-              "solid_slope solid_flow",
+              "solid_slope solid_flow solid_share",
 };
 
 /* --- what is not pressure --- */
@@ -352,15 +352,38 @@ static void density_push(const CpuRange *range)
     go_on(range);
 }
 
-/* What boundary particles push with for themselves. */
+/* SOLID_SHARE that counts. */
+static float share_of(const CpuParticles *p, size_t i)
+{
+    return fminf(p->own[SOLID_SHARE][i], SHARE_MOST);
+}
+
+/* What is left of a vector of particle i along its solid. */
+static void along_solid(const CpuParticles *p, size_t i, float v[3])
+{
+    const float s[3] = {p->own[SOLID_SLOPE][i], p->own[SOLID_SLOPE + 1][i], p->own[SOLID_SLOPE + 2][i]};
+    const float square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2],
+                across = square > 0 ? (s[0] * v[0] + s[1] * v[1] + s[2] * v[2]) / square : 0;
+    for (int k = 0; k < 3; k++)
+        v[k] -= across * s[k];
+}
+
+/* What boundary particles push with for themselves, and along the solid. */
 static void push_solids(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     for (size_t i = range->begin; i < range->end; i++) {
-        const float push = p->pressure_term[i] * p->own[INVERSE_MASS][i];
+        const float push = p->pressure_term[i] * p->own[INVERSE_MASS][i], share = share_of(p, i);
         p->ax[i] += push * p->own[SOLID_SLOPE][i];
         p->ay[i] += push * p->own[SOLID_SLOPE + 1][i];
         p->az[i] += push * p->own[SOLID_SLOPE + 2][i];
+        if (share == 0)
+            continue;
+        float a[3] = {p->ax[i], p->ay[i], p->az[i]};
+        along_solid(p, i, a);
+        p->ax[i] += share / (1 - share) * a[0];
+        p->ay[i] += share / (1 - share) * a[1];
+        p->az[i] += share / (1 - share) * a[2];
     }
 }
 
@@ -422,10 +445,27 @@ static const CpuPass begins[] = {
     {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
     {.loops = {{density_begin}, {density_motion, .solids = true}}},
 };
-/* k for whom b pushes, and for itself. */
+/* k for whom b pushes, and for itself; along the solid b's part of what push_solids has added. */
 static void push_solid(const SolidPair *pair, float force[3])
 {
-    incompressible_push(pair, 2 * pair->cpu->now.own[KEPT][pair->i], force);
+    const CpuParticles *p = &pair->cpu->now;
+    const size_t i = pair->i;
+    const float *const *other = (const float *const *)p->own + OTHER;
+    float a[3] = {p->ax[i] - other[0][i], p->ay[i] - other[1][i], p->az[i] - other[2][i]}, d[3], f[3];
+    incompressible_push(pair, 2 * p->own[KEPT][i], force);
+    if (p->own[SOLID_SHARE][i] <= 0)
+        return;
+    memcpy(d, pair->d, sizeof d);
+    along_solid(p, i, a);
+    along_solid(p, i, d);
+    incompressible_push(pair, 1, f); /* F x_ib */
+    const Constants *s = pair->cpu->constants;
+    const float square = f[0] * d[0] + f[1] * d[1] + f[2] * d[2],
+                part = square / (float)(s->dimensions - 1) * s->rest_number_density /
+                       dfsph_constants(s)->pressure_of_term,
+                weight = part * share_of(p, i) / p->own[SOLID_SHARE][i] / p->own[INVERSE_MASS][i];
+    for (int k = 0; k < 3; k++)
+        force[k] += weight * a[k];
 }
 
 static const CpuPass ends[] = {{.loops = {{divergence_end}}, .solid = push_solid},
@@ -465,8 +505,9 @@ static const CpuPass rates[] = {
 const Pass dfsph_divergence_begin =
     SOLVE("divergence begin", begins[0], "divergence_begin", "position velocity fluid volume other kept_term",
           "pressure_term residual change base");
-const Pass dfsph_divergence_push = SOLVE("divergence push", pushes[0], "divergence_push",
-                                         PUSH_READS " solid_slope", "pressure_term acceleration change");
+const Pass dfsph_divergence_push =
+    SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " solid_slope solid_share",
+          "pressure_term acceleration change");
 const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
                                          RATE_READS " solid_slope solid_flow", "residual miss");
 const Pass dfsph_divergence_end = {
@@ -510,8 +551,9 @@ const ColumnDef dfsph_columns[] = {
     {"change", "Pa", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
     {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
     {"base", "m/s", OWN(BASE), 3, COLUMN_FLOAT},
-    {"solid_slope", "1/m", OWN(SOLID_SLOPE), 3, COLUMN_FLOAT, .needed = with_solids},
+    {"solid_slope", "1/m", OWN(SOLID_SLOPE), 3, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = with_solids},
     {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = with_solids},
+    {"solid_share", "", OWN(SOLID_SHARE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = with_solids},
     {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = many_viscous},
     {0},

@@ -7,7 +7,10 @@
      D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate
    Masses are in D alone: ratios of density are no matter of the sums.
    A boundary particle has k_i for whom it pushes, and the velocity of its solid, mirrored: 2 v_b - v_i. So it
-   counts twice in force, rate and D; what moves places goes by n as it is, where it counts once. */
+   counts twice in force, rate and D; what moves places goes by n as it is, where it counts once.
+   With k_i on both sides no boundary particle pushes i along its solid, and i has only what fluid has of the
+   gradient of pressure there; so that part of its acceleration is taken 1 / (1 - s) times, where s is
+   SOLID_SHARE. */
 #ifndef SLOSH_DFSPH_PASSES_H
 #define SLOSH_DFSPH_PASSES_H
 
@@ -29,6 +32,7 @@ enum {
     OTHER,        /* accelerations but those of the solver at work, m/s2: 3 */
     SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m: 3 */
     SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over them, 1/s */
+    SOLID_SHARE,                  /* their part of sum F y^2 along the solid, of a whole lattice's */
     BASE, /* velocities in the middle of the next step by all but the solver at work, m/s: 3 */
 };
 

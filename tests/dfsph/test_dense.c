@@ -76,10 +76,11 @@ static WorldDef def_of(const Case *c)
 }
 
 /* What the sums are made of, of particles where the solvers see them. push[l][i]: the force on l of k_i = 1;
-   flow: what moving boundary particles add to the rates. */
+   flow: what moving boundary particles add to the rates; slope and squares: sums of F x and of F x x^T over
+   them. */
 typedef struct System {
     int count;
-    double n[MOST], inverse_mass[MOST], flow[MOST];
+    double n[MOST], inverse_mass[MOST], flow[MOST], slope[MOST][3], squares[MOST][3][3];
     double push[MOST][MOST][3];
     double matrix[MOST][MOST], right[MOST];
 } System;
@@ -143,9 +144,34 @@ static void meet_boundary(System *s, const Sums *sums, const double x[3], int i,
         if (!pair(sums, x, other, slope, &height))
             continue;
         s->n[i] += height;
-        for (int k = 0; k < 3; k++)
+        for (int k = 0; k < 3; k++) {
             s->push[i][i][k] += times * slope[k];
+            s->slope[i][k] += slope[k];
+            for (int m = 0; m < 3; m++)
+                s->squares[i][k][m] += slope[k] * (x[m] - other[m]);
+        }
     }
+}
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* What pressure pushes particle l with, which fluid pushes with `push`: along a solid 1 / (1 - share) of it.
+ */
+static void pushed(const System *s, const World *world, int l, const double push[3], double out[3])
+{
+    const double *n = s->slope[l], square = dot(n, n), across = square > 0 ? dot(n, push) / square : 0;
+    const Lattice *lattice = &world->constants.lattice;
+    double along = 0;
+    for (int k = 0; k < 3 && square > 0; k++)
+        along += s->squares[l][k][k] - dot(n, s->squares[l][k]) * n[k] / square;
+    const double share = fmin(along / (world->def.dimensions - 1) * lattice->gradient_scale /
+                                  (lattice->density_scale * lattice->number_density),
+                              (double)SHARE_MOST);
+    for (int k = 0; k < 3; k++)
+        out[k] = push[k] + share / (1 - share) * (push[k] - across * n[k]);
 }
 
 static void assemble(System *s, const World *world, const Cloud *cloud, double x[][3], double times)
@@ -168,10 +194,13 @@ static void assemble(System *s, const World *world, const Cloud *cloud, double x
     }
     for (int i = 0; i < s->count; i++)
         for (int j = 0; j < s->count; j++)
-            for (int l = 0; l < s->count; l++)
-                for (int k = 0; k < 3; k++)
-                    s->matrix[i][j] +=
-                        dt * dt / n0 * s->inverse_mass[l] * s->push[l][i][k] * s->push[l][j][k];
+            for (int l = 0; l < s->count; l++) {
+                double push[3];
+                memcpy(push, s->push[l][j], sizeof push);
+                if (times > 1) /* of velocities */
+                    pushed(s, world, l, s->push[l][j], push);
+                s->matrix[i][j] += dt * dt / n0 * s->inverse_mass[l] * dot(s->push[l][i], push);
+            }
 }
 
 /* -sum push . v: what velocities make of n_i in a step, over n0. */

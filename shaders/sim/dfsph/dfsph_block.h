@@ -22,6 +22,9 @@
 /* How far the solver of density moves a particle in a step, spacings. */
 #define MOVE_MOST 0.2F
 
+/* Of a particle's neighbours along a solid, those of the solid, at most: what is between two solids. */
+#define SHARE_MOST 0.5F
+
 UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
 {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the kernel that sums density, 1/m2 */

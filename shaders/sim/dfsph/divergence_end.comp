@@ -15,9 +15,23 @@ layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; };
 
 uint felt_by;
 
-// k for whom the boundary particle pushes, and for itself.
+layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; };              // accelerations, k
+layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
+#include "sim/dfsph/along.glsl"
+
+// k for whom the boundary particle pushes, and for itself; along the solid: push_solid in sim/dfsph/passes.c.
+vec3 push_solid(uint i, vec3 d, float r2)
+{
+    vec3 slope = gradient * shape(sqrt(r2) * inverse_support) * d, force = 2.0 * own[OWN_kept_term + i] * slope;
+    float share = scratch[SCRATCH_solid_share + i];
+    if (share <= 0.0)
+        return force;
+    float part = dot(slope, along_solid(i, d)) / float(dimensions - 1) * rest_number_density / pressure_of_term;
+    return force + part * share_of(i) / share * fluids[FLUID_OF(i)].mass * along_solid(i, push[i].xyz);
+}
+
 #define FELT_BEGIN
-#define FELT_FORCE(i, term, d, r2) 2.0 * own[OWN_kept_term + i] * gradient * shape(sqrt(r2) * inverse_support) * d
+#define FELT_FORCE(i, term, d, r2) push_solid(i, d, r2)
 #include "sim/felt_solids.glsl"
 #else
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k

@@ -8,9 +8,34 @@ layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; }
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k
 layout(std430, binding = VELOCITIES_BUFFER) writeonly buffer Velocities { vec4 velocity[]; }; // w: volume
 layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };                 // x y z, k
+#ifdef SOLIDS
+#define BOUNDARY_SEEN(force, d) solid_add(force, d);
+void solid_add(vec3 force, vec3 d);
+#endif
 #include "sim/incompressible/sums.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
+
+#ifdef SOLIDS
+// Over boundary particles: sums of F x, of F x x^T.
+vec3 solid_slope = vec3(0);
+mat3 solid_squares = mat3(0);
+
+void solid_add(vec3 force, vec3 d)
+{
+    solid_slope += force;
+    solid_squares += outerProduct(force, d);
+}
+
+// The mean of F y^2 over directions y along the solid: along in sim/dfsph/pairs_solids.c.
+float along()
+{
+    float square = dot(solid_slope, solid_slope), all = solid_squares[0].x + solid_squares[1].y + solid_squares[2].z;
+    if (square == 0.0)
+        return 0.0;
+    return (all - dot(solid_slope, solid_squares * solid_slope) / square) / float(dimensions - 1);
+}
+#endif
 
 void main()
 {
@@ -21,6 +46,10 @@ void main()
     walk_pairs(i, x);
     float mass = fluids[FLUID_OF(i)].mass, n = kernel_scale * heights;
     float d = max(dot(whole, whole) / mass + squares, least_squares / mass);
+#ifdef SOLIDS
+    column_set(SCRATCH_solid_slope, i, solid_slope);
+    scratch[SCRATCH_solid_share + i] = along() * rest_number_density / pressure_of_term;
+#endif
     scratch[SCRATCH_factor + i] = d > 0.0 ? min(1.0, rest_number_density / n) / d : 0.0;
     float volume = 1.0 / n;
     position[i].w = unit_volume * volume;

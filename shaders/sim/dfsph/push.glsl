@@ -12,6 +12,9 @@ layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { v
 #endif
 #include "sim/incompressible/push.glsl"
 #include "sim/dfsph/flown.glsl"
+#if defined DIVERGENCE && defined SOLIDS
+#include "sim/dfsph/along.glsl"
+#endif
 
 // The kick is behind the solver of divergence.
 vec3 accelerated(uint i, vec3 pressed)
@@ -32,6 +35,11 @@ void main()
     own_term = near[i].w;
     walk_pairs(i, x);
     vec3 pressed = gradient * whole / fluids[FLUID_OF(i)].mass;
+#if defined DIVERGENCE && defined SOLIDS
+    float share = share_of(i);
+    if (share > 0.0)
+        pressed += share / (1.0 - share) * along_solid(i, pressed);
+#endif
     push[i] = vec4(pressed, own_term);
     move[i] = vec4(flown(velocity[i].xyz, x, accelerated(i, pressed), dt), velocity[i].w);
 }

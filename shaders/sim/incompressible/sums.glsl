@@ -19,4 +19,13 @@ void pair(uint j, vec3 d, float q, float term)
     part += times * weigh(d, q, inverse_mass);
 }
 
-void boundary_pair(uint j, vec3 d, float q) { part += BOUNDARY_TIMES * weigh(d, q, 0.0); }
+#ifndef BOUNDARY_SEEN // what else a pass does with a boundary particle: F x_ib, x_ib
+#define BOUNDARY_SEEN(force, d)
+#endif
+
+void boundary_pair(uint j, vec3 d, float q)
+{
+    vec3 force = weigh(d, q, 0.0);
+    part += BOUNDARY_TIMES * force;
+    BOUNDARY_SEEN(mirror * force, mirror * d)
+}
