@@ -15,7 +15,8 @@ SIMD_INLINE void add_boundary(const PairArgs *args, const uint32_t *j, const Sep
 {
     const f8 zero = f8_splat(0), q = f8_sqrt(d->r2) * f8_splat(1 / args->constants->support_radius);
     const i8 solid = f8_gather(args->own[INVERSE_MASS], j) == zero;
-    const f8 f = f8_masked(solid, shape(q, DFSPH_KERNEL));
+    const f8 f =
+        f8_masked(solid, f8_splat(dfsph_constants(args->constants)->gradient) * shape(q, DFSPH_KERNEL));
     const f8x4 v = motion(args, j);
     const f8 x = sign->x * d->x, y = sign->y * d->y, z = sign->z * d->z, fx = f * x, fy = f * y, fz = f * z;
     sum->x += fx, sum->y += fy, sum->z += fz;
@@ -54,10 +55,9 @@ SIMD_INLINE f8 along(const Solid *sum, float dimensions)
 PAIR_LOOP(dfsph_solids)
 {
     const WallsFar far = out_of_sight(args->constants);
-    const DfsphBlock *factors = dfsph_constants(args->constants);
-    const f8 gradient = f8_splat(factors->gradient), one = f8_splat(1), zero = f8_splat(0),
-             share = f8_splat(factors->gradient * args->constants->rest_number_density /
-                              factors->pressure_of_term);
+    const f8 one = f8_splat(1), zero = f8_splat(0),
+             share = f8_splat(args->constants->rest_number_density /
+                              dfsph_constants(args->constants)->pressure_of_term);
     const Place unturned = {one, one, one};
     GROUPS (i, begin, end) {
         const Place at = place_of(args, i);
@@ -70,10 +70,10 @@ PAIR_LOOP(dfsph_solids)
             add_boundary(args, j, &d, &unturned, &sum);
         }
         add_images(args, &far, i, begin, end, &sum);
-        lanes_store(args->own[SOLID_SLOPE], i, begin, end, gradient * sum.x);
-        lanes_store(args->own[SOLID_SLOPE + 1], i, begin, end, gradient * sum.y);
-        lanes_store(args->own[SOLID_SLOPE + 2], i, begin, end, gradient * sum.z);
-        lanes_store(args->own[SOLID_FLOW], i, begin, end, gradient * sum.flow);
+        lanes_store(args->own[SOLID_SLOPE], i, begin, end, sum.x);
+        lanes_store(args->own[SOLID_SLOPE + 1], i, begin, end, sum.y);
+        lanes_store(args->own[SOLID_SLOPE + 2], i, begin, end, sum.z);
+        lanes_store(args->own[SOLID_FLOW], i, begin, end, sum.flow);
         lanes_store(args->own[SOLID_SHARE], i, begin, end,
                     share * along(&sum, (float)args->constants->dimensions));
     }
