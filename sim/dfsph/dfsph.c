@@ -3,6 +3,7 @@
 
 #include "sim/base/key_rows.h"
 #include "sim/dfsph/passes.h"
+#include "sim/incompressible/calm.h"
 #include "sim/incompressible/constants.h"
 #include "sim/world/iterate.h"
 
@@ -50,20 +51,8 @@ enum { FEW = 2 };
 static const double WORST = 10;                                                     /* tolerances, */
 static const double WORTH[] = {[SOLVE_DENSITY] = 0.01, [SOLVE_DIVERGENCE] = 0.005}; /* and no less */
 
-/* What a solver leaves of its residual turns up as noise of pressure, rho (h / dt)^2 times it; pressure
-   itself goes from particle to particle by rho h times what accelerates fluid, g or v^2 / h. So short steps
-   of calm fluid take less than what is allowed: a part of the one, no less than what single precision has.
-   What takes less boils less: fluid at rest needs fewer iterations by it. */
-static double calm(const Substep *step, double allowed)
-{
-    static const double PART = 0.2, LEAST = 1e-6;
-    const double h = (double)step->constants->support_radius, dt = step->dt, courant = step->speed * dt / h;
-    const float *g = step->gravity;
-    const double falls = dt * dt / h * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
-    if (falls == 0)
-        return allowed;
-    return fmin(allowed, fmax(PART * fmax(falls, courant * courant), LEAST));
-}
+/* Of what calm fluid may leave (sim/incompressible/calm.h): fluid at rest needs fewer iterations by it. */
+static const double CALM = 0.2;
 
 /* To `tolerance`; more than what is `allowed` is trouble. */
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
@@ -110,7 +99,7 @@ static void end_divergence(const Substep *step)
     static const Pass *const passes[] = {&dfsph_divergence_begin, &dfsph_divergence_push,
                                          &dfsph_divergence_rate, &dfsph_divergence_end};
     const double allowed = dfsph_solvers(step->constants)->divergence_tolerance;
-    solve(step, SOLVE_DIVERGENCE, passes, calm(step, allowed), allowed);
+    solve(step, SOLVE_DIVERGENCE, passes, incompressible_calm(step, step->dt, CALM, allowed), allowed);
 }
 
 /* Moves places to rest density. Velocities have no part in it: given to them, as the papers do, each step's

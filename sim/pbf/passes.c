@@ -294,6 +294,13 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
     p->volume[i] = 1 / p->volume[i];
 }
 
+/* k n^2: sum (k_i + k_j) F x_ij is -grad (k n^2) / n, of n as a step leaves it. */
+static float pressure_of(const Constants *constants, const CpuParticles *p, size_t i)
+{
+    const float ratio = 1 + p->own[COMPRESSED][i];
+    return pbf_constants(constants)->pressure_of_term * ratio * ratio * p->own[TERM][i];
+}
+
 /* A new particle was as dense as a step finds it first. What goes on into the next step changes in steps
    alone: passes run without one (dt = 0) to be timed. */
 static void density_body(const CpuRange *range)
@@ -331,7 +338,7 @@ static void settle_body(const CpuRange *range)
     cpu_pairs(range, &pbf_sums);
     for (size_t i = range->begin; i < range->end; i++) {
         finish_density(range->cpu, i, 0);
-        p->pressure[i] = pbf_constants(range->cpu->constants)->pressure_of_term * p->own[TERM][i];
+        p->pressure[i] = pressure_of(range->cpu->constants, p, i);
         p->ax[i] = p->ay[i] = p->az[i] = 0;
     }
 }
@@ -389,7 +396,6 @@ static void force_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
     const float dt = range->input->dt, *g = range->input->gravity, rate = 1 / dt;
-    const float scale = pbf_constants(range->cpu->constants)->pressure_of_term;
     rub(range);
     cpu_force_end(range);
     for (size_t i = range->begin; i < range->end; i++) {
@@ -399,7 +405,7 @@ static void force_body(const CpuRange *range)
         p->ax[i] += rate * rate * p->own[MOVED][i];
         p->ay[i] += rate * rate * p->own[MOVED + 1][i];
         p->az[i] += rate * rate * p->own[MOVED + 2][i];
-        p->pressure[i] = scale * p->own[TERM][i];
+        p->pressure[i] = pressure_of(range->cpu->constants, p, i);
         p->own[BEFORE][i] = dt > 0 ? p->own[COMPRESSED][i] + 1 : p->own[BEFORE][i];
     }
 }

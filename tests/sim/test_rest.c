@@ -83,6 +83,29 @@ static void a_fall_comes_to_rest(void **state)
     }
 }
 
+/* A column of 13 x 15 particles from wall to wall: its rms speed over sqrt(g H) after so many steps of dt s.
+ */
+static double column_speed(WorldDef *def, double dt, int steps)
+{
+    def->box_size[0] = 13 * def->spacing;
+    def->dt = dt;
+    World *world = fixture_world(def);
+    fixture_step(world, steps);
+    const double speed = rms_speed(world) / sqrt(9.81 * 15 * def->spacing);
+    printf("%s, after %g s: %.4f sqrt(g H)\n", def->method, dt * steps, speed);
+    world_destroy(world);
+    return speed;
+}
+
+/* Steps of pbf do not take turns with more and with fewer iterations. */
+static void a_column_of_pbf_rests(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("long");
+    WorldDef def = dam("pbf", 0);
+    assert_true(column_speed(&def, 1 / 60.0, 1800) < 0.015);
+}
+
 /* Water's viscosity leaves wcsph nearly all of its artificial one; what that stands for leaves nothing. */
 static void artificial_viscosity_fills_up(void **state)
 {
@@ -162,6 +185,7 @@ int main(void)
         cmocka_unit_test(a_fluid_that_names_less_has_that_of_alpha),
         cmocka_unit_test(walls_hold_no_fluid_that_names_none),
         cmocka_unit_test(a_fall_comes_to_rest),
+        cmocka_unit_test(a_column_of_pbf_rests),
         cmocka_unit_test(artificial_viscosity_fills_up),
         cmocka_unit_test(density_comes_back_to_the_places),
         cmocka_unit_test(density_stays_above_zero_and_comes_back),

@@ -26,11 +26,11 @@ void main()
     if (i >= particle_count())
         return;
     vec3 moved = vec3(own[OWN_moved + i], own[OWN_STRIDE + OWN_moved + i], own[2u * OWN_STRIDE + OWN_moved + i]);
-    float k = own[OWN_term + i];
+    float k = own[OWN_term + i], ratio = 1.0 + scratch[SCRATCH_compressed + i];
     acceleration[i] = vec4(other_forces(i) / fluids[FLUID_OF(i)].mass + moved / (dt * dt), 0.0);
     velocity[i] = vec4(velocity[i].xyz - dt * kick_gravity, velocity[i].w);
-    pressure[i] = vec2(pressure_of_term * k, k);
+    pressure[i] = vec2(pressure_of_term * ratio * ratio * k, k);
     if (dt > 0.0)
-        own[OWN_before + i] = scratch[SCRATCH_compressed + i] + 1.0;
+        own[OWN_before + i] = ratio;
 }
 #endif

@@ -14,8 +14,8 @@ void main()
     if (i >= particle_count())
         return;
     walk_pairs(i, position[i].xyz);
-    float volume = 1.0 / (kernel_scale * heights);
+    float n = kernel_scale * heights, ratio = n / rest_number_density, volume = 1.0 / n;
     position[i].w = unit_volume * volume;
     velocity[i].w = volume;
-    pressure[i] = vec2(pressure_of_term * own[OWN_term + i], 0.0);
+    pressure[i] = vec2(pressure_of_term * ratio * ratio * own[OWN_term + i], 0.0);
 }
