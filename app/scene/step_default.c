@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* c over the greatest speed: 7, since c = 10 sqrt(g H) (Monaghan 1994) is 7 times sqrt(2 g H). The usual
    value stays if at least half and at most twice as large. */
@@ -14,9 +15,11 @@ static const double SOUND = 7, SOUND_LEAST = 3.5, SOUND_MOST = 14;
 /* h over the greatest speed, for methods without sound: docs/methods.md. */
 static const double COURANT = 0.2;
 
+/* The first preset holds the defaults: its values follow the scene too. */
 static bool open_to_default(const Tree *tree, const Scene *scene, const char *path)
 {
-    return !tree_at(tree, path) && !preset_gave(scene, path);
+    return !tree_at(tree, path) &&
+           (!preset_gave(scene, path) || strcmp(scene->preset, preset_list[0].name) == 0);
 }
 
 /* Rounds up to two digits. */

@@ -184,8 +184,9 @@ double step_tension(const WorldDef *def)
     double rate = 0; /* sigma / rho */
     for (int f = 0; f < def->fluid_count && def->tension_model != TENSION_NONE; f++)
         rate = fmax(rate, def->fluids[f].surface_tension / def->fluids[f].density);
-    const double a = def->spacing;
-    return rate > 0 ? STEP_TENSION_STANDS * sqrt(a * a * a / (2 * M_PI * rate)) : INFINITY;
+    const double a = def->spacing,
+                 stands = method_find(def->method)->leaps ? STEP_TENSION_LEAPS : STEP_TENSION_STANDS;
+    return rate > 0 ? stands * sqrt(a * a * a / (2 * M_PI * rate)) : INFINITY;
 }
 
 double step_cfl(const WorldDef *def, const StepFriction *friction, double max_speed, double max_acceleration,

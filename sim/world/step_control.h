@@ -128,9 +128,11 @@ double step_pressure(const WorldDef *def);
 /* The longest step to resolve surface tension, s: J. U. Brackbill, D. B. Kothe, C. Zemach, "A continuum
    method for modeling surface tension", 1992, eq. 61, for the fluid with the tightest bound. A wave of two
    spacings is stable up to 1.8 times this step, and a drop with cohesion and without sound up to 1.3 to 2.7
-   times. INFINITY without tension. */
+   times; a third of this step holds with methods that move particles by tension before parting them
+   (docs/failures.md). INFINITY without tension. */
 double step_tension(const WorldDef *def);
 #define STEP_TENSION_STANDS 0.5
+#define STEP_TENSION_LEAPS  (STEP_TENSION_STANDS / 3)
 
 /* Share of step_viscous at which disordered fluid is stable. Measured: 0.8 to 1.1; with carried density in
    3D at supports below 3, stirred hard: 0.6 (docs/failures.md). */

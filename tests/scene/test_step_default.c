@@ -75,7 +75,7 @@ static void what_is_named_stays(void **state)
 }
 
 /* A dam of 0.6 m with cohesion, of so many N/m. */
-static const WorldDef *tense(double tension)
+static const WorldDef *tense(const char *method, double tension)
 {
     char text[512];
     SceneSettings settings = {.count = 0};
@@ -83,8 +83,8 @@ static const WorldDef *tense(double tension)
     snprintf(text, sizeof text,
              "box: {size: [1, 1]}\nparticles: {spacing: 0.03}\n"
              "fluids: [{surface_tension: %g, fill: [{block: {min: [-0.5, 0], max: [0, 0.6]}}]}]\n"
-             "solver: {method: dfsph, surface_tension: cohesion}\n",
-             tension);
+             "solver: {method: %s, surface_tension: cohesion}\n",
+             tension, method);
     if (!scene_parse("scene.yaml", text, strlen(text), &settings, &scene, &notes, &error))
         fail_msg("%s", error.message);
     return &scene.world;
@@ -98,7 +98,11 @@ static void friction_and_speed_bind_too(void **state)
     assert_true(dam(0.01, "method: dfsph")->substeps > 10);
     assert_true(told("which speed stands here") || told("which pressure stands here"));
     assert_int_equal(dam(0.01, "method: pbf")->substeps, 1); /* any step holds */
-    def = tense(7200);
+    def = tense("dfsph", 7200);
+    const double dfsph_limit = step_tension(def);
+    assert_true(def->dt / def->substeps <= dfsph_limit && told("which surface tension stands here"));
+    def = tense("pbf", 7200); /* whose preset's step is a default too */
+    assert_true(step_tension(def) < 0.34 * dfsph_limit);
     assert_true(def->dt / def->substeps <= step_tension(def) && told("which surface tension stands here"));
 }
 
