@@ -17,6 +17,7 @@ static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER; /* the window and the
 /* The only state reachable by a signal handler. */
 static struct {
     volatile sig_atomic_t used;
+    pid_t owner; /* a child that crashes leaves the files of its parent */
     char temp[OUTPUT_TEMP_SIZE];
 } pending[PENDING_MAX];
 
@@ -28,6 +29,7 @@ void output_pending_add(const char *temp)
         i++;
     if (i < PENDING_MAX) {
         snprintf(pending[i].temp, sizeof pending[i].temp, "%s", temp);
+        pending[i].owner = getpid();
         pending[i].used = 1;
     }
     pthread_mutex_unlock(&adding);
@@ -71,6 +73,6 @@ void output_remove_folder(const char *path)
 void output_discard_all(void)
 {
     for (int i = 0; i < PENDING_MAX; i++)
-        if (pending[i].used && unlink(pending[i].temp) != 0)
+        if (pending[i].used && pending[i].owner == getpid() && unlink(pending[i].temp) != 0)
             output_remove_folder(pending[i].temp);
 }

@@ -1,6 +1,7 @@
 #include "app/lab/bench.h"
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
+#include "app/base/output.h"
 #include "app/command/bench_ablate.h"
 #include "app/command/bench_micro.h"
 #include "app/command/bench_plan.h"
@@ -8,6 +9,7 @@
 #include "app/command/cmd.h"
 #include "app/device/devices.h"
 #include "app/device/mapping.h"
+#include "app/lab/chart.h"
 #include "app/meter/report.h"
 #include "app/play/play.h"
 
@@ -184,7 +186,9 @@ static int bench(const Plan *plan, bool wants_context, Error *error)
         return fail(error, EXIT_FAILED);
     }
     const bool can_write = !args->json || json_file_check(args->json, error);
-    bool ok = can_write && (!wants_context || (context = headless_create(args->gpu, error)));
+    bool ok = can_write &&
+              (!args->output || (chart_check(args->output, error) && output_check(args->output, error))) &&
+              (!wants_context || (context = headless_create(args->gpu, error)));
     if (context)
         fprintf(stderr, "renderer: %s\n", headless_renderer(context));
     ok = ok && measure_all(plan, context, results, &tally, error);

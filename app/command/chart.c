@@ -1,3 +1,4 @@
+#include "app/lab/chart.h"
 #include "app/base/interrupt.h"
 #include "app/base/json_file.h"
 #include "app/base/output.h"
@@ -146,8 +147,8 @@ static void write_failure(const ChartPlan *plan, const Runs *runs, const Error *
 static bool check_outputs(const ChartPlan *plan, ChartRows *kept, Error *error)
 {
     const Args *args = plan->args;
-    return output_check(args->output, error) && output_check(plan->csv, error) &&
-           (!args->json || json_file_check(args->json, error)) &&
+    return chart_check(args->output, error) && output_check(args->output, error) &&
+           output_check(plan->csv, error) && (!args->json || json_file_check(args->json, error)) &&
            chart_rows_read(kept, plan->csv, stderr, error);
 }
 

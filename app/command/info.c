@@ -1,3 +1,4 @@
+#include "app/base/driver_trouble.h"
 #include "app/base/json_file.h"
 #include "app/base/path.h"
 #include "app/command/cmd.h"
@@ -17,9 +18,14 @@
 #include "sim/world/step_control.h"
 #include "sim/world/world.h"
 
+#include <errno.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 /* Output as text, and as JSON for --json. */
 typedef struct Info {
@@ -88,11 +94,43 @@ static WorldDef small_def(void)
     return def;
 }
 
+/* In a process of its own, as a driver may crash where memory is short: a context, a small world on each
+ * backend. */
+_Noreturn static void try_driver(const WorldDef *small, int gpu)
+{
+    const struct rlimit no_core = {0, 0};
+    Error none;
+    WorldDef def = *small;
+    setrlimit(RLIMIT_CORE, &no_core);
+    for (int number = SIGHUP; number < SIGSYS; number++)
+        signal(number, SIG_DFL); /* no word of it */
+    Headless *context = headless_create(gpu, &none);
+    for (const Named *backend = world_backends(); context && backend->name; backend++) {
+        snprintf(def.backend, sizeof def.backend, "%s", backend->name);
+        if (world_on_gpu(&def))
+            world_fits(&def, &none);
+    }
+    _exit(0);
+}
+
+static bool driver_holds(const WorldDef *small, int gpu, Error *error)
+{
+    int status = 0;
+    driver_trouble_begin();
+    fflush(NULL);
+    const pid_t child = fork();
+    if (child == 0)
+        try_driver(small, gpu);
+    while (child > 0 && waitpid(child, &status, 0) < 0 && errno == EINTR)
+        continue;
+    return status == 0 || error_set(error, "the OpenGL driver crashes here; memory may be short (ulimit -v)");
+}
+
 static void put_backends(Info *info, const WorldDef *scene, int gpu)
 {
     Error error = {{0}};
     const WorldDef small = small_def();
-    Headless *context = headless_create(gpu, &error);
+    Headless *context = driver_holds(&small, gpu, &error) ? headless_create(gpu, &error) : NULL;
     const char *renderer = context ? headless_renderer(context) : error.message;
     if (!info->quiet)
         printf("renderer\n  %s\n", renderer);

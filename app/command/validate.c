@@ -4,6 +4,7 @@
 #include "app/case/run.h"
 #include "app/command/cmd.h"
 #include "app/lab/case_watch.h"
+#include "app/lab/chart.h"
 #include "app/lab/validate_report.h"
 #include "app/session/headless.h"
 #include "sim/matter/seed.h"
@@ -250,7 +251,7 @@ static int validate(const Plan *plan, bool wants_context, Error *error)
     Outcome *outcomes = calloc((size_t)plan->count + 1, sizeof *outcomes);
     const bool can_write = !args->json || json_file_check(args->json, error);
     bool ok = can_write && ((results && outcomes) || error_set(error, "no memory for the results")) &&
-              (!args->output || make_folder(args->output, error));
+              (!args->output || (chart_check(args->output, error) && make_folder(args->output, error)));
     if (ok && wants_context)
         ok = (context = headless_create(args->gpu, error)) != NULL;
     if (context)

@@ -2,19 +2,23 @@
 
 #include "app/lab/chart.h"
 #include "app/metric/curve.h"
+#include "app/probe/probe_table.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 /* Pixels; points of a curve; names in a panel's key; panels. */
 enum { WIDTH = 900, PANEL_HEIGHT = 280, TITLE_HEIGHT = 40, POINTS = 900, NAMES_MAX = 12, PLOTS_MAX = 6 };
+enum { CURVES_MAX = 200 }; /* a panel: gnuplot takes minutes over thousands */
 
 typedef struct Line {
     char name[96], unit[16];
     Curve curve;
+    bool drawn;
     /* of the rows since the last point: */
     double least[2], most[2]; /* time, value */
     size_t rows;
@@ -39,12 +43,30 @@ bool probe_chart_name(const char *path, Error *error)
                      path);
 }
 
+static bool has_content(const char *path)
+{
+    struct stat is;
+    return stat(path, &is) == 0 && is.st_size > 0;
+}
+
+/* A plot of probes lies beside its table. */
+static bool may_replace(const char *path, const char *table, Error *error)
+{
+    Error none;
+    return !has_content(path) || (has_content(table) && probe_table_check(table, &none)) ||
+           error_set(error,
+                     "%.300s: is there already, and no probes drew it, whose table would be %.300s; name "
+                     "another file",
+                     path, table);
+}
+
 bool probe_chart_check(const char *path, Error *error)
 {
     char table[1024];
     probe_chart_table(path, table);
     return output_check(path, error) &&
-           (is_table(path) || (output_check(table, error) && chart_check(path, error)));
+           (is_table(path) ||
+            (output_check(table, error) && chart_check(path, error) && may_replace(path, table, error)));
 }
 
 void probe_chart_table(const char *path, char table[1024])
@@ -159,10 +181,34 @@ static int panels_of(const Table *table, int first[PLOTS_MAX])
     return panels;
 }
 
+/* Of the curves of a unit the first ones; how many are left out. */
+static int choose_curves(Table *table, const char *unit)
+{
+    int count = 0;
+    for (Line *line = table->line; line < table->line + table->count; line++) {
+        const bool own = strcmp(line->unit, unit) == 0 && line->curve.count > 0;
+        count += own;
+        line->drawn |= own && count <= CURVES_MAX;
+    }
+    return count > CURVES_MAX ? count - CURVES_MAX : 0;
+}
+
+static void choose(Table *table, const int first[PLOTS_MAX], int panels, const char *path)
+{
+    int left_out = 0;
+    for (int p = 0; p < panels; p++)
+        left_out += choose_curves(table, table->line[first[p]].unit);
+    if (left_out > 0)
+        fprintf(stderr, "%s: the first %d curves of a unit are drawn; the table has the %d others\n", path,
+                CURVES_MAX, left_out);
+}
+
 static void put_curves(const Table *table, FILE *gnuplot)
 {
     for (int k = 0; k < table->count; k++) {
         const Curve *curve = &table->line[k].curve;
+        if (!table->line[k].drawn)
+            continue;
         fprintf(gnuplot, "$line%d << EOD\n", k);
         for (size_t i = 0; i < curve->count; i++)
             if (isfinite(curve->at[i][1]))
@@ -191,7 +237,7 @@ static void put_range(const Table *table, const char *unit, FILE *gnuplot)
 {
     double low = INFINITY, high = -INFINITY;
     for (const Line *line = table->line; line < table->line + table->count; line++)
-        for (size_t i = 0; strcmp(line->unit, unit) == 0 && i < line->curve.count; i++) {
+        for (size_t i = 0; line->drawn && strcmp(line->unit, unit) == 0 && i < line->curve.count; i++) {
             low = fmin(low, line->curve.at[i][1]);
             high = fmax(high, line->curve.at[i][1]);
         }
@@ -201,7 +247,7 @@ static void put_range(const Table *table, const char *unit, FILE *gnuplot)
 
 static void plot_panel(const Table *table, const char *unit, FILE *gnuplot)
 {
-    int lines = 0;
+    int lines = 0, more = 0;
     put_range(table, unit, gnuplot);
     fputs("set ylabel ", gnuplot);
     chart_quote(gnuplot, unit);
@@ -209,6 +255,9 @@ static void plot_panel(const Table *table, const char *unit, FILE *gnuplot)
     for (int k = 0; k < table->count; k++) {
         const Line *line = &table->line[k];
         if (strcmp(line->unit, unit) != 0 || line->curve.count == 0)
+            continue;
+        more += lines >= NAMES_MAX || !line->drawn;
+        if (!line->drawn)
             continue;
         fprintf(gnuplot, "%s$line%d with lines lw 1.2 lt %d ", lines ? ", " : "", k, lines + 1);
         lines++;
@@ -219,8 +268,8 @@ static void plot_panel(const Table *table, const char *unit, FILE *gnuplot)
             fputs("notitle", gnuplot);
         }
     }
-    if (lines > NAMES_MAX)
-        fprintf(gnuplot, ", NaN with lines lc '#ffffff' title 'and %d more'", lines - NAMES_MAX);
+    if (more > 0)
+        fprintf(gnuplot, ", NaN with lines lc '#ffffff' title 'and %d more'", more);
     fputc('\n', gnuplot);
 }
 
@@ -230,7 +279,7 @@ static bool tell_nothing(const char *path)
     return true;
 }
 
-static bool draw(const Table *table, const char *path, const char *title, Error *error)
+static bool draw(Table *table, const char *path, const char *title, Error *error)
 {
     Chart chart = {.gnuplot = NULL};
     int first[PLOTS_MAX];
@@ -239,6 +288,7 @@ static bool draw(const Table *table, const char *path, const char *title, Error 
         return tell_nothing(path);
     if (!chart_begin(&chart, path, WIDTH, TITLE_HEIGHT + PANEL_HEIGHT * panels, error))
         return false;
+    choose(table, first, panels, path);
     put_curves(table, chart.gnuplot);
     fprintf(chart.gnuplot,
             "set key outside right top noenhanced samplen 2 font ',9'\nset multiplot layout %d,1 title ",

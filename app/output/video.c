@@ -12,6 +12,7 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -223,9 +224,14 @@ bool video_finish(Video *video, Error *error)
     if (video->pictures == 0) {
         error_set(error, "%s: no picture was made, so there is no video", video->output.path);
     } else {
-        int status = wait_for_end(video);
-        whole =
-            status == 0 ? output_commit(&video->output, error) : fail_with_last_line(video, status, error);
+        const int status = wait_for_end(video);
+        struct stat is;
+        if (status != 0)
+            fail_with_last_line(video, status, error);
+        else if (stat(video->output.temp, &is) != 0 || is.st_size == 0)
+            error_set(error, "%s: ffmpeg has written nothing", video->output.path);
+        else
+            whole = output_commit(&video->output, error);
     }
     video_discard(video);
     return whole;

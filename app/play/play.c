@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE /* on_exit */
 #include "app/play/play.h"
 
+#include "app/base/driver_trouble.h"
 #include "app/base/exit_code.h"
 #include "app/base/interrupt.h"
 #include "app/device/devices.h"
@@ -50,6 +51,7 @@ static bool make_post(Session *session, Error *error)
 static bool make_window(Session *session, Error *error)
 {
     Play *play = &session->play;
+    driver_trouble_begin();
     play->window = window_create("slosh", session->setup->width, session->setup->height, error);
     if (!play->window)
         return false;

@@ -119,7 +119,7 @@ bool stable_recall(const StablePlan *plan, int cell, const StableRows *rows, Sta
 
 /* ---- the processes ---- */
 
-/* Takes cells until none is left. Results go through the pipe; the exit code is unused. */
+/* Takes cells until none is left. Results go through the pipe; the exit code is 0. */
 static void work(const StablePlan *plan, StableRows *rows, int pipe, int *next, int threads)
 {
     Headless *context = NULL;
@@ -258,12 +258,14 @@ static bool end(Crew *crew, bool ok, Error *error)
     for (int i = 0; i < crew->count; i++) {
         int status = 0;
         waitpid(crew->pid[i], &status, 0);
-        died |= ok && WIFSIGNALED(status);
+        died |= ok && status != 0;
         number = died && WIFSIGNALED(status) ? WTERMSIG(status) : number;
     }
     Error none;
     if (!keep(crew, true, ok ? error : &none))
         return false;
+    if (died && number == 0)
+        return error_set(error, "a trial ended early; is memory short?");
     if (died)
         return error_set(error, "a trial was ended by signal %d (%s); is memory short?", number,
                          strsignal(number));

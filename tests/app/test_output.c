@@ -51,6 +51,25 @@ static long dead(void)
     return child;
 }
 
+/* As of a trial of the stability command that a driver ends. */
+static void a_child_that_crashes_leaves_the_files_of_its_parent(void **state)
+{
+    (void)state;
+    Output output = {0};
+    Error error = {{0}};
+    assert_true(output_begin(&output, "p.txt", &error));
+    const pid_t child = fork();
+    if (child == 0) {
+        output_discard_all();
+        _exit(0);
+    }
+    waitpid(child, NULL, 0);
+    assert_int_equal(access(output.temp, F_OK), 0);
+    output_discard_all();
+    assert_int_not_equal(access(output.temp, F_OK), 0);
+    output_discard(&output);
+}
+
 static void what_killed_writers_left_goes_with_the_next_one(void **state)
 {
     (void)state;
@@ -251,6 +270,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(a_new_file_appears_at_the_commit),
         TEST(an_old_file_stays_until_then),
+        TEST(a_child_that_crashes_leaves_the_files_of_its_parent),
         TEST(what_killed_writers_left_goes_with_the_next_one),
         TEST(what_cannot_be_written_is_refused_at_once),
         TEST(a_check_leaves_nothing),

@@ -128,6 +128,17 @@ class Probes(ProbesTest):
             self.assertIn(word, picture)
         self.assertEqual(len(self.rows('a.csv')), 101)
 
+    def test_a_plot_of_many_curves_has_the_first(self):
+        """gnuplot takes minutes over thousands."""
+        self.write('scene.yaml', SCENE + 'probes:\n' + ''.join(
+            f'  - {{name: l{k}, line: {{from: [-0.5, 0.1, {z}], to: [0.5, 0.1, {z}], count: 101}}, fields: [density]}}\n'
+            for k, z in enumerate((-0.2, 0, 0.2))))
+        said = self.go('--probes', 'a.svg', '--time', '0.004')
+        self.assertEqual(said, 'a.svg: the first 200 curves of a unit are drawn; the table has the 103 others\n')
+        picture = self.read('a.svg').decode()
+        self.assertIn('and 291 more', picture)
+        self.go('--probes', 'a.svg')  # it is of probes, and may be replaced
+
     def test_a_file_of_another_s_is_kept(self):
         """A table that no probes wrote is never replaced, the scene's own ones neither; one of probes is."""
         self.write('scene.yaml', (SCENE + PROBES).replace('0.5, 0.5]}\nsolver', '0.5, 0.5]}\n        below: heights.csv\nsolver'))
@@ -143,6 +154,12 @@ class Probes(ProbesTest):
             self.assertIn('other.csv: is there already, and no probes wrote it; name another file', said)
             self.assertEqual(self.read('other.csv').decode(), heights)
         self.assertEqual(self.entries(), ['heights.csv', 'other.csv'])
+        for name in ('own.svg', 'own.png'):
+            self.write(name, 'mine')
+            said = self.go('--probes', name, code=1)
+            self.assertIn(f'{name}: is there already, and no probes drew it, whose table would be own.csv; name another file', said)
+            self.assertEqual(self.read(name), b'mine')
+            os.remove(self.path(name))
         self.write('a.csv', '')
         self.go('--probes', 'a.csv')
         self.assertEqual(len(self.rows('a.csv')), 101)

@@ -103,11 +103,13 @@ class Validate(ValidateTest):
         self.assertEqual(len(keys), len(cases))
 
     def test_what_does_not_depend_on_plots_is_written(self):
-        os.mkdir(self.path('bin'))  # without gnuplot
+        os.mkdir(self.path('bin'))
+        self.write('bin/gnuplot', '#!/bin/sh\nexit 3\n')
+        os.chmod(self.path('bin/gnuplot'), 0o755)
         done = self.run_it('free_fall', '--coarse', '--quiet', '-o', 'plots', '--json', 'out.json',
                            env={**os.environ, 'PATH': self.path('bin')})
         self.assertEqual(done.returncode, 1)
-        self.assertIn('gnuplot, which draws charts, is not installed', done.stderr)
+        self.assertIn('gnuplot could not draw it', done.stderr)
         self.assertEqual(len(self.figures()), 4 * 2)
         self.assertEqual(os.listdir(self.path('plots')), [])
 
