@@ -1,5 +1,7 @@
 #include "app/base/notes.h"
 
+#include "sim/base/error.h"
+
 #include <stdarg.h>
 #include <string.h>
 
@@ -20,6 +22,7 @@ void notes_add(Notes *notes, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    text_tame(line);
     if (notes_have(notes, line))
         return;
     if (notes->count < NOTES_MAX)

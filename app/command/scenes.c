@@ -21,7 +21,10 @@ static void print_list(const SceneList *list)
 {
     for (int i = 0; i < list->count; i++) {
         const SceneRow *row = &list->rows[i];
-        printf("%-13s %s\n", row->name, row->title);
+        char name[sizeof row->name];
+        memcpy(name, row->name, sizeof name);
+        text_tame(name);
+        printf("%-13s %s\n", name, row->title);
         if (*row->idea)
             printf("%-13s %s\n", "", row->idea);
     }

@@ -34,6 +34,7 @@ void scene_idea(const char *text, size_t size, char idea[256])
         used = used < 255 ? used : 255;
     }
     idea[sentence_end(idea, used)] = 0;
+    text_tame(idea); /* of a comment, which YAML does not look at */
 }
 
 static void read_words(SceneRow *row)
@@ -43,6 +44,7 @@ static void read_words(SceneRow *row)
     char *text = scene_file_read(row->path, &size, &none);
     Tree tree = {.path = row->path};
     snprintf(row->title, sizeof row->title, "%s", row->name);
+    text_tame(row->title);
     *row->idea = 0;
     if (!text)
         return;

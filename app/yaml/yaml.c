@@ -124,6 +124,20 @@ static ssize_t text_walk(struct fy_token *token, char *out)
     return failed ? -1 : length;
 }
 
+/* The code of the first control character that is neither a line break nor a tab; -1: there is none. */
+static int control_in(const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++) {
+        const unsigned char c = (unsigned char)text[i],
+                            next = i + 1 < length ? (unsigned char)text[i + 1] : 0;
+        if ((c < ' ' && !strchr("\n\r\t", c ? c : 1)) || c == 0x7f)
+            return c;
+        if (c == 0xc2 && next >= 0x80 && next < 0xa0) /* UTF-8 */
+            return next;
+    }
+    return -1;
+}
+
 static bool text_copy(Reader *reader, const char **out)
 {
     struct fy_token *token = fy_event_get_token(reader->event);
@@ -131,8 +145,14 @@ static bool text_copy(Reader *reader, const char **out)
     char *copy = length >= 0 ? tree_alloc(reader->tree, (size_t)length + 1) : NULL;
     if (!copy || text_walk(token, copy) != length)
         return fail_here(reader, "a text that cannot be read; write it plainly");
-    if (memchr(copy, 0, (size_t)length))
-        return fail_here(reader, "a character with the code 0; write the text without it");
+    const int control = control_in(copy, (size_t)length);
+    if (control >= 0) {
+        char what[96];
+        snprintf(what, sizeof what,
+                 "a character with the code %d, which a terminal would obey; write the text without it",
+                 control);
+        return fail_here(reader, what);
+    }
     *out = copy;
     return true;
 }

@@ -3,6 +3,17 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+void text_tame(char *text)
+{
+    for (unsigned char *c = (unsigned char *)text; *c; c++) {
+        const bool upper = *c == 0xc2 && c[1] >= 0x80 && c[1] < 0xa0; /* U+0080 to U+009F in UTF-8 */
+        if ((*c < ' ' && *c != '\n' && *c != '\t') || *c == 0x7f || upper)
+            *c = '?';
+        if (upper)
+            *++c = '?';
+    }
+}
+
 bool error_set(Error *error, const char *format, ...)
 {
     if (error) {
@@ -10,6 +21,7 @@ bool error_set(Error *error, const char *format, ...)
         va_start(args, format);
         vsnprintf(error->message, sizeof error->message, format, args);
         va_end(args);
+        text_tame(error->message);
     }
     return false;
 }

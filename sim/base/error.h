@@ -13,6 +13,10 @@ typedef struct Error {
    error_set(...)`. error may be NULL: only returns false. */
 bool error_set(Error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* Control characters, which a terminal obeys, become question marks, but for line breaks and tabs. error_set
+   does so: messages quote what files say. */
+void text_tame(char *text);
+
 /* Plural ending of a counted word: "%zu particle%s", count, plural(count). */
 static inline const char *plural(size_t count)
 {

@@ -175,7 +175,7 @@ static void slips_are_named(void **state)
         {"box: {}\n", "1: this is no recording; "},
         {"slosh recording 2\n",
          "1: 'slosh recording 2' stands where 'slosh recording 1', the one format that this slosh reads, must stand"},
-        {"slosh recording 1\r\nprogram 1\r\n", "1: 'slosh recording 1\r' stands where "},
+        {"slosh recording 1\r\nprogram 1\r\n", "1: 'slosh recording 1?' stands where "},
         {"slosh recording 1", "0: the recording was cut before its commands; "},
         {"slosh recording 1\n", "1: the recording was cut before its commands; "},
         {"slosh recording 1\nscene a\n", "2: 'scene a' stands where 'program ...' must stand"},

@@ -24,6 +24,12 @@ class Scenes(CommandTest):
             self.assertTrue(row['idea'].endswith('.') and row['title'] != row['name'], row)
             self.assertTrue(os.path.isabs(row['path']) and os.path.exists(row['path']), row)
 
+    def test_no_text_of_a_file_is_obeyed_by_a_terminal(self):
+        """Names of files and comments, at which YAML does not look."""
+        os.mkdir(self.path('own'))
+        self.write('own/\x1b[2Ja.yaml', '# One \x1b]0;b\x07idea.\n' + SMALL.replace('title: A small tank', ''))
+        self.assertEqual(self.listed('own'), f'{"?[2Ja":13} ?[2Ja\n{"":13} One ?]0;b?idea.\n')
+
     def test_pictures_and_a_page(self):
         os.mkdir(self.path('own'))
         self.write('own/one.yaml', '# One <idea>, over\n# two lines. Another sentence.\n' + SMALL)

@@ -52,6 +52,7 @@ static inline void assert_set_refused(const char *setting, const char *message)
     Error error;
     char expected[512];
     snprintf(expected, sizeof expected, "--set %s: %s", setting, message);
+    text_tame(expected);
     if (parse_set(LEAST, setting, &scene, &error))
         fail_msg("--set %s: accepted", setting);
     if (strncmp(error.message, expected, strlen(expected)) != 0)
