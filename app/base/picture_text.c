@@ -5,9 +5,11 @@
 #include <math.h>
 #include <png.h>
 #include <setjmp.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <zlib.h>
 
 enum { CHUNKS_MAX = 256 };
 
@@ -109,6 +111,10 @@ static bool take(const char *path, const Source *source, png_structp png, png_in
     int count = 0;
     png_get_text(png, info, &texts, &count);
     const png_text *scene = find(texts, count, PICTURE_SCENE);
+    for (const png_text *other = texts; other < scene; other++)
+        if (strcmp(other->key, PICTURE_SCENE) == 0)
+            return error_set(error, "%.300s: the picture carries more than one scene; which one is meant?",
+                             path);
     if (!scene)
         return error_set(error,
                          "%.300s: the picture carries no scene%s%s; pictures of slosh do, unless "
@@ -126,6 +132,30 @@ static bool take(const char *path, const Source *source, png_structp png, png_in
     return true;
 }
 
+static uint32_t big_endian(const unsigned char *at)
+{
+    return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
+}
+
+/* Behind the text, where libpng has stopped: each chunk to the last one has its length and its sum. NULL, or
+   what is wrong. */
+static const char *wrong_behind(const char *bytes, size_t size)
+{
+    enum { SIGNATURE = 8, FRAME = 12 }; /* length, name, sum */
+    for (size_t at = SIGNATURE; size - at >= FRAME;) {
+        const unsigned char *chunk = (const unsigned char *)bytes + at;
+        const uint32_t length = big_endian(chunk);
+        if (length > size - at - FRAME)
+            break;
+        if (crc32(0, chunk + 4, length + 4) != big_endian(chunk + 8 + length))
+            return "a part has a false sum";
+        if (memcmp(chunk + 4, "IEND", 4) == 0)
+            return NULL;
+        at += FRAME + length;
+    }
+    return "the file ends too early";
+}
+
 bool picture_text_parse(const char *path, const char *bytes, size_t size, PictureText *out, Error *error)
 {
     Source source = {.bytes = bytes, .size = size};
@@ -141,6 +171,11 @@ bool picture_text_parse(const char *path, const char *bytes, size_t size, Pictur
         png_set_crc_action(png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
         png_read_info(png, info);
         read = true;
+    }
+    const char *wrong = read ? wrong_behind(bytes, size) : NULL;
+    if (wrong) {
+        snprintf(source.reason, sizeof source.reason, "%s", wrong);
+        read = false;
     }
     const bool ok = read ? take(path, &source, png, info, out, error)
                          : error_set(error, "%.300s: a cut or damaged picture: %s", path,

@@ -28,9 +28,9 @@ bool picture_text_name(const char *path);
 /* True if the bytes begin like a PNG file. */
 bool picture_text_is_png(const char *bytes, size_t size);
 
-/* Parses a file in memory up to its pixels, which are not read; pure. Returns false with "path: ...", and
-   nothing to free, if the file is cut or damaged, has no scene, or a too long text. The text is not checked:
-   check the scene like any scene file. */
+/* Parses a file in memory up to its pixels, of which only lengths and sums are checked; pure. Returns false
+   with "path: ...", and nothing to free, if the file is cut or damaged, has no scene or two, or a too long
+   text. The text is not checked: check the scene like any scene file. */
 bool picture_text_parse(const char *path, const char *bytes, size_t size, PictureText *out, Error *error);
 
 /* Reads and parses a file. */

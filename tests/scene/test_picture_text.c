@@ -1,3 +1,4 @@
+#define _GNU_SOURCE /* memmem */
 /* The scene that a picture carries: what was written comes back, and what was cut or forged is said. */
 #include "app/base/picture_text.h"
 #include "app/output/image.h"
@@ -37,17 +38,35 @@ static void test_there_and_back(void **state)
     assert_string_equal(text.name, "a.yaml");
     assert_true(text.time == 1.25 && text.size == strlen(SCENE));
     free(text.scene);
-    for (size_t cut = 0; cut + 60 < size; cut++) /* what is behind the text is not read */
-        if (picture_text_parse("a.png", bytes, cut, &text, &error))
-            free(text.scene);
-        else
-            assert_true(strncmp(error.message, "a.png: ", 7) == 0 && !text.scene);
-    for (size_t at = 0; at + 60 < size; at++) { /* a bit that has fallen over */
+    for (size_t cut = 0; cut < size; cut++) {
+        assert_false(picture_text_parse("a.png", bytes, cut, &text, &error));
+        assert_true(strncmp(error.message, "a.png: ", 7) == 0 && !text.scene);
+    }
+    for (size_t at = 0; at < size; at++) { /* a bit that has fallen over */
         bytes[at] ^= 4;
-        if (picture_text_parse("a.png", bytes, size, &text, &error))
-            free(text.scene);
+        assert_false(picture_text_parse("a.png", bytes, size, &text, &error));
         bytes[at] ^= 4;
     }
+    free(bytes);
+}
+
+static void test_two_scenes(void **state)
+{
+    (void)state;
+    PictureText text;
+    Error error = {{0}};
+    size_t size;
+    char *bytes = written(&(ImageText){"a: 1\n", "a.yaml", 0}, &size);
+    char *chunk = memmem(bytes, size, "iTXtslosh scene", 15);
+    assert_non_null(chunk);
+    chunk -= 4; /* its length comes first, its sum last */
+    const size_t length = 12 + (size_t)(unsigned char)chunk[3], before = (size_t)(chunk - bytes);
+    char *twice = malloc(size + length);
+    memcpy(twice, bytes, before + length);
+    memcpy(twice + before + length, chunk, size - before);
+    assert_false(picture_text_parse("a.png", twice, size + length, &text, &error));
+    assert_non_null(strstr(error.message, "the picture carries more than one scene"));
+    free(twice);
     free(bytes);
 }
 
@@ -86,6 +105,7 @@ static void test_wrong(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_there_and_back), cmocka_unit_test(test_wrong)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_there_and_back),
+                                       cmocka_unit_test(test_two_scenes), cmocka_unit_test(test_wrong)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
