@@ -37,7 +37,7 @@ bool sweep_set(const char *key, const char *value, const char *option, char said
                SceneSettings *settings, Error *error)
 {
     if (strcmp(key, "particles") == 0) {
-        settings->particles = strtoul(value, NULL, 10);
+        settings->particles = (size_t)strtod(value, NULL); /* 2e3, too: args.c has looked at it */
         return true;
     }
     if (settings->count == SCENE_SETTINGS_MAX)

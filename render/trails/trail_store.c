@@ -21,7 +21,7 @@ enum {
     POINT_BYTES = 4 * sizeof(float)
 };
 
-static const uint32_t NOBODY = UINT32_MAX; /* never a listed id: ids have 31 bits */
+static const uint32_t NOBODY = UINT32_MAX; /* one id of 2^32 looks like NOBODY */
 
 bool trail_store_create(TrailStore *store, const Subject *subject, Error *error)
 {

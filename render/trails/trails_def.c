@@ -46,9 +46,9 @@ int trails_listed(const TrailsDef *def, uint32_t ids[TRAILS_LISTED_MAX])
     while (*at) {
         char *end = NULL;
         const unsigned long long id = *at >= '0' && *at <= '9' ? strtoull(at, &end, 10) : ULLONG_MAX;
-        if (id > INT32_MAX || count == TRAILS_LISTED_MAX || !strchr(" ,", *end))
+        if (id > INT64_MAX || count == TRAILS_LISTED_MAX || !strchr(" ,", *end))
             return -1;
-        ids[count++] = (uint32_t)id;
+        ids[count++] = (uint32_t)id; /* as buffers have them: 32 of 64 bits */
         at = end + strspn(end, " ,");
     }
     return count > 0 ? count : -1;

@@ -3,6 +3,7 @@
 
 #include "app/lab/bench_table.h"
 #include "app/session/args_table.h"
+#include "app/session/sweep.h"
 #include "sim/gl/backends.h"
 
 #include <stdlib.h>
@@ -109,6 +110,20 @@ static void settings_come_in_order(void **state)
     for (int i = 0; i < 6; i++)
         assert_string_equal(args.settings.set[i], expected[i]);
     assert_int_equal(args.settings.particles, 5000);
+}
+
+/* As --particles has them. */
+static void a_swept_number_of_particles(void **state)
+{
+    (void)state;
+    SceneSettings settings = {.count = 0};
+    char said[SWEEP_SAID];
+    accept("bench --sweep particles=2e3,2.5e1,7");
+    static const size_t counts[] = {2000, 25, 7};
+    for (int i = 0; i < 3; i++) {
+        assert_true(sweep_set("particles", args.sweeps[0].values[i], "--sweep", said, &settings, &error));
+        assert_int_equal(settings.particles, counts[i]);
+    }
 }
 
 static void sweeps_are_split(void **state)
@@ -397,6 +412,7 @@ int main(void)
         cmocka_unit_test(defaults),
         cmocka_unit_test(every_option_reaches_its_field),
         cmocka_unit_test(settings_come_in_order),
+        cmocka_unit_test(a_swept_number_of_particles),
         cmocka_unit_test(sweeps_are_split),
         cmocka_unit_test(slips_are_named),
         cmocka_unit_test(numbers_have_ranges),
