@@ -119,8 +119,8 @@ static bool read_solid(const Reader *reader, const char *at, SolidCommand *solid
            reader_fail(
                reader,
                "'%.60s' does nothing to a solid; move, its number, x y z (m) and a quaternion must stand "
-               "here, or put, 0 (a ball), 1 (a box) or 2 and the number of one that it is like, x y z and "
-               "half its size (m), or take and its number",
+               "here, or put, 0 (a ball), 1 (a box) or 2 more than the number of one that it is like, x y z "
+               "and half its size (m), or take and its number",
                line + 1);
 }
 

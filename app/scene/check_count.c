@@ -126,6 +126,23 @@ static bool check_views(const Check *check)
     return check_view(check, "view", &check->scene->view);
 }
 
+/* A formula without a value would leave fluid out in silence. */
+static bool check_heights(const Check *check)
+{
+    const WorldDef *world = &check->scene->world;
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].fill_count; i++) {
+            const Fill *fill = &world->fluids[f].fills[i];
+            char path[64];
+            double at[2];
+            snprintf(path, sizeof path, "fluids[%d].fill[%d].below", f, i);
+            if (formula_given(fill->below) && seed_lacks_height(world, fill, at))
+                return FAIL(check, path, "the height \"%s\" has no value at x %g, z %g m; write one that has",
+                            fill->below, at[0], at[1]);
+        }
+    return true;
+}
+
 bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
 {
     const Check check = {tree, scene, error};
@@ -136,6 +153,8 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
     if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
         return false;
     size_t all = 0, counts[FLUIDS_MAX];
+    if (!check_heights(&check))
+        return false;
     seed_counts(&scene->world, counts);
     for (int f = 0; f < scene->world.fluid_count; f++) {
         char path[64];

@@ -32,7 +32,9 @@ static bool check_floating(const Check *check, const SolidDef *solid, const char
     snprintf(hinge, sizeof hinge, "%s.hinge", path);
     snprintf(axis, sizeof axis, "%s.hinge.axis", path);
     snprintf(at, sizeof at, "%s.hinge.at", path);
-    if (!hinged && (solid->hinge_at[0] != 0 || solid->hinge_at[1] != 0 || solid->hinge_at[2] != 0))
+    const bool offset = solid->hinge_at[0] != 0 || solid->hinge_at[1] != 0 || solid->hinge_at[2] != 0;
+    const Node *node = tree_at(check->tree, hinge);
+    if (!hinged && (offset || (node && !node->first)))
         return FAIL(check, hinge, "the hinge has no direction; write its `axis`, such as [0, 0, 1]");
     if (!solid_floats(solid))
         return !hinged ||

@@ -100,6 +100,9 @@ static bool unknown_key(const Place *place, const Node *child)
         return tree_error_key(place->tree, child, place->error, "unknown key '%.60s'; did you mean '%s'?",
                               child->key, here);
     const char *elsewhere = known_elsewhere(child->key, place->parent);
+    if (elsewhere && strcmp(elsewhere, child->key) == 0)
+        return tree_error_key(place->tree, child, place->error,
+                              "'%.60s' cannot stand here; it is a key of the scene itself", child->key);
     if (elsewhere)
         return tree_error_key(place->tree, child, place->error,
                               "unknown key '%.60s' here; did you mean '%s'?", child->key, elsewhere);

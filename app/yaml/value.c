@@ -32,8 +32,9 @@ static const char *with_unit(const Value *value)
 /* Reports "box.size must be WANTED, not GOT". */
 static bool wrong(const Value *value, const Node *node, const char *wanted)
 {
-    const char *got = node->kind == NODE_MAPPING    ? "a mapping"
-                      : node->kind == NODE_SEQUENCE ? "a list"
+    const bool filled = node->first != NULL;
+    const char *got = node->kind == NODE_MAPPING    ? filled ? "a mapping" : "an empty one"
+                      : node->kind == NODE_SEQUENCE ? filled ? "a list" : "an empty one"
                       : node->text                  ? node->text
                                                     : "empty";
     const char *quote = node->kind == NODE_SCALAR && node->text ? "'" : "";

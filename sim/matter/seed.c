@@ -134,6 +134,37 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     return count;
 }
 
+/* Of a column of points: whether one is in the shape. */
+static bool column_covered(const WorldDef *def, const Fill *shape, const FillAxis axes[3], double x[3])
+{
+    for (long i = axes[1].begin; i < axes[1].end; i++) {
+        x[1] = axes[1].first + (double)i * axes[1].step;
+        if (fill_covers(def, shape, x))
+            return true;
+    }
+    return false;
+}
+
+bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2])
+{
+    Fill shape = *fill;
+    FillAxis axes[3];
+    *shape.below = 0;
+    shape.heights = NULL;
+    fill_lattice(def, fill, axes);
+    for (long k = axes[2].begin; k < axes[2].end; k++)
+        for (long i = axes[0].begin; i < axes[0].end; i++) {
+            double x[3] = {axes[0].first + (double)i * axes[0].step, 0,
+                           axes[2].first + (double)k * axes[2].step},
+                   y;
+            if (!fill_ends(fill, x[0], x[2], &y) || isfinite(y) || !column_covered(def, &shape, axes, x))
+                continue;
+            at[0] = x[0], at[1] = x[2];
+            return true;
+        }
+    return false;
+}
+
 static void stand_make(const WorldDef *def, Stand *stand)
 {
     stand->def = def;

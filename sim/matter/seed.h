@@ -18,6 +18,10 @@ size_t seed_count(const WorldDef *def, double spacing);
 /* How many of them each fluid has. */
 void seed_counts(const WorldDef *def, size_t counts[FLUIDS_MAX]);
 
+/* Whether a height by formula has no value over a point of that fill, which is then put into `at` (x, z, m).
+ */
+bool seed_lacks_height(const WorldDef *def, const Fill *fill, double at[2]);
+
 /* Moves each of `count` points by up to WorldDef.jitter spacings along each axis, the same way in each run;
    walls are no bounds to it. */
 void seed_jitter(const WorldDef *def, float *position, size_t count);

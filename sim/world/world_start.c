@@ -121,6 +121,21 @@ static void add_table(const Seeds *seeds, size_t count, int fluid, int axis, con
     }
 }
 
+/* Formulas and tables must keep the range of the key `velocity` as well. */
+static bool check_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
+{
+    static const float FASTEST = 1000;
+    for (size_t i = 0; i < 3 * count; i++) {
+        const float *x = seeds->position + i / 3 * 3;
+        if (!(fabsf(seeds->velocity[i]) <= FASTEST))
+            return error_set(error,
+                             "the fluid '%s' begins with %g m/s at %g %g %g; at most %g along an axis can be",
+                             def->fluids[seeds->fluid[i / 3]].name, (double)seeds->velocity[i], (double)x[0],
+                             (double)x[1], (double)x[2], (double)FASTEST);
+    }
+    return true;
+}
+
 /* Adds velocities by formula and by table. */
 static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Error *error)
 {
@@ -134,7 +149,7 @@ static bool add_flow(const WorldDef *def, const Seeds *seeds, size_t count, Erro
                 add_table(seeds, count, f, k, fluid->flow_table);
         }
     }
-    return ok;
+    return ok && check_flow(def, seeds, count, error);
 }
 
 /* Adds vortices, and for methods that carry density the balancing pressure: p = c^2 (rho - rho0). */

@@ -198,6 +198,11 @@ static void what_cannot_float_is_refused(void **state)
                    "scene.yaml:9:12: nothing turns a solid without a density; write `density`, in kg/m3");
     assert_refused(LEAST BALL "    density: 300\n    hinge: {at: [0, 0.6, 0]}\n",
                    "scene.yaml:10:12: the hinge has no direction; write its `axis`, such as [0, 0, 1]");
+    assert_refused(LEAST BALL "    density: 300\n    hinge: {}\n",
+                   "scene.yaml:10:12: the hinge has no direction; write its `axis`, such as [0, 0, 1]");
+    static Scene whole; /* as snapshots have all keys */
+    Error error;
+    assert_true(parse_text(LEAST BALL "    hinge: {at: [0, 0, 0], axis: [0, 0, 0]}\n", NULL, &whole, &error));
     assert_refused(LEAST BALL "    density: -1\n",
                    "scene.yaml:9:14: solids[0].density must be 0 to 1e+06 kg/m3, not -1");
 #undef BALL
@@ -351,6 +356,49 @@ static void fluid_must_lie_in_the_box(void **state)
                    "scene.yaml:7:46: the block's min is not below its max in y (0.5 and 0.5 m)");
 }
 
+#define BELOW(formula)                                                                                       \
+    LEAST "      - {block: {min: [0, 0.6, 0], max: [0.5, 0.9, 0.5]}, below: \"" formula "\"}\n"
+
+/* It would leave fluid out. */
+static void a_height_without_a_value_is_refused(void **state)
+{
+    (void)state;
+    Error error;
+    static Scene scene;
+    assert_refused(BELOW("0.8 + 0*log(x - 0.3)"),
+                   "scene.yaml:7:66: the height \"0.8 + 0*log(x - 0.3)\" has no value at x 0.05, z 0.05 m");
+    assert_true(parse_text(BELOW("0.8 + 0*log(x)"), NULL, &scene, &error));
+}
+
+static void control_characters_are_refused(void **state)
+{
+    (void)state;
+    static const char *const titles[] = {"\\e[2J", "\\a", "\\x7f", "a\\x9b", "\\0"};
+    static const int codes[] = {27, 7, 127, 155, 0};
+    for (size_t i = 0; i < sizeof titles / sizeof *titles; i++) {
+        char text[512], message[160];
+        snprintf(text, sizeof text, "title: \"%s\"\n%s", titles[i], LEAST);
+        snprintf(
+            message, sizeof message,
+            "scene.yaml:1:8: a character with the code %d, which a terminal would obey; write the text without it",
+            codes[i]);
+        assert_refused(text, message);
+    }
+    Error error = {{0}};
+    error_set(&error, "\x1b]0;a\a \xc2\x9b \xc3\xa9\t\n\x7f");
+    assert_string_equal(error.message, "?]0;a? ?? \xc3\xa9\t\n?");
+}
+
+static void words_ask_for_something_else(void **state)
+{
+    (void)state;
+    assert_refused(LEAST "views: [{views: [{}]}]\n",
+                   "scene.yaml:7:10: 'views' cannot stand here; it is a key of the scene itself");
+    assert_refused(
+        LEAST "views: [{}, {set: {}}]\n",
+        "scene.yaml:7:19: views[1].set must be a mapping of settings, such as {solver.step.dt: 0.001}, not an empty one");
+}
+
 static void values_must_fit_each_other(void **state)
 {
     (void)state;
@@ -486,6 +534,9 @@ int main(void)
         cmocka_unit_test(a_viscosity_may_be_a_table),
         cmocka_unit_test(tables_must_make_sense),
         cmocka_unit_test(fluid_must_lie_in_the_box),
+        cmocka_unit_test(a_height_without_a_value_is_refused),
+        cmocka_unit_test(control_characters_are_refused),
+        cmocka_unit_test(words_ask_for_something_else),
         cmocka_unit_test(values_must_fit_each_other),
         cmocka_unit_test(solids_must_make_sense),
         cmocka_unit_test(emitters_and_drains_must_make_sense),

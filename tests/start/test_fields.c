@@ -30,6 +30,9 @@ static void velocities_by_formula(void **state)
     Error error = {{0}};
     assert_null(world_create(&def, &error));
     assert_non_null(strstr(error.message, "has no value"));
+    strcpy(def.fluids[0].flow[0], "1e30 * x");
+    assert_null(world_create(&def, &error));
+    assert_non_null(strstr(error.message, "at most 1000 along an axis can be"));
 }
 
 /* The same slope and shear by table as by formula: the same bits. */
