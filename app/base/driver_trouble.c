@@ -36,7 +36,7 @@ static void on_crash(int number, siginfo_t *info, void *context)
         "the disk that has its cache\n";
     (void)info;
     if (in_own_code(context)) {
-        signal(number, SIG_DFL); /* and again, for who looks for the fault */
+        signal(number, SIG_DFL); /* the same crash again, for a debugger */
         return;
     }
     if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
@@ -45,11 +45,11 @@ static void on_crash(int number, siginfo_t *info, void *context)
     _exit(EXIT_FAILED);
 }
 
-/* A sanitizer has handlers of its own. */
+/* Handlers of a sanitizer stay. */
 static void catch_crashes(void)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGABRT};
-    static char room[1 << 16]; /* a stack may be what is full */
+    static char room[1 << 16]; /* the stack may be full */
     const stack_t stack = {.ss_sp = room, .ss_size = sizeof room};
     struct sigaction catch = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO | SA_ONSTACK};
     sigemptyset(&catch.sa_mask);
@@ -61,7 +61,7 @@ static void catch_crashes(void)
     }
 }
 
-/* As Mesa looks for it. */
+/* As Mesa finds the folder. */
 static bool find_cache(char path[1024])
 {
     const char *own = getenv("MESA_SHADER_CACHE_DIR"), *cache = getenv("XDG_CACHE_HOME"),
@@ -70,7 +70,7 @@ static bool find_cache(char path[1024])
     return folder && snprintf(path, 1024, "%s%s", folder, own || cache ? "" : "/.cache") < 1024;
 }
 
-/* Of the folder, or of the nearest one above that is there. */
+/* Room of the folder, or of the nearest existing one above. */
 static bool has_room(char *path)
 {
     struct statvfs disk;

@@ -1,10 +1,10 @@
-/* What an OpenGL driver does where memory or a disk is short: Mesa ends the program by a signal. */
+/* Crashes of an OpenGL driver where memory or a disk is short: Mesa ends the program by a signal. */
 #ifndef SLOSH_DRIVER_TROUBLE_H
 #define SLOSH_DRIVER_TROUBLE_H
 
-/* Before a context is made. From now on a crash outside of slosh's own code is said in a line, removes what
-   is half-written and ends the program with 1. Where Mesa's cache of shaders has no room it is turned off,
-   with a word: Mesa maps its file without looking. */
+/* Call before a context is made. From then on a crash outside of slosh's code prints a line, removes
+   half-written outputs and ends the program with 1. Turns Mesa's cache of shaders off, and says so, if its
+   folder has no room: Mesa maps a file there without looking. */
 void driver_trouble_begin(void);
 
 #endif

@@ -137,8 +137,8 @@ static uint32_t big_endian(const unsigned char *at)
     return (uint32_t)at[0] << 24 | (uint32_t)at[1] << 16 | (uint32_t)at[2] << 8 | at[3];
 }
 
-/* Behind the text, where libpng has stopped: each chunk to the last one has its length and its sum. NULL, or
-   what is wrong. */
+/* Checks length and sum of each chunk, also behind the text, where libpng stops. Returns NULL, or the fault.
+ */
 static const char *wrong_behind(const char *bytes, size_t size)
 {
     enum { SIGNATURE = 8, FRAME = 12 }; /* length, name, sum */

@@ -103,7 +103,7 @@ _Noreturn static void try_driver(const WorldDef *small, int gpu)
     WorldDef def = *small;
     setrlimit(RLIMIT_CORE, &no_core);
     for (int number = SIGHUP; number < SIGSYS; number++)
-        signal(number, SIG_DFL); /* no word of it */
+        signal(number, SIG_DFL); /* silent */
     Headless *context = headless_create(gpu, &none);
     for (const Named *backend = world_backends(); context && backend->name; backend++) {
         snprintf(def.backend, sizeof def.backend, "%s", backend->name);

@@ -49,7 +49,7 @@ static bool has_content(const char *path)
     return stat(path, &is) == 0 && is.st_size > 0;
 }
 
-/* A plot of probes lies beside its table. */
+/* A plot of probes lies beside a table of probes. */
 static bool may_replace(const char *path, const char *table, Error *error)
 {
     Error none;
@@ -181,7 +181,7 @@ static int panels_of(const Table *table, int first[PLOTS_MAX])
     return panels;
 }
 
-/* Of the curves of a unit the first ones; how many are left out. */
+/* Chooses the first curves of a unit. Returns how many are left out. */
 static int choose_curves(Table *table, const char *unit)
 {
     int count = 0;
