@@ -20,21 +20,46 @@ typedef struct Reader {
     Notes *notes;
 } Reader;
 
-/* Reports repaired faults and faults beyond repair. */
-static void say_state(const Reader *reader, const char *key, const char *file, const MeshState *state)
+/* Parts that overlap, and by how much of what they enclose one by one. */
+static void say_overlap(const Reader *reader, const char *key, const char *file, const MeshShape *shape,
+                        const MeshState *state)
+{
+    const double twice = shape->excess.volume / (shape->volume + shape->excess.volume);
+    char weighs[80] = "", cuts[80] = "its parts overlap";
+    if (twice >= 1e-4)
+        snprintf(weighs, sizeof weighs, ", and %.2g %% of it, which several enclose, weighs once",
+                 100 * twice);
+    else if (state->cutting == 0)
+        return;
+    if (state->cutting > 0)
+        snprintf(cuts, sizeof cuts, "the mesh cuts itself, at %s%zu pair%s of triangles",
+                 state->all_looked_at ? "" : "at least ", state->cutting, plural(state->cutting));
+    advise(reader->check.tree, key, reader->notes, "%.90s: %s; what any part encloses is solid%s", file, cuts,
+           weighs);
+}
+
+/* What was mended, or cannot be. */
+static void say_state(const Reader *reader, const char *key, const char *file, const MeshShape *shape,
+                      const MeshState *state)
 {
     const TrianglesState *triangles = &state->triangles;
     if (triangles->inside_out)
         advise(reader->check.tree, key, reader->notes, "%.90s: the mesh is inside out; its faces are turned",
                file);
+    if (triangles->turned > 0)
+        advise(reader->check.tree, key, reader->notes,
+               "%.90s: %zu of its parts %s inside out; %s faces are turned", file, triangles->turned,
+               triangles->turned == 1 ? "is" : "are", triangles->turned == 1 ? "its" : "their");
     if (triangles->flat > 0)
         advise(reader->check.tree, key, reader->notes,
                "%.90s: %zu of its triangles ha%s no area and are left out", file, triangles->flat,
                triangles->flat == 1 ? "s" : "ve");
-    if (state->cutting > 0)
+    if (triangles->doubled > 0)
         advise(reader->check.tree, key, reader->notes,
-               "%.90s: the mesh cuts itself, at %s%zu pair%s of triangles; what any part encloses is solid",
-               file, state->all_looked_at ? "" : "at least ", state->cutting, plural(state->cutting));
+               "%.90s: %zu of its triangles lie%s on another one with the same corners and %s left out", file,
+               triangles->doubled, triangles->doubled == 1 ? "s" : "",
+               triangles->doubled == 1 ? "is" : "are");
+    say_overlap(reader, key, file, shape, state);
 }
 
 static bool find(const Reader *reader, const char *file, char path[1200], Error *why)
@@ -59,7 +84,7 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
     if (!reader->notes)
         return true;
     if (mesh->shape)
-        say_state(reader, key, mesh->file, &state);
+        say_state(reader, key, mesh->file, mesh->shape, &state);
     else
         notes_add(reader->notes, "%.90s: %.300s; it is not drawn", mesh->file, why.message);
     return true;

@@ -5,11 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Integrals over the volume, of density 1: 1, x, and x x about the origin. */
-typedef struct Moments {
-    double volume, first[3], second[3][3];
-} Moments;
-
 static void moments_of_ball(Moments *m, double r, bool flat)
 {
     m->volume = flat ? M_PI * r * r : 4 * M_PI / 3 * pow(r, 3);
@@ -59,6 +54,17 @@ static void add_tetrahedron(Moments *m, const double a[3], const double b[3], co
     }
 }
 
+/* What parts of a mesh that overlap have more than once. */
+static void take_excess(Moments *m, const Moments *excess, double scale)
+{
+    m->volume -= pow(scale, 3) * excess->volume;
+    for (int i = 0; i < 3; i++) {
+        m->first[i] -= pow(scale, 4) * excess->first[i];
+        for (int j = 0; j < 3; j++)
+            m->second[i][j] -= pow(scale, 5) * excess->second[i][j];
+    }
+}
+
 static void moments_of_mesh(Moments *m, const MeshUse *mesh)
 {
     const Triangles *all = &mesh->shape->triangles;
@@ -69,6 +75,7 @@ static void moments_of_mesh(Moments *m, const MeshUse *mesh)
                 corner[v][k] = mesh->scale * (double)all->vertex[all->triangle[t][v]][k];
         add_tetrahedron(m, corner[0], corner[1], corner[2]);
     }
+    take_excess(m, &mesh->shape->excess, mesh->scale);
 }
 
 static void moments_of(const SolidDef *solid, bool flat, Moments *m)

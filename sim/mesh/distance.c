@@ -2,6 +2,7 @@
 
 #include "sim/base/bins.h"
 #include "sim/base/parallel.h"
+#include "sim/mesh/crossing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -168,38 +169,6 @@ static void fine_range(void *context, size_t begin, size_t end)
 
 /* ---- the sign ---- */
 
-/* Which side of the line from a to b, in y and z, the point p is on: the same number for both triangles of an
-   edge but for its sign. What is on the line is taken for moved aside a little in y, and less in z. */
-static double side_of(const float a[3], const float b[3], const double p[3])
-{
-    const double ay = a[1] - p[1], az = a[2] - p[2], by = b[1] - p[1], bz = b[2] - p[2];
-    const double twice = ay * bz - az * by;
-    if (twice != 0)
-        return twice;
-    const double y = (double)a[2] - b[2], z = (double)b[1] - a[1];
-    return y != 0 ? copysign(1e-300, y) : z != 0 ? copysign(1e-300, z) : 0;
-}
-
-static double ordered_side(const Triangles *of, uint32_t a, uint32_t b, const double p[3])
-{
-    return a < b ? side_of(of->vertex[a], of->vertex[b], p) : -side_of(of->vertex[b], of->vertex[a], p);
-}
-
-/* Where the line along x through p meets the triangle: 1 where it comes out there, -1 where it goes in, 0: it
-   does not meet it. */
-static int crossing(const Triangles *of, size_t t, const double p[3], double *x)
-{
-    const uint32_t *c = of->triangle[t];
-    const double s[3] = {ordered_side(of, c[1], c[2], p), ordered_side(of, c[2], c[0], p),
-                         ordered_side(of, c[0], c[1], p)};
-    const bool in = s[0] > 0 && s[1] > 0 && s[2] > 0, out = s[0] < 0 && s[1] < 0 && s[2] < 0;
-    if (!in && !out)
-        return 0;
-    const double sum = s[0] + s[1] + s[2];
-    *x = (s[0] * of->vertex[c[0]][0] + s[1] * of->vertex[c[1]][0] + s[2] * of->vertex[c[2]][0]) / sum;
-    return in ? 1 : -1;
-}
-
 static void span_of(const DistanceGrid *grid, const Triangles *of, size_t t, int axis, int *begin, int *end)
 {
     double low = INFINITY, high = -INFINITY;
@@ -229,7 +198,7 @@ static void cross_layer(const Work *work, size_t t, int k)
     for (int j = begin; j < end; j++) {
         double p[3], x = 0;
         place_of(grid, 0, j, k, p);
-        const int way = crossing(work->tree->of, t, p, &x);
+        const int way = triangle_crossing(work->tree->of, t, p, &x);
         const double at = floor((x - grid->low[0]) / grid->cell) + 1;
         if (way != 0 && at >= 0 && at < grid->size[0])
             work->winding[index_of(grid, (int)at, j, k)] -= (int16_t)way;
@@ -240,6 +209,7 @@ static void sign_range(void *context, size_t begin, size_t end)
 {
     const Work *work = context;
     const DistanceGrid *grid = work->grid;
+    bool overlaps = false;
     for (size_t k = begin; k < end; k++) {
         for (size_t m = work->bins->begin[k]; m < work->bins->begin[k + 1]; m++)
             cross_layer(work, work->bins->member[m], (int)k);
@@ -249,8 +219,88 @@ static void sign_range(void *context, size_t begin, size_t end)
                 winding += work->winding[at];
                 if (winding != 0)
                     grid->value[at] = -grid->value[at];
+                overlaps |= winding < 0 || winding > 1;
             }
     }
+    if (!overlaps)
+        return;
+    parallel_lock();
+    work->grid->overlaps = true;
+    parallel_unlock();
+}
+
+/* ---- within parts that overlap ---- */
+
+/* The distance inside that those of three neighbours, least first, give by |grad d| = 1: Zhao, "A fast
+   sweeping method for Eikonal equations", 2005, (2.4). */
+static double by_neighbours(const double a[3], double cell)
+{
+    double d = a[0] + cell;
+    if (d <= a[1])
+        return d;
+    d = 0.5 * (a[0] + a[1] + sqrt(2 * cell * cell - (a[0] - a[1]) * (a[0] - a[1])));
+    if (d <= a[2])
+        return d;
+    const double sum = a[0] + a[1] + a[2], squares = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+    return (sum + sqrt(fmax(0, sum * sum - 3 * (squares - cell * cell)))) / 3;
+}
+
+static void order(double *low, double *high)
+{
+    const double l = fmin(*low, *high), h = fmax(*low, *high);
+    *low = l, *high = h;
+}
+
+/* What lies outside counts as 0 deep. A plane at the end of the grid is outside. */
+static void deepen(const DistanceGrid *grid, float *deep, const int at[3])
+{
+    const size_t step[3] = {1, (size_t)grid->size[0], (size_t)grid->size[0] * (size_t)grid->size[1]},
+                 here = index_of(grid, at[0], at[1], at[2]);
+    double a[3];
+    for (int k = 0; k < 3; k++)
+        a[k] = fminf(deep[here - step[k]], deep[here + step[k]]);
+    order(&a[0], &a[1]);
+    order(&a[1], &a[2]);
+    order(&a[0], &a[1]);
+    deep[here] = fminf(deep[here], (float)by_neighbours(a, grid->cell));
+}
+
+/* All inner nodes, each axis upwards or downwards. */
+static void sweep(const DistanceGrid *grid, float *deep, int way)
+{
+    const int *size = grid->size;
+    for (int k = 1; k < size[2] - 1; k++)
+        for (int j = 1; j < size[1] - 1; j++)
+            for (int i = 1; i < size[0] - 1; i++) {
+                const int at[3] = {way & 1 ? size[0] - 1 - i : i, way & 2 ? size[1] - 1 - j : j,
+                                   way & 4 ? size[2] - 1 - k : k};
+                if (grid->value[index_of(grid, at[0], at[1], at[2])] < 0)
+                    deepen(grid, deep, at);
+            }
+}
+
+/* The surface of a part within another one is no surface: where it was the nearest, the distance is counted
+   from nodes next to the surface of the whole. */
+static bool leave_inner_surfaces(DistanceGrid *grid)
+{
+    const size_t count = distance_count(grid);
+    float *deep = malloc(count * sizeof *deep);
+    if (!deep)
+        return false;
+    const size_t step[3] = {1, (size_t)grid->size[0], (size_t)grid->size[0] * (size_t)grid->size[1]};
+    for (size_t i = 0; i < count; i++) {
+        bool border = false;
+        for (int k = 0; k < 3 && grid->value[i] < 0; k++)
+            border |= grid->value[i - step[k]] >= 0 || grid->value[i + step[k]] >= 0;
+        deep[i] = grid->value[i] >= 0 ? 0 : border ? -grid->value[i] : INFINITY;
+    }
+    for (int way = 0; way < 16; way++)
+        sweep(grid, deep, way & 7);
+    for (size_t i = 0; i < count; i++)
+        if (grid->value[i] < 0 && deep[i] > 0.5F * (float)grid->cell - grid->value[i])
+            grid->value[i] = -deep[i];
+    free(deep);
+    return true;
 }
 
 bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads)
@@ -262,7 +312,7 @@ bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads)
     Work work = {.grid = grid, .tree = tree, .bins = &bins};
     grid->value = malloc(distance_count(grid) * sizeof *grid->value);
     work.winding = calloc(distance_count(grid), sizeof *work.winding);
-    const bool ok =
+    bool ok =
         grid->value && work.winding && bins_fill(&bins, layers, tree->of->triangle_count, layers_of, &work);
     for (size_t i = 0; ok && i < distance_count(grid); i++)
         grid->value[i] = (float)(ROOM * grid->cell); /* the last planes, which are no block's */
@@ -270,9 +320,10 @@ bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads)
         parallel_ranges(threads, rows * ((layers - 1) / COARSE + 1), 8, coarse_range, &work);
         parallel_ranges(threads, (layers - 1) / COARSE, 1, fine_range, &work);
         parallel_ranges(threads, layers, 4, sign_range, &work);
-    } else {
-        distance_free(grid);
+        ok = !grid->overlaps || leave_inner_surfaces(grid);
     }
+    if (!ok)
+        distance_free(grid);
     free(work.winding);
     bins_free(&bins);
     return ok;

@@ -3,18 +3,38 @@
 #include "sim/base/hash.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 enum { CUTS_COUNTED = 1000, PAIRS_MOST = 20000000 };
 
+static bool refuse_open(const TrianglesState *state, Error *error)
+{
+    char more[80] = "";
+    if (state->crowded > 0)
+        snprintf(more, sizeof more, " and %zu ha%s one too many", state->crowded,
+                 state->crowded == 1 ? "s" : "ve");
+    if (state->gap > 0)
+        return error_set(
+            error,
+            "the mesh is open: %zu edge%s lack%s a triangle%s, since vertices that should be one "
+            "are up to %.0g of its length apart; join them in a modeller (merge by distance)",
+            state->open, plural(state->open), state->open == 1 ? "s" : "", more, state->gap);
+    return error_set(error,
+                     "the mesh is open: %zu edge%s lack%s a triangle%s; a solid is a closed surface, so %s",
+                     state->open, plural(state->open), state->open == 1 ? "s" : "", more,
+                     state->crowded > 0 ? "close its holes and take out faces within it" : "close its holes");
+}
+
 static bool check(const Triangles *triangles, const TrianglesState *state, Error *error)
 {
     if (state->open > 0)
-        return error_set(
-            error,
-            "the mesh is open: %zu edge%s lack%s a triangle; a solid is a closed surface, so close its "
-            "holes",
-            state->open, plural(state->open), state->open == 1 ? "s" : "");
+        return refuse_open(state, error);
+    if (state->crowded > 0)
+        return error_set(error,
+                         "%zu edge%s of the mesh ha%s one triangle too many; a solid is a closed surface, so "
+                         "take out faces within it",
+                         state->crowded, plural(state->crowded), state->crowded == 1 ? "s" : "ve");
     if (state->opposed > 0)
         return error_set(
             error, "at %zu of its edges triangles turn opposite ways; turn all faces of the mesh outwards",
@@ -27,7 +47,7 @@ static void measure(MeshShape *shape)
     const Triangles *of = &shape->triangles;
     double low[3];
     triangles_bounds(of, low, shape->half);
-    shape->volume = triangles_volume(of);
+    shape->volume = triangles_volume(of) - shape->excess.volume;
     shape->area = triangles_area(of);
     for (size_t i = 0; i < of->vertex_count; i++) {
         const float *x = of->vertex[i];
@@ -47,6 +67,8 @@ static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
     if (ok) {
         state->cutting = triangle_tree_cuts(&tree, CUTS_COUNTED, PAIRS_MOST, &state->all_looked_at);
         ok = distance_make(&shape->distance, &tree, threads);
+        if (ok && (shape->distance.overlaps || state->cutting > 0))
+            ok = overlap_excess(&shape->triangles, threads, &shape->excess);
         triangle_tree_free(&tree);
     }
     if (!ok)

@@ -4,18 +4,21 @@
 #define SLOSH_MESH_SHAPE_H
 
 #include "sim/mesh/distance.h"
+#include "sim/mesh/overlap.h"
 
 typedef struct MeshShape {
     Triangles triangles;
     DistanceGrid distance;
     double half[3];      /* half the sides of the block around it */
     double reach;        /* from the middle to the farthest vertex */
-    double volume, area; /* area: of the triangles */
+    double volume, area; /* volume: of the union of its parts; area: of the triangles */
+    Moments excess;      /* of its triangles' integrals over those of the union; 0 where no parts overlap */
     double depth;        /* from the surface to the place deepest inside */
     uint64_t hash;       /* of its triangles */
 } MeshShape;
 
-/* What is wrong with a mesh that was made all the same. */
+/* What is wrong with a mesh that was made all the same. Its parts overlap where its shape's excess is not 0.
+ */
 typedef struct MeshState {
     TrianglesState triangles;
     double middle[3];   /* of the block around it, where it came from */

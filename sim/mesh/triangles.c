@@ -1,8 +1,13 @@
 #include "sim/mesh/triangles.h"
 
+#include "sim/mesh/parts.h"
+#include "sim/mesh/weld.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const double SAME = 1e-6; /* of the whole: such vertices are one */
 
 void triangles_free(Triangles *triangles)
 {
@@ -46,15 +51,26 @@ static double length(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* By the cone of each triangle from the origin. */
+double triangle_volume6(const Triangles *triangles, size_t t)
+{
+    const float *corner = triangles->vertex[triangles->triangle[t][0]];
+    double normal[3];
+    triangle_normal(triangles, t, normal);
+    return corner[0] * normal[0] + corner[1] * normal[1] + corner[2] * normal[2];
+}
+
+void triangle_turn(Triangles *triangles, size_t t)
+{
+    uint32_t *corner = triangles->triangle[t], second = corner[1];
+    corner[1] = corner[2];
+    corner[2] = second;
+}
+
 double triangles_volume(const Triangles *triangles)
 {
-    double sum = 0, normal[3];
-    for (size_t t = 0; t < triangles->triangle_count; t++) {
-        const float *corner = triangles->vertex[triangles->triangle[t][0]];
-        triangle_normal(triangles, t, normal);
-        sum += corner[0] * normal[0] + corner[1] * normal[1] + corner[2] * normal[2];
-    }
+    double sum = 0;
+    for (size_t t = 0; t < triangles->triangle_count; t++)
+        sum += triangle_volume6(triangles, t);
     return sum / 6;
 }
 
@@ -76,75 +92,6 @@ static bool all_finite(const Triangles *triangles, Error *error)
                 return error_set(error, "%c of vertex %zu of %zu is no finite number; mend the file",
                                  "xyz"[k], i + 1, triangles->vertex_count);
     return true;
-}
-
-/* ---- welding ---- */
-
-/* Vertices by their places, on a lattice of 2^20 along the longest side of the whole. */
-typedef struct Weld {
-    uint64_t *key;  /* of each slot; 0: free */
-    uint32_t *name; /* the new number */
-    size_t slots;
-} Weld;
-
-static uint64_t place_of(const float x[3], const double low[3], double step)
-{
-    uint64_t key = 1; /* so that no key is 0 */
-    for (int k = 0; k < 3; k++)
-        key = key << 21 | (uint64_t)lround((x[k] - low[k]) / step);
-    return key;
-}
-
-/* The slot of the key, or the free one that it belongs to. */
-static size_t slot_of(const Weld *weld, uint64_t key)
-{
-    uint64_t h = key * 0x9e3779b97f4a7c15ULL;
-    size_t slot = (size_t)(h >> 20) & (weld->slots - 1);
-    while (weld->key[slot] && weld->key[slot] != key)
-        slot = (slot + 1) & (weld->slots - 1);
-    return slot;
-}
-
-/* `name`: of each vertex, its new number. */
-static void weld_all(Triangles *triangles, Weld *weld, uint32_t *name)
-{
-    double low[3], high[3];
-    size_t kept = 0;
-    triangles_bounds(triangles, low, high);
-    const double longest = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
-    const double step = longest > 0 ? longest * 0x1p-20 : 1;
-    for (size_t i = 0; i < triangles->vertex_count; i++) {
-        const uint64_t key = place_of(triangles->vertex[i], low, step);
-        const size_t slot = slot_of(weld, key);
-        if (!weld->key[slot]) {
-            weld->key[slot] = key;
-            weld->name[slot] = (uint32_t)kept;
-            memmove(triangles->vertex[kept++], triangles->vertex[i], sizeof *triangles->vertex);
-        }
-        name[i] = weld->name[slot];
-    }
-    triangles->vertex_count = kept;
-}
-
-static bool weld_vertices(Triangles *triangles)
-{
-    Weld weld = {.slots = 16};
-    while (weld.slots < 2 * triangles->vertex_count)
-        weld.slots *= 2;
-    weld.key = calloc(weld.slots, sizeof *weld.key);
-    weld.name = malloc(weld.slots * sizeof *weld.name);
-    uint32_t *name = malloc((triangles->vertex_count + 1) * sizeof *name);
-    const bool ok = weld.key && weld.name && name;
-    if (ok) {
-        weld_all(triangles, &weld, name);
-        for (size_t t = 0; t < triangles->triangle_count; t++)
-            for (int c = 0; c < 3; c++)
-                triangles->triangle[t][c] = name[triangles->triangle[t][c]];
-    }
-    free(weld.key);
-    free(weld.name);
-    free(name);
-    return ok;
 }
 
 /* ---- triangles without area ---- */
@@ -194,44 +141,62 @@ static bool drop_unused(Triangles *triangles)
 
 /* ---- edges ---- */
 
-static int ascending(const void *a, const void *b)
+static bool count_edges(const Triangles *triangles, const Edges *edges, TrianglesState *state)
 {
-    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
-    return (x > y) - (x < y);
-}
-
-/* Each edge once for each of its triangles: the lesser vertex, the greater one, and which way it runs. */
-static uint64_t *sorted_edges(const Triangles *triangles)
-{
-    const size_t count = 3 * triangles->triangle_count;
-    uint64_t *edge = malloc((count + 1) * sizeof *edge);
-    if (!edge)
-        return NULL;
-    for (size_t i = 0; i < count; i++) {
-        const uint64_t from = triangles->triangle[i / 3][i % 3], to = triangles->triangle[i / 3][(i + 1) % 3];
-        edge[i] = from < to ? from << 33 | to << 1 : to << 33 | from << 1 | 1;
-    }
-    qsort(edge, count, sizeof *edge, ascending);
-    return edge;
-}
-
-static bool count_edges(const Triangles *triangles, TrianglesState *state)
-{
-    const size_t count = 3 * triangles->triangle_count;
-    uint64_t *edge = sorted_edges(triangles);
-    if (!edge)
-        return false;
-    for (size_t i = 0, end; i < count; i = end) {
-        size_t back = 0;
-        for (end = i; end < count && edge[end] >> 1 == edge[i] >> 1; end++)
-            back += edge[end] & 1;
-        if ((end - i) % 2 == 1)
+    state->open = state->crowded = state->opposed = 0;
+    for (size_t e = 0; e < edges->count; e++) {
+        const uint32_t sides = edges->first[e + 1] - edges->first[e];
+        uint32_t forward = 0;
+        for (uint32_t i = edges->first[e]; i < edges->first[e + 1]; i++)
+            forward += side_forward(triangles, edges->side[i]);
+        if (sides == 1)
             state->open++;
-        else if (2 * back != end - i)
+        else if (sides % 2 == 1)
+            state->crowded++;
+        else if (2 * forward != sides)
             state->opposed++;
     }
-    free(edge);
+    return state->open + state->crowded + state->opposed == 0;
+}
+
+static bool copy_of(const Triangles *triangles, Triangles *copy)
+{
+    const size_t vertices = triangles->vertex_count * sizeof *triangles->vertex,
+                 corners = triangles->triangle_count * sizeof *triangles->triangle;
+    *copy = *triangles;
+    copy->vertex = malloc(vertices + 1);
+    copy->triangle = malloc(corners + 1);
+    if (!copy->vertex || !copy->triangle)
+        return false;
+    memcpy(copy->vertex, triangles->vertex, vertices);
+    memcpy(copy->triangle, triangles->triangle, corners);
     return true;
+}
+
+/* Whether the surface is closed once vertices that are so near each other are joined. */
+static bool closes(const Triangles *triangles, double part)
+{
+    Triangles copy;
+    Edges edges = {0};
+    TrianglesState state;
+    bool ok = copy_of(triangles, &copy) && weld_vertices(&copy, part);
+    if (ok) {
+        drop_flat(&copy);
+        ok = copy.triangle_count > 0 && edges_make(&edges, &copy) && count_edges(&copy, &edges, &state);
+    }
+    edges_free(&edges);
+    triangles_free(&copy);
+    return ok;
+}
+
+/* The least of some widths at which it closes; 0: at none. */
+static double gap_of(const Triangles *triangles)
+{
+    static const double width[] = {3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3};
+    for (size_t k = 0; k < sizeof width / sizeof *width; k++)
+        if (closes(triangles, width[k]))
+            return width[k];
+    return 0;
 }
 
 /* ---- place and turn ---- */
@@ -241,9 +206,10 @@ static void centre(Triangles *triangles, double middle[3])
     double low[3], high[3];
     triangles_bounds(triangles, low, high);
     for (int k = 0; k < 3; k++) {
-        middle[k] = 0.5 * (low[k] + high[k]);
+        const double at = 0.5 * (low[k] + high[k]);
+        middle[k] += at;
         for (size_t i = 0; i < triangles->vertex_count; i++)
-            triangles->vertex[i][k] = (float)(triangles->vertex[i][k] - middle[k]);
+            triangles->vertex[i][k] = (float)(triangles->vertex[i][k] - at);
     }
 }
 
@@ -251,27 +217,77 @@ static bool turn_outwards(Triangles *triangles)
 {
     if (triangles_volume(triangles) >= 0)
         return false;
-    for (size_t t = 0; t < triangles->triangle_count; t++) {
-        uint32_t *corner = triangles->triangle[t], second = corner[1];
-        corner[1] = corner[2];
-        corner[2] = second;
-    }
+    for (size_t t = 0; t < triangles->triangle_count; t++)
+        triangle_turn(triangles, t);
     return true;
+}
+
+/* Copies of triangles go where they are one too many at their edges. */
+static bool close_edges(Triangles *triangles, Edges *edges, TrianglesState *state)
+{
+    if (count_edges(triangles, edges, state))
+        return true;
+    if (!parts_merge(triangles, edges, false, &state->doubled))
+        return false;
+    if (state->doubled == 0)
+        return true;
+    edges_free(edges);
+    if (!edges_make(edges, triangles))
+        return false;
+    count_edges(triangles, edges, state);
+    return true;
+}
+
+/* Each part outwards, and nothing twice. */
+static bool settle_parts(Triangles *triangles, Edges *edges, TrianglesState *state, double middle[3])
+{
+    Parts parts = {0};
+    size_t count = 0;
+    bool ok = parts_make(&parts, triangles, edges) && parts_turn(triangles, &parts, &state->turned);
+    parts_free(&parts);
+    if (ok && state->turned > 0) {
+        edges_free(edges);
+        ok = edges_make(edges, triangles);
+    }
+    ok = ok && parts_merge(triangles, edges, true, &count);
+    state->doubled += count;
+    if (!ok || count == 0 || triangles->triangle_count == 0)
+        return ok;
+    ok = drop_unused(triangles);
+    centre(triangles, middle);
+    return ok;
+}
+
+static bool mend_surface(Triangles *triangles, double middle[3], TrianglesState *state)
+{
+    Edges edges = {0};
+    bool ok = drop_unused(triangles);
+    centre(triangles, middle);
+    ok = ok && edges_make(&edges, triangles) && close_edges(triangles, &edges, state);
+    if (ok && state->open > 0)
+        state->gap = gap_of(triangles);
+    if (ok && turn_outwards(triangles)) {
+        state->inside_out = true;
+        edges_free(&edges);
+        ok = edges_make(&edges, triangles);
+    }
+    if (ok && state->open + state->crowded + state->opposed == 0)
+        ok = settle_parts(triangles, &edges, state, middle);
+    edges_free(&edges);
+    return ok;
 }
 
 bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *state, Error *error)
 {
     *state = (TrianglesState){0};
+    middle[0] = middle[1] = middle[2] = 0;
     if (!all_finite(triangles, error))
         return false;
-    if (!weld_vertices(triangles))
+    if (!weld_vertices(triangles, SAME))
         return error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
     state->flat = drop_flat(triangles);
     if (triangles->triangle_count == 0)
         return error_set(error, "none of its triangles has an area; a solid is a closed surface of them");
-    if (!drop_unused(triangles) || !count_edges(triangles, state))
-        return error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
-    centre(triangles, middle);
-    state->inside_out = turn_outwards(triangles);
-    return true;
+    return mend_surface(triangles, middle, state) ||
+           error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
 }

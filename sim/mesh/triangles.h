@@ -23,15 +23,21 @@ void triangles_free(Triangles *triangles); /* a zeroed one is allowed */
 /* What triangles_mend found. */
 typedef struct TrianglesState {
     size_t open;     /* edges that a triangle lacks at */
+    size_t crowded;  /* edges at which there is one too many, as three */
     size_t opposed;  /* edges whose triangles turn opposite ways */
     size_t flat;     /* triangles without area; those whose corners coincide were taken out */
+    size_t doubled;  /* triangles that were there twice, or have parts of it on both sides: taken out */
+    size_t turned;   /* parts that were inside out beside the others, and were turned */
     bool inside_out; /* it enclosed less than nothing, and was turned */
+    double gap;      /* where it is open: it closes once vertices as near, of its length, are joined; 0: it
+                        does not, to a thousandth */
 } TrianglesState;
 
 /* Vertices that share a place, to a millionth of the whole, become one; those of no triangle go; the whole is
-   turned so that it encloses a volume above 0, and moved so that the middle of the block around it is at 0:
-   `middle` says where that was. False when there is nothing left, a number is not finite, or memory is short;
-   open and opposed edges are for the caller to refuse. */
+   turned so that it encloses a volume above 0, and then each part of it that is closed by itself, but for
+   cavities of others; it is moved so that the middle of the block around it is at 0: `middle` says where that
+   was. False when there is nothing left, a number is not finite, or memory is short; open, crowded and
+   opposed edges are for the caller to refuse. */
 bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *state, Error *error);
 
 /* What it encloses, and the area, in the cube and the square of its unit. */
@@ -41,7 +47,11 @@ double triangles_area(const Triangles *triangles);
 /* The corners of the least block around it. */
 void triangles_bounds(const Triangles *triangles, double low[3], double high[3]);
 
-/* Normal of a triangle, twice its area long. */
+/* Normal of a triangle, twice its area long; and six times the volume of its cone from the origin. */
 void triangle_normal(const Triangles *triangles, size_t t, double normal[3]);
+double triangle_volume6(const Triangles *triangles, size_t t);
+
+/* The other side becomes its front. */
+void triangle_turn(Triangles *triangles, size_t t);
 
 #endif

@@ -35,11 +35,12 @@ static void write_text(const char *name, const char *text)
     write_bytes(name, text, strlen(text));
 }
 
+static const int corner[12][3] = {{1, 3, 4}, {1, 2, 3}, {5, 7, 6}, {5, 8, 7}, {1, 6, 2}, {1, 5, 6},
+                                  {2, 7, 3}, {2, 6, 7}, {3, 8, 4}, {3, 7, 8}, {4, 5, 1}, {4, 8, 5}};
+
 /* A unit box; `faces` of its 12 triangles, turned inwards if so. */
 static void write_box(const char *name, int faces, bool inwards)
 {
-    static const int corner[12][3] = {{1, 3, 4}, {1, 2, 3}, {5, 7, 6}, {5, 8, 7}, {1, 6, 2}, {1, 5, 6},
-                                      {2, 7, 3}, {2, 6, 7}, {3, 8, 4}, {3, 7, 8}, {4, 5, 1}, {4, 8, 5}};
     char text[2000] = "";
     for (int k = 0; k < 8; k++)
         snprintf(text + strlen(text), sizeof text - strlen(text), "v %d %d %d\n", k % 4 == 1 || k % 4 == 2,
@@ -48,6 +49,30 @@ static void write_box(const char *name, int faces, bool inwards)
         snprintf(text + strlen(text), sizeof text - strlen(text), "f %d %d %d\n", corner[f][0],
                  corner[f][inwards ? 2 : 1], corner[f][inwards ? 1 : 2]);
     write_text(name, text);
+}
+
+static void append(const char *name, const char *text)
+{
+    FILE *file = fopen(in_folder(name), "a");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+/* Two unit boxes, one beside the other along x. */
+static void write_beside(const char *name, double apart, bool inwards)
+{
+    char line[80];
+    write_box(name, 12, false);
+    for (int k = 0; k < 8; k++) {
+        snprintf(line, sizeof line, "v %g %d %d\n", apart + (k % 4 == 1 || k % 4 == 2), k % 4 > 1, k < 4);
+        append(name, line);
+    }
+    for (int f = 0; f < 12; f++) {
+        snprintf(line, sizeof line, "f %d %d %d\n", 8 + corner[f][0], 8 + corner[f][inwards ? 2 : 1],
+                 8 + corner[f][inwards ? 1 : 2]);
+        append(name, line);
+    }
 }
 
 #define TANK                                                                                                 \
@@ -113,17 +138,25 @@ static void what_is_mended_is_said_once(void **state)
     write_box("inside.obj", 12, true);
     expect_note("inside.obj", "tank.yaml:6:12: inside.obj: the mesh is inside out; its faces are turned");
     write_box("flat.obj", 12, false);
-    FILE *file = fopen(in_folder("flat.obj"), "a");
-    fputs("f 1 1 2\nf 5 8 8\n", file);
-    fclose(file);
+    append("flat.obj", "f 1 1 2\nf 5 8 8\n");
     expect_note("flat.obj", "flat.obj: 2 of its triangles have no area and are left out");
     write_box("two.obj", 12, false);
-    file = fopen(in_folder("two.obj"), "a");
-    fputs(
-        "v 0.5 0.4 -1\nv 0.7 0.4 -1\nv 0.6 0.7 -1\nv 0.6 0.5 2\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n",
-        file);
-    fclose(file);
+    append(
+        "two.obj",
+        "v 0.5 0.4 -1\nv 0.7 0.4 -1\nv 0.6 0.7 -1\nv 0.6 0.5 2\nf 9 11 10\nf 9 10 12\nf 10 11 12\nf 11 9 12\n");
     expect_note("two.obj", "two.obj: the mesh cuts itself, at ");
+    write_box("twice.obj", 12, false);
+    append("twice.obj", "f 1 3 4\nf 1 2 3\n");
+    expect_note("twice.obj",
+                "twice.obj: 2 of its triangles lie on another one with the same corners and are left out");
+    write_beside("parts_of.obj", 0.5, false);
+    expect_note("parts_of.obj",
+                "parts_of.obj: its parts overlap; what any part encloses is solid, and 25 % of "
+                "it, which several enclose, weighs once");
+    assert_float_equal(scene.world.solids[0].mesh.shape->volume, 1.5, 1e-6);
+    write_beside("turned.obj", 3, true);
+    expect_note("turned.obj", "turned.obj: 1 of its parts is inside out; its faces are turned");
+    assert_float_equal(scene.world.solids[0].mesh.shape->volume, 2, 1e-6);
 }
 
 /* Each part of a file has its own corners. */

@@ -1,0 +1,407 @@
+#include "sim/mesh/parts.h"
+
+#include "sim/base/bins.h"
+#include "sim/mesh/crossing.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- what is joined ---- */
+
+/* Triangles in sets, each known by one of them: Galler and Fischer, "An improved equivalence algorithm",
+ * 1964.
+ */
+static uint32_t set_of(uint32_t *up, uint32_t t)
+{
+    while (up[t] != t)
+        t = up[t] = up[up[t]];
+    return t;
+}
+
+/* The lesser one stays the one that the set is known by. */
+static void join(uint32_t *up, uint32_t a, uint32_t b)
+{
+    a = set_of(up, a);
+    b = set_of(up, b);
+    if (a < b)
+        up[b] = a;
+    else
+        up[a] = b;
+}
+
+static uint32_t *all_apart(size_t count)
+{
+    uint32_t *up = malloc((count + 1) * sizeof *up);
+    for (size_t t = 0; up && t < count; t++)
+        up[t] = (uint32_t)t;
+    return up;
+}
+
+/* `open`, of room for all sides: those of the edge whose other one is yet to come. */
+static void join_at_edge(const Triangles *triangles, const Edges *edges, size_t e, uint32_t *up,
+                         uint32_t *open)
+{
+    size_t count = 0;
+    for (uint32_t i = edges->first[e]; i < edges->first[e + 1]; i++) {
+        const uint32_t side = edges->side[i];
+        if (count > 0 && side_forward(triangles, open[count - 1]) != side_forward(triangles, side))
+            join(up, open[--count] / 3, side / 3);
+        else
+            open[count++] = side;
+    }
+}
+
+bool parts_make(Parts *parts, const Triangles *triangles, const Edges *edges)
+{
+    const size_t count = triangles->triangle_count;
+    uint32_t *open = malloc((3 * count + 1) * sizeof *open);
+    *parts = (Parts){.of = all_apart(count)};
+    if (!open || !parts->of) {
+        free(open);
+        parts_free(parts);
+        return false;
+    }
+    for (size_t e = 0; e < edges->count; e++)
+        join_at_edge(triangles, edges, e, parts->of, open);
+    for (size_t t = 0; t < count; t++) { /* what a set is known by comes before its others */
+        const uint32_t first = set_of(parts->of, (uint32_t)t);
+        open[t] = first == t ? parts->count++ : open[first];
+    }
+    memcpy(parts->of, open, count * sizeof *parts->of);
+    free(open);
+    return true;
+}
+
+void parts_free(Parts *parts)
+{
+    free(parts->of);
+    *parts = (Parts){0};
+}
+
+/* ---- turning ---- */
+
+enum { LAYERS = 1024, ASKED = 8 }; /* of bins of triangles; places that are asked, of each part */
+
+typedef struct Part {
+    double volume;
+    uint32_t rank;  /* by volume: greatest first */
+    uint32_t count; /* triangles */
+    bool turned;
+} Part;
+
+typedef struct Turner {
+    const Triangles *triangles;
+    const uint32_t *of;
+    Part *part;
+    uint32_t part_count, *order; /* by rank */
+    double low[3], high[3], aside;
+    Bins bins; /* of triangles, by layers along z */
+} Turner;
+
+static int layer_at(const Turner *turner, double z)
+{
+    const double t = (z - turner->low[2]) / (turner->high[2] - turner->low[2]);
+    return (int)fmin(fmax(t * LAYERS, 0), LAYERS - 1);
+}
+
+static BinSpan layers_of(const void *context, size_t t)
+{
+    const Turner *turner = context;
+    double low = INFINITY, high = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        const double z = turner->triangles->vertex[turner->triangles->triangle[t][c]][2];
+        low = fmin(low, z);
+        high = fmax(high, z);
+    }
+    return (BinSpan){(size_t)layer_at(turner, low), (size_t)layer_at(turner, high) + 1};
+}
+
+static void measure(Turner *turner)
+{
+    for (size_t t = 0; t < turner->triangles->triangle_count; t++) {
+        Part *part = &turner->part[turner->of[t]];
+        part->volume += triangle_volume6(turner->triangles, t);
+        part->count++;
+    }
+}
+
+typedef struct Ranked {
+    double volume;
+    uint32_t part;
+} Ranked;
+
+static int by_volume(const void *a, const void *b)
+{
+    const Ranked *x = a, *y = b;
+    if (x->volume != y->volume)
+        return x->volume > y->volume ? -1 : 1;
+    return (x->part > y->part) - (x->part < y->part);
+}
+
+static bool rank(Turner *turner)
+{
+    Ranked *ranked = malloc((turner->part_count + 1) * sizeof *ranked);
+    for (uint32_t p = 0; ranked && p < turner->part_count; p++)
+        ranked[p] = (Ranked){fabs(turner->part[p].volume), p};
+    if (!ranked)
+        return false;
+    qsort(ranked, turner->part_count, sizeof *ranked, by_volume);
+    for (uint32_t r = 0; r < turner->part_count; r++) {
+        turner->order[r] = ranked[r].part;
+        turner->part[ranked[r].part].rank = r;
+    }
+    free(ranked);
+    return true;
+}
+
+/* How often the greater parts wind around x. */
+static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
+{
+    const int layer = layer_at(turner, x[2]);
+    int winding = 0;
+    for (size_t m = turner->bins.begin[layer]; m < turner->bins.begin[layer + 1]; m++) {
+        const uint32_t t = turner->bins.member[m];
+        const Part *part = &turner->part[turner->of[t]];
+        double at;
+        if (part->rank >= rank)
+            continue;
+        const int way = triangle_crossing(turner->triangles, t, x, &at);
+        if (way != 0 && at > x[0])
+            winding += part->turned ? -way : way;
+    }
+    return winding;
+}
+
+/* A little outside of what a part that is inside out encloses, at the middle of the triangle. */
+static void place_outside(const Turner *turner, size_t t, double x[3])
+{
+    const Triangles *of = turner->triangles;
+    double normal[3];
+    triangle_normal(of, t, normal);
+    const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (int k = 0; k < 3; k++) {
+        const double middle = ((double)of->vertex[of->triangle[t][0]][k] + of->vertex[of->triangle[t][1]][k] +
+                               of->vertex[of->triangle[t][2]][k]) /
+                              3;
+        x[k] = middle - (length > 0 ? turner->aside * normal[k] / length : 0);
+    }
+}
+
+/* `member`: the triangles of each part, one after the other. */
+static bool is_cavity(const Turner *turner, uint32_t p, const uint32_t *member)
+{
+    const Part *part = &turner->part[p];
+    for (uint32_t k = 0; k < ASKED; k++) {
+        double x[3];
+        place_outside(turner, member[(uint64_t)part->count * k / ASKED], x);
+        if (winding_at(turner, x, part->rank) == 0)
+            return false;
+    }
+    return true;
+}
+
+static size_t decide(Turner *turner, const uint32_t *member, const uint32_t *first)
+{
+    size_t turned = 0;
+    for (uint32_t r = 0; r < turner->part_count; r++) {
+        const uint32_t p = turner->order[r];
+        Part *part = &turner->part[p];
+        part->turned = part->volume < 0 && !is_cavity(turner, p, member + first[p]);
+        turned += part->turned;
+    }
+    return turned;
+}
+
+static BinSpan part_of(const void *context, size_t t)
+{
+    const uint32_t p = ((const uint32_t *)context)[t];
+    return (BinSpan){p, (size_t)p + 1};
+}
+
+static bool find_turned(Turner *turner, size_t *turned)
+{
+    Bins members = {0};
+    const size_t count = turner->triangles->triangle_count;
+    uint32_t *first = malloc((turner->part_count + 1) * sizeof *first);
+    const bool ok = first && rank(turner) && bins_fill(&turner->bins, LAYERS, count, layers_of, turner) &&
+                    bins_fill(&members, turner->part_count, count, part_of, turner->of);
+    for (uint32_t p = 0; ok && p < turner->part_count; p++)
+        first[p] = (uint32_t)members.begin[p];
+    if (ok)
+        *turned = decide(turner, members.member, first);
+    free(first);
+    bins_free(&members);
+    bins_free(&turner->bins);
+    return ok;
+}
+
+static bool any_inside_out(const Turner *turner)
+{
+    for (uint32_t p = 0; p < turner->part_count; p++)
+        if (turner->part[p].volume < 0)
+            return true;
+    return false;
+}
+
+bool parts_turn(Triangles *triangles, const Parts *parts, size_t *turned)
+{
+    Turner turner = {.triangles = triangles, .of = parts->of, .part_count = parts->count};
+    *turned = 0;
+    turner.part = calloc(parts->count + 1, sizeof *turner.part);
+    turner.order = malloc((parts->count + 1) * sizeof *turner.order);
+    triangles_bounds(triangles, turner.low, turner.high);
+    for (int k = 0; k < 3; k++)
+        turner.aside = fmax(turner.aside, 1e-5 * (turner.high[k] - turner.low[k]));
+    bool ok = turner.part && turner.order;
+    if (ok)
+        measure(&turner);
+    if (ok && any_inside_out(&turner))
+        ok = find_turned(&turner, turned);
+    for (size_t t = 0; ok && *turned > 0 && t < triangles->triangle_count; t++)
+        if (turner.part[parts->of[t]].turned)
+            triangle_turn(triangles, t);
+    free(turner.part);
+    free(turner.order);
+    return ok;
+}
+
+/* ---- what is there twice ---- */
+
+typedef struct Merge {
+    const Triangles *triangles;
+    const Edges *edges;
+    bool walls;
+    bool *copy, *wall; /* of each triangle */
+    uint32_t *set;     /* copies that edges join */
+    long *worse;       /* of each set: by how many edges without it */
+} Merge;
+
+/* Of a triangle whose third corner is not at a side. */
+static uint32_t third(const Triangles *triangles, uint32_t side)
+{
+    return triangles->triangle[side / 3][(side + 2) % 3];
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Of triangles that share all corners: as many of one turn as of the other are walls, the first of the rest
+   stays. */
+static void mark_set(Merge *merge, const uint64_t *key, size_t count)
+{
+    size_t ways[2] = {0}, seen[2] = {0};
+    for (size_t i = 0; i < count; i++)
+        ways[side_forward(merge->triangles, (uint32_t)key[i])]++;
+    const size_t pairs = !merge->walls ? 0 : ways[0] < ways[1] ? ways[0] : ways[1];
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t side = (uint32_t)key[i];
+        const size_t before = seen[side_forward(merge->triangles, side)]++;
+        merge->wall[side / 3] = before < pairs;
+        merge->copy[side / 3] = before > pairs;
+    }
+}
+
+/* Those at an edge whose third corner comes after its ends, so that each set is seen at one edge. */
+static void mark_at_edge(Merge *merge, size_t e, uint64_t *key)
+{
+    const Triangles *triangles = merge->triangles;
+    size_t count = 0;
+    for (uint32_t i = merge->edges->first[e]; i < merge->edges->first[e + 1]; i++) {
+        const uint32_t side = merge->edges->side[i], *corner = triangles->triangle[side / 3],
+                       other = third(triangles, side);
+        if (other > corner[side % 3] && other > corner[(side + 1) % 3])
+            key[count++] = (uint64_t)other << 32 | side;
+    }
+    qsort(key, count, sizeof *key, ascending);
+    for (size_t i = 0, end; i < count; i = end) {
+        for (end = i; end < count && key[end] >> 32 == key[i] >> 32; end++)
+            continue;
+        if (end - i > 1)
+            mark_set(merge, key + i, end - i);
+    }
+}
+
+static void join_copies(Merge *merge, size_t e)
+{
+    uint32_t before = UINT32_MAX;
+    for (uint32_t i = merge->edges->first[e]; i < merge->edges->first[e + 1]; i++) {
+        const uint32_t t = merge->edges->side[i] / 3;
+        if (!merge->copy[t])
+            continue;
+        if (before != UINT32_MAX)
+            join(merge->set, before, t);
+        before = t;
+    }
+}
+
+/* Whether an edge is in balance with its copies, and without them. */
+static void count_worse(Merge *merge, size_t e)
+{
+    long with = 0, without = 0;
+    uint32_t set = UINT32_MAX;
+    for (uint32_t i = merge->edges->first[e]; i < merge->edges->first[e + 1]; i++) {
+        const uint32_t side = merge->edges->side[i];
+        const long way = side_forward(merge->triangles, side) ? 1 : -1;
+        with += way;
+        if (merge->copy[side / 3])
+            set = set_of(merge->set, side / 3);
+        else
+            without += way;
+    }
+    if (set != UINT32_MAX)
+        merge->worse[set] += (without != 0) - (with != 0);
+}
+
+static size_t take_out(Merge *merge, Triangles *triangles)
+{
+    size_t kept = 0;
+    const size_t count = triangles->triangle_count;
+    for (size_t t = 0; t < count; t++) {
+        const bool copy = merge->copy[t] && merge->worse[set_of(merge->set, (uint32_t)t)] <= 0;
+        if (!copy && !merge->wall[t])
+            memmove(triangles->triangle[kept++], triangles->triangle[t], sizeof *triangles->triangle);
+    }
+    triangles->triangle_count = kept;
+    return count - kept;
+}
+
+static bool any_crowded(const Edges *edges)
+{
+    for (size_t e = 0; e < edges->count; e++)
+        if (edges->first[e + 1] - edges->first[e] > 2)
+            return true;
+    return false;
+}
+
+bool parts_merge(Triangles *triangles, const Edges *edges, bool walls, size_t *count)
+{
+    const size_t room = triangles->triangle_count + 1;
+    *count = 0;
+    if (!any_crowded(edges))
+        return true;
+    Merge merge = {.triangles = triangles, .edges = edges, .walls = walls};
+    merge.copy = calloc(room, sizeof *merge.copy);
+    merge.wall = calloc(room, sizeof *merge.wall);
+    merge.worse = calloc(room, sizeof *merge.worse);
+    merge.set = all_apart(triangles->triangle_count);
+    uint64_t *key = malloc(3 * room * sizeof *key);
+    const bool ok = merge.copy && merge.wall && merge.worse && merge.set && key;
+    for (size_t e = 0; ok && e < edges->count; e++)
+        mark_at_edge(&merge, e, key);
+    for (size_t e = 0; ok && e < edges->count; e++)
+        join_copies(&merge, e);
+    for (size_t e = 0; ok && e < edges->count; e++)
+        count_worse(&merge, e);
+    if (ok)
+        *count = take_out(&merge, triangles);
+    free(merge.copy);
+    free(merge.wall);
+    free(merge.worse);
+    free(merge.set);
+    free(key);
+    return ok;
+}
