@@ -30,6 +30,7 @@ enum { GIB_MOST = 8, LOOK_MS = 20 };
 typedef struct Head {
     bool ok;
     size_t vertex_count, triangle_count;
+    double largest;
     Error error;
 } Head;
 
@@ -104,6 +105,7 @@ static void be_child(MeshRead *read, const char *path, double seconds, int to)
     head.ok = read(path, &triangles, &head.error);
     head.vertex_count = triangles.vertex_count;
     head.triangle_count = triangles.triangle_count;
+    head.largest = triangles.largest;
     _exit(
         put(to, &head, sizeof head) &&
                 (!head.ok || (put(to, triangles.vertex, head.vertex_count * sizeof *triangles.vertex) &&
@@ -127,6 +129,7 @@ static bool take(Wait *from, Triangles *triangles, Error *error)
         return error_set(error, "no memory for its %zu triangles", head.triangle_count);
     triangles->vertex_count = head.vertex_count;
     triangles->triangle_count = head.triangle_count;
+    triangles->largest = head.largest;
     return (get(from, triangles->vertex, head.vertex_count * sizeof *triangles->vertex) &&
             get(from, triangles->triangle, head.triangle_count * sizeof *triangles->triangle)) ||
            error_set(error, "the process that reads it ended early");

@@ -85,19 +85,28 @@ static double count_ply(const char *bytes, size_t size)
     return 0;
 }
 
-/* 80 bytes, the count, 50 bytes each; or a text with a line "facet normal ..." each. */
+static uint32_t stl_says(const char *bytes)
+{
+    uint32_t said = 0;
+    for (int k = 3; k >= 0; k--)
+        said = said << 8 | (uint8_t)bytes[80 + k];
+    return said;
+}
+
+/* 80 bytes, the count, 50 bytes each. */
+bool mesh_is_binary_stl(const char *bytes, size_t size, size_t whole)
+{
+    return size >= 84 && whole == 84 + 50 * (size_t)stl_says(bytes);
+}
+
+/* A text has a line "facet normal ..." each. */
 static double count_stl(const char *bytes, size_t size, size_t whole)
 {
     const char *at = bytes, *line;
     size_t length;
     double count = 0;
-    if (size >= 84) {
-        uint32_t said = 0;
-        for (int k = 3; k >= 0; k--)
-            said = said << 8 | (uint8_t)bytes[80 + k];
-        if (whole == 84 + 50 * (size_t)said)
-            return said;
-    }
+    if (mesh_is_binary_stl(bytes, size, whole))
+        return stl_says(bytes);
     while ((line = next_line(&at, bytes + size, &length))) {
         const size_t skip = blanks(line, length);
         count += length - skip > 6 && memcmp(line + skip, "facet ", 6) == 0;

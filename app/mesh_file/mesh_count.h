@@ -19,4 +19,7 @@ double mesh_count(MeshFormat format, const char *bytes, size_t size, size_t whol
    looks for it for ever. Pure. */
 bool mesh_has_head(MeshFormat format, const char *bytes, size_t size);
 
+/* Whether an STL of `whole` bytes is a binary one, whatever words it begins with. */
+bool mesh_is_binary_stl(const char *bytes, size_t size, size_t whole);
+
 #endif

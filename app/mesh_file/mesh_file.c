@@ -3,6 +3,8 @@
 #include "app/base/read_file.h"
 #include "app/mesh_file/mesh_child.h"
 #include "app/mesh_file/mesh_count.h"
+#include "app/mesh_file/mesh_move.h"
+#include "app/mesh_file/mesh_scene.h"
 #include "sim/base/hash.h"
 #include "sim/base/parallel.h"
 
@@ -10,6 +12,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <errno.h>
+#include <math.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
@@ -20,17 +23,9 @@
 
 enum { HEAD_SIZE = 1 << 16, SECONDS_MOST = 30 };
 
-/* ---- before it is read ---- */
+static const double FAR = 8; /* of its length: three bits of a float */
 
-static bool too_many(double count, Error *error)
-{
-    char has[32], most[32];
-    number_grouped((size_t)count, has);
-    number_grouped(TRIANGLES_MAX, most);
-    return error_set(error,
-                     "%s triangles, more than the %s that there may be; simplify the mesh in a modeller", has,
-                     most);
-}
+/* ---- before it is read ---- */
 
 /* What a few bytes of it and its size say. */
 static bool head_fits(const char *path, MeshFormat format, Error *error)
@@ -47,7 +42,7 @@ static bool head_fits(const char *path, MeshFormat format, Error *error)
     fclose(file);
     const double count = mesh_count(format, head, size, (size_t)about.st_size);
     if (count > TRIANGLES_MAX)
-        return too_many(count, error);
+        return mesh_too_many(count, error);
     return about.st_size <= (off_t)MESH_FILE_MIB_MAX << 20 ||
            error_set(error, "%.0f MiB, more than the %d that there may be; simplify the mesh in a modeller",
                      (double)about.st_size / (1 << 20), MESH_FILE_MIB_MAX);
@@ -55,57 +50,115 @@ static bool head_fits(const char *path, MeshFormat format, Error *error)
 
 /* ---- reading it ---- */
 
-/* Of the points and lines among its faces nothing is taken, nor of what names vertices that are not there. */
-static bool is_triangle(const struct aiMesh *mesh, unsigned f)
+typedef struct Reading {
+    const char *path;
+    MeshFormat format;
+    size_t mark; /* bytes of a mark of UTF-8 before it, over which assimp stumbles */
+    const struct aiScene *scene;
+    MeshBounds bounds;
+} Reading;
+
+/* What comes behind the mark. */
+static char *bytes_of(const Reading *reading, size_t *size, Error *error)
 {
-    const struct aiFace *face = &mesh->mFaces[f];
-    bool is = face->mNumIndices == 3;
-    for (int c = 0; c < 3 && is; c++)
-        is = face->mIndices[c] < mesh->mNumVertices;
-    return is;
+    char *bytes = read_file(reading->path, (size_t)MESH_FILE_MIB_MAX << 20, "mesh", size, error);
+    if (!bytes)
+        return NULL;
+    *size -= reading->mark;
+    memmove(bytes, bytes + reading->mark, *size);
+    return bytes;
 }
 
-static size_t triangles_of(const struct aiMesh *mesh)
+/* glTF allows no such mark, and its reader looks for further files beside the path. */
+static bool see_mark(Reading *reading, Error *error)
 {
-    size_t count = 0;
-    for (unsigned f = 0; f < mesh->mNumFaces; f++)
-        count += is_triangle(mesh, f);
-    return count;
-}
-
-static bool allocate(const struct aiScene *scene, Triangles *triangles, Error *error)
-{
-    size_t vertices = 0, count = 0;
-    for (unsigned m = 0; m < scene->mNumMeshes; m++) {
-        vertices += scene->mMeshes[m]->mNumVertices;
-        count += triangles_of(scene->mMeshes[m]);
-    }
-    if (count > TRIANGLES_MAX)
-        return too_many((double)count, error);
-    if (count == 0)
-        return error_set(error, "it has no triangles; a solid is a closed surface of them");
-    triangles->vertex = malloc((vertices + 1) * sizeof *triangles->vertex);
-    triangles->triangle = malloc((count + 1) * sizeof *triangles->triangle);
-    if (triangles->vertex && triangles->triangle)
+    char begin[84] = "";
+    struct stat about = {.st_size = 0};
+    FILE *file = fopen(reading->path, "rb");
+    const size_t size = file && fstat(fileno(file), &about) == 0 ? fread(begin, 1, sizeof begin, file) : 0;
+    if (file)
+        fclose(file);
+    if (size < 3 || reading->format == MESH_GLB || mesh_is_binary_stl(begin, size, (size_t)about.st_size))
         return true;
-    error_set(error, "no memory for its %zu triangles", count);
-    return false;
+    if (memcmp(begin, "\xFF\xFE", 2) == 0 || memcmp(begin, "\xFE\xFF", 2) == 0)
+        return error_set(error, "it is a text in UTF-16; write it in UTF-8");
+    reading->mark = memcmp(begin, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+    return reading->mark == 0 || reading->format != MESH_GLTF ||
+           error_set(error, "it begins with a byte order mark, which glTF forbids; write it without one");
 }
 
-static void take(const struct aiMesh *mesh, Triangles *triangles)
+/* As assimp reads it: from the file, for it may name others, or, where `bytes` is not NULL, from those of its
+ * own format. */
+static bool import(Reading *reading, const char *bytes, size_t size, Error *error)
 {
-    const uint32_t first = (uint32_t)triangles->vertex_count;
-    for (unsigned f = 0; f < mesh->mNumFaces; f++)
-        if (is_triangle(mesh, f)) {
-            uint32_t *corner = triangles->triangle[triangles->triangle_count++];
-            for (int c = 0; c < 3; c++)
-                corner[c] = first + mesh->mFaces[f].mIndices[c];
-        }
-    for (unsigned v = 0; v < mesh->mNumVertices; v++) {
-        const struct aiVector3D *from = &mesh->mVertices[v];
-        float *to = triangles->vertex[triangles->vertex_count++];
-        to[0] = from->x, to[1] = from->y, to[2] = from->z;
-    }
+    const unsigned flags = aiProcess_Triangulate;
+    if (reading->scene)
+        aiReleaseImport(reading->scene);
+    reading->scene =
+        bytes ? aiImportFileFromMemory(bytes, (unsigned)size, flags, strrchr(reading->path, '.') + 1)
+              : aiImportFile(reading->path, flags);
+    if (!reading->scene)
+        return error_set(error, "it cannot be read: %.300s; write it anew with a modeller",
+                         aiGetErrorString());
+    mesh_scene_bounds(reading->scene, &reading->bounds);
+    return true;
+}
+
+static double longest_side(const MeshBounds *bounds)
+{
+    double longest = 0;
+    for (int k = 0; k < 3; k++)
+        longest = fmax(longest, bounds->high[k] - bounds->low[k]);
+    return longest;
+}
+
+/* Where floats lose some bits of what the mesh has. */
+static bool is_far(const MeshBounds *bounds)
+{
+    double largest = 0;
+    for (int k = 0; k < 3; k++)
+        largest = fmax(largest, fmax(fabs(bounds->low[k]), fabs(bounds->high[k])));
+    return isfinite(largest) && largest > FAR * longest_side(bounds);
+}
+
+/* Text, and doubles, are read once more: moved to where floats lose nothing. */
+static bool read_moved(Reading *reading, Error *error)
+{
+    size_t size, moved_size;
+    double middle[3];
+    char *bytes = bytes_of(reading, &size, error);
+    if (!bytes)
+        return false;
+    for (int k = 0; k < 3; k++)
+        middle[k] = 0.5 * (reading->bounds.low[k] + reading->bounds.high[k]);
+    char *moved = mesh_moved(reading->format, bytes, size, middle, &moved_size);
+    free(bytes);
+    const bool ok = !moved || import(reading, moved, moved_size, error);
+    free(moved);
+    return ok;
+}
+
+static bool read_first(Reading *reading, Error *error)
+{
+    size_t size = 0;
+    char *bytes = NULL;
+    if (reading->mark > 0 && !(bytes = bytes_of(reading, &size, error)))
+        return false;
+    const bool ok = import(reading, bytes, size, error);
+    free(bytes);
+    return ok;
+}
+
+/* About 0 where it is far from there. */
+static bool take(const Reading *reading, Triangles *triangles, Error *error)
+{
+    const MeshBounds *bounds = &reading->bounds;
+    double origin[3] = {0};
+    const bool far = is_far(bounds);
+    for (int k = 0; k < 3 && far; k++)
+        origin[k] = 0.5 * (bounds->low[k] + bounds->high[k]);
+    triangles->largest = far ? bounds->largest : 0;
+    return mesh_scene_take(reading->scene, origin, triangles, error);
 }
 
 bool mesh_file_read(const char *path, Triangles *triangles, Error *error)
@@ -116,14 +169,12 @@ bool mesh_file_read(const char *path, Triangles *triangles, Error *error)
             error, "its ending is of no format that is read; name a file .obj, .ply, .stl, .gltf or .glb");
     if (!head_fits(path, mesh_format(path), error))
         return false;
-    const struct aiScene *scene = aiImportFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
-    if (!scene)
-        return error_set(error, "it cannot be read: %.300s; write it anew with a modeller",
-                         aiGetErrorString());
-    const bool ok = allocate(scene, triangles, error);
-    for (unsigned m = 0; ok && triangles->vertex && m < scene->mNumMeshes; m++)
-        take(scene->mMeshes[m], triangles);
-    aiReleaseImport(scene);
+    Reading reading = {.path = path, .format = mesh_format(path)};
+    const bool ok = see_mark(&reading, error) && read_first(&reading, error) &&
+                    (!is_far(&reading.bounds) || read_moved(&reading, error)) &&
+                    take(&reading, triangles, error);
+    if (reading.scene)
+        aiReleaseImport(reading.scene);
     if (!ok)
         triangles_free(triangles);
     return ok;
@@ -186,7 +237,7 @@ static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t 
     if (!whole)
         return error_set(error,
                          "it has no line end_header and was cut, or is still being written; write it anew");
-    return count <= TRIANGLES_MAX || too_many(count, error);
+    return count <= TRIANGLES_MAX || mesh_too_many(count, error);
 }
 
 /* A file that is to be read, of so many bytes with that hash. */

@@ -59,6 +59,8 @@ static void say_state(const Reader *reader, const char *key, const char *file, c
                "%.90s: %zu of its triangles lie%s on another one with the same corners and %s left out", file,
                triangles->doubled, triangles->doubled == 1 ? "s" : "",
                triangles->doubled == 1 ? "is" : "are");
+    if (state->coarse[0])
+        advise(reader->check.tree, key, reader->notes, "%.90s: %s", file, state->coarse);
     say_overlap(reader, key, file, shape, state);
 }
 

@@ -8,6 +8,8 @@
 
 enum { CUTS_COUNTED = 1000, PAIRS_MOST = 20000000 };
 
+static const double COARSE = 1e-4; /* of its length: a tenth of the finest cell of its distances */
+
 static bool refuse_open(const TrianglesState *state, Error *error)
 {
     char more[80] = "";
@@ -57,6 +59,22 @@ static void measure(MeshShape *shape)
     shape->depth = distance_deepest(&shape->distance);
 }
 
+static void say_coarse(const Triangles *of, MeshState *state)
+{
+    double low[3], high[3], longest = 0;
+    triangles_bounds(of, low, high);
+    for (int k = 0; k < 3; k++)
+        longest = fmax(longest, high[k] - low[k]);
+    const float largest = (float)of->largest;
+    const double step = (double)nextafterf(largest, INFINITY) - largest;
+    if (step > COARSE * longest)
+        snprintf(
+            state->coarse, sizeof state->coarse,
+            "it is %.3g from the origin of its file, whose numbers are %.2g apart there, and it is %.3g long; "
+            "move it to the origin in a modeller, or write it as OBJ",
+            of->largest, step, longest);
+}
+
 static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
 {
     TriangleTree tree;
@@ -95,8 +113,11 @@ MeshShape *mesh_shape_make(Triangles *triangles, int threads, MeshState *state, 
     }
     shape->triangles = *triangles;
     *triangles = (Triangles){0};
+    say_coarse(&shape->triangles, state);
     if (make(shape, threads, state, error))
         return shape;
+    if (state->coarse[0])
+        error_set(error, "%s", state->coarse);
     mesh_shape_free(shape);
     return NULL;
 }

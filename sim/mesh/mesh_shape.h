@@ -24,6 +24,8 @@ typedef struct MeshState {
     double middle[3];   /* of the block around it, where it came from */
     size_t cutting;     /* pairs of triangles that cut each other */
     bool all_looked_at; /* for such pairs; false: there may be more */
+    char coarse[200];   /* what is wrong and would be right where its numbers are too coarse for it, so far
+                           from 0; "": they are not */
 } MeshState;
 
 /* Takes the triangles over, which are empty then. NULL where they enclose nothing, are open, or memory is

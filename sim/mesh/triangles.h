@@ -16,6 +16,7 @@ typedef struct Triangles {
     size_t vertex_count, triangle_count;
     float (*vertex)[3];
     uint32_t (*triangle)[3];
+    double largest; /* of the floats that its places were before they were moved near 0; 0: of no matter */
 } Triangles;
 
 void triangles_free(Triangles *triangles); /* a zeroed one is allowed */

@@ -1,6 +1,8 @@
-/* Fuzz target of meshes, but for assimp: how many triangles a file says that it has; and of any triangles,
-   what is wrong with them, and the distance from what is left. The first byte chooses. */
+/* Fuzz target of meshes, but for assimp: how many triangles a file says that it has, and its places moved;
+   and of any triangles, what is wrong with them, and the distance from what is left. The first byte chooses.
+ */
 #include "app/mesh_file/mesh_count.h"
+#include "app/mesh_file/mesh_move.h"
 #include "sim/mesh/triangle_tree.h"
 
 #include <math.h>
@@ -52,6 +54,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (data[0] < MESH_UNKNOWN) {
         const double count = mesh_count((MeshFormat)data[0], (const char *)data + 1, size - 1, size - 1);
         must(count >= 0 && count < 1e18);
+        size_t moved_size = 0;
+        free(mesh_moved((MeshFormat)data[0], (const char *)data + 1, size - 1, (double[]){1, 2e6, -3e-3},
+                        &moved_size));
         return 0;
     }
     const size_t count = data[1];

@@ -54,7 +54,7 @@ static bool make(const char *path, Triangles *triangles, Error *error)
 {
     (void)path, (void)error;
     *triangles = (Triangles){MANY, MANY, calloc(MANY, sizeof *triangles->vertex),
-                             calloc(MANY, sizeof *triangles->triangle)};
+                             calloc(MANY, sizeof *triangles->triangle), 3};
     triangles->vertex[MANY - 1][2] = 7;
     triangles->triangle[MANY - 1][1] = 9;
     return true;
@@ -87,6 +87,7 @@ static void more_than_a_pipe_holds(void **state)
     Error error;
     assert_true(mesh_child_read(make, "a.obj", 60, &triangles, &error));
     assert_int_equal(triangles.vertex_count, MANY);
+    assert_true(triangles.largest == 3);
     assert_true(triangles.vertex[MANY - 1][2] == 7 && triangles.triangle[MANY - 1][1] == 9);
     triangles_free(&triangles);
 }
