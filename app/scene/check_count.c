@@ -7,6 +7,7 @@
 #include "sim/matter/fill.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
+#include "sim/matter/solid_step.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,12 +93,67 @@ static bool check_boundary(const Check *check, size_t fluid)
     for (int k = 0; k < world->solid_count; k++)
         sum += boundary_estimate(&world->solids[k], world->dimensions, world->spacing,
                                  world->support * world->spacing);
-    return sum <= 0 || scene_fits_memory(sum + (double)flow_capacity(world, fluid)) ||
-           FAIL(
-               check, "solids",
-               "the solids' surfaces need about %.3g particles of their own, more than this machine can hold; "
-               "use a larger spacing or smaller solids",
-               sum);
+    if (sum <= 0 || scene_fits_memory(sum + (double)flow_capacity(world, fluid)))
+        return true;
+    FAIL(
+        check, "solids",
+        "the solids' surfaces need about %.3g particles of their own, more than this machine can hold; use a "
+        "larger spacing or smaller solids",
+        sum);
+    return scene_ask_scale(check, NULL);
+}
+
+/* Whether the solid holds a lattice of 3 x 3 x 3 places from corner to corner. */
+static bool holds_block(const WorldDef *world, const SolidDef *solid, const double low[3],
+                        const double high[3])
+{
+    SolidPose pose;
+    solid_pose_at(solid, 0, &pose);
+    for (int n = 0; n < 27; n++) {
+        const int at[3] = {n % 3, n / 3 % 3, n / 9};
+        float x[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = (float)(low[k] + 0.5 * at[k] * (high[k] - low[k]));
+        if (solid_clearance(solid, &pose, world->dimensions, x, 0) >= 0)
+            return false;
+    }
+    return true;
+}
+
+/* The solid that all of a fluid's fills lie in; -1: none does. */
+static int covering(const WorldDef *world, const FluidDef *fluid)
+{
+    for (int k = 0; k < world->solid_count; k++) {
+        bool all = true;
+        for (int i = 0; i < fluid->fill_count && all; i++) {
+            double low[3], high[3];
+            fill_bounds(&fluid->fills[i], low, high);
+            all = holds_block(world, &world->solids[k], low, high);
+        }
+        if (all)
+            return k;
+    }
+    return -1;
+}
+
+static bool no_particles(const Check *check, int f)
+{
+    const WorldDef *world = &check->scene->world;
+    const FluidDef *fluid = &world->fluids[f];
+    const int k = covering(world, fluid);
+    char path[64];
+    snprintf(path, sizeof path, "fluids[%d].fill", f);
+    if (k >= 0)
+        FAIL(check, path,
+             "the fluid '%s' has no particles: its fills lie within solids[%d]; move one of them",
+             fluid->name, k);
+    else
+        FAIL(
+            check, path,
+            "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that is "
+            "free; use a smaller spacing or larger fills",
+            fluid->name, world->spacing);
+    return scene_ask_scale(check, NULL);
 }
 
 /* Checks a view; `path` is the view's place in the scene, for its keys, which begin with "view". */
@@ -157,17 +213,11 @@ bool scene_check_count(const Tree *tree, const Scene *scene, Error *error)
         return false;
     seed_counts(&scene->world, counts);
     for (int f = 0; f < scene->world.fluid_count; f++) {
-        char path[64];
-        snprintf(path, sizeof path, "fluids[%d].fill", f);
         all += counts[f];
         if (!scene_fits_memory((double)all))
             return too_many(&check, (double)all);
         if (counts[f] == 0 && scene->world.fluids[f].fill_count > 0)
-            return FAIL(
-                &check, path,
-                "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that "
-                "is free; use a smaller spacing or larger fills",
-                scene->world.fluids[f].name, spacing);
+            return no_particles(&check, f);
     }
     if (!check_boundary(&check, all))
         return false;

@@ -40,7 +40,7 @@ static bool check_round(const Check *check, const Fill *fill, const char *path)
     for (int k = 0; k < check->scene->world.dimensions; k++) {
         snprintf(centre, sizeof centre, "%s.%s.centre[%d]", path, shape, k);
         if (!scene_between_walls(check, centre, k, low[k], high[k]))
-            return false;
+            return fill->kind == FILL_MESH && scene_ask_scale(check, &fill->mesh);
     }
     return true;
 }

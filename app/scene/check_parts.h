@@ -38,6 +38,10 @@ bool scene_check_solid(const Check *check, int index);
 /* Solids must not be thinner than a spacing: fluid on both sides would act as one fluid. */
 bool scene_check_widths(const Check *check);
 
+/* meshes.c: false, with a question about the scale behind the error where the mesh is longer than the box
+   from corner to corner, or shorter than the spacing. NULL: of the first such mesh of the scene. */
+bool scene_ask_scale(const Check *check, const MeshUse *mesh);
+
 /* check_probes.c */
 bool scene_check_probe(const Check *check, int index);
 /* Metrics of probes need probes. */

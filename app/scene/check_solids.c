@@ -93,11 +93,14 @@ bool scene_check_widths(const Check *check)
         const double width = scene_solid_width(solid, world->dimensions);
         char path[64];
         snprintf(path, sizeof path, "solids[%d].%s", k, solid_name(solid->kind));
-        if (!(width >= (1 - 1e-9) * world->spacing))
-            return FAIL(check, path,
-                        "the solid is %g m thin, less than the spacing of %g m; make it thicker (twice the "
-                        "spacing to keep fluids apart) or use a smaller spacing",
-                        width, world->spacing);
+        if (!(width >= (1 - 1e-9) * world->spacing)) {
+            FAIL(
+                check, path,
+                "the solid is %g m thin, less than the spacing of %g m; make it thicker (twice the spacing to "
+                "keep fluids apart) or use a smaller spacing",
+                width, world->spacing);
+            return solid->kind == SOLID_MESH && scene_ask_scale(check, &solid->mesh);
+        }
     }
     return true;
 }

@@ -6,6 +6,7 @@
 #include "app/scene/check_parts.h"
 #include "app/scene/tables.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -19,6 +20,63 @@ typedef struct Reader {
     const SceneSettings *settings;
     Notes *notes;
 } Reader;
+
+/* ---- its unit ---- */
+
+static double length_of(const MeshUse *mesh)
+{
+    const double *half = mesh->shape->half;
+    return 2 * mesh->scale * fmax(fmax(half[0], half[1]), half[2]);
+}
+
+static double diagonal_of(const WorldDef *world)
+{
+    const double *size = world->box_size;
+    return sqrt(size[0] * size[0] + size[1] * size[1] + size[2] * size[2]);
+}
+
+static bool is_odd(const WorldDef *world, const MeshUse *mesh)
+{
+    return mesh->shape && (length_of(mesh) > diagonal_of(world) || length_of(mesh) < world->spacing);
+}
+
+static const MeshUse *first_odd(const WorldDef *world)
+{
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].fill_count; i++)
+            if (world->fluids[f].fills[i].kind == FILL_MESH && is_odd(world, &world->fluids[f].fills[i].mesh))
+                return &world->fluids[f].fills[i].mesh;
+    for (int k = 0; k < world->solid_count; k++)
+        if (world->solids[k].kind == SOLID_MESH && is_odd(world, &world->solids[k].mesh))
+            return &world->solids[k].mesh;
+    return NULL;
+}
+
+bool scene_ask_scale(const Check *check, const MeshUse *mesh)
+{
+    const WorldDef *world = &check->scene->world;
+    const MeshUse *odd = !mesh ? first_odd(world) : is_odd(world, mesh) ? mesh : NULL;
+    const size_t used = check->error && odd ? strlen(check->error->message) : 0;
+    if (used > 0)
+        snprintf(
+            check->error->message + used, sizeof check->error->message - used,
+            ". %.90s is %.3g m long at its scale of %g; is the scale right (0.001 where its file counts millimetres)?",
+            odd->file, length_of(odd), odd->scale);
+    return false;
+}
+
+/* ---- what is said of it ---- */
+
+static void say_size(const Reader *reader, const char *key, const MeshUse *mesh)
+{
+    const double length = length_of(mesh), box = diagonal_of(&reader->check.scene->world);
+    if (length > box)
+        advise(
+            reader->check.tree, key, reader->notes,
+            "%.90s is %.3g m long at its scale of %g, more than the box of %.3g m from corner to corner; is that "
+            "its unit (0.001 for millimetres)?",
+            mesh->file, length, mesh->scale, box);
+}
 
 /* Parts that overlap, and by how much of what they enclose one by one. */
 static void say_overlap(const Reader *reader, const char *key, const char *file, const MeshShape *shape,
@@ -64,6 +122,12 @@ static void say_state(const Reader *reader, const char *key, const char *file, c
     say_overlap(reader, key, file, shape, state);
 }
 
+static void say_mesh(const Reader *reader, const char *key, const MeshUse *mesh, const MeshState *state)
+{
+    say_state(reader, key, mesh->file, mesh->shape, state);
+    say_size(reader, key, mesh);
+}
+
 static bool find(const Reader *reader, const char *file, char path[1200], Error *why)
 {
     const char *scene = reader->check.tree->path;
@@ -86,7 +150,7 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
     if (!reader->notes)
         return true;
     if (mesh->shape)
-        say_state(reader, key, mesh->file, mesh->shape, &state);
+        say_mesh(reader, key, mesh, &state);
     else
         notes_add(reader->notes, "%.90s: %.300s; it is not drawn", mesh->file, why.message);
     return true;

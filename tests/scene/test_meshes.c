@@ -206,6 +206,43 @@ static void what_cannot_be_had_is_refused(void **state)
                       &(Error){""}));
 }
 
+/* In another unit, a mesh is far larger than the box, or vanishes in it. */
+static void a_scale_is_asked_about(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *list, *text, *words;
+    } scenes[] = {
+        {TANK "solids:\n  - mesh: {file: box.obj, scale: 3, centre: [0, 0.5, 0]}\n", ":4:11: ",
+         "its fills lie within solids[0]; move one of them. box.obj is 3 m long at its scale of 3; is the scale "
+         "right (0.001 where its file counts millimetres)?"},
+        {TANK "solids:\n  - mesh: {file: box.obj, scale: 30000, centre: [0, 0.5, 0]}\n",
+         ":6:3: ", " smaller solids. box.obj is 3e+04 m long at its scale of 30000; is the scale right"},
+        {TANK "solids:\n  - mesh: {file: box.obj, scale: 0.001, centre: [0, 0.5, 0]}\n",
+         ":6:11: ", " a smaller spacing. box.obj is 0.001 m long at its scale of 0.001; is the scale right"},
+        {TANK "  - name: more\n    fill: [{mesh: {file: box.obj, scale: 300, centre: [0, 0.5, 0]}}]\n",
+         ":6:", "the box from -0.5 to 0.5 m. box.obj is 300 m long at its scale of 300; is the scale right"},
+        {TANK "  - name: more\n    fill: [{mesh: {file: box.obj, scale: 0.001, centre: [0, 0.51, 0]}}]\n",
+         ":6:11: ", " larger fills. box.obj is 0.001 m long at its scale of 0.001; is the scale right"}};
+    write_box("box.obj", 12, false);
+    for (size_t k = 0; k < sizeof scenes / sizeof *scenes; k++) {
+        Error error = {""};
+        if (load(scenes[k].list, &error))
+            fail_msg("scene %zu is accepted", k);
+        if (!strstr(error.message, scenes[k].text) || !strstr(error.message, scenes[k].words))
+            fail_msg("expected '%s%s'\n     got '%s'", scenes[k].text, scenes[k].words, error.message);
+    }
+    Error error = {""};
+    if (!load(TANK "solids:\n  - mesh: {file: box.obj, scale: 2.5, centre: [0, 1.5, 0]}\n", &error))
+        fail_msg("%s", error.message);
+    assert_non_null(strstr(notes.line[0],
+                           "tank.yaml:6:12: box.obj is 2.5 m long at its scale of 2.5, more than the "
+                           "box of 1.73 m from corner to corner; is the scale right"));
+    assert_false(load(TANK "solids:\n  - box: {size: [3, 3, 3], centre: [0, 0.5, 0]}\n", &error));
+    assert_non_null(strstr(error.message, "its fills lie within solids[0]; move one of them"));
+    assert_null(strstr(error.message, "scale"));
+}
+
 /* Ten million triangles: files of their size, without a byte in them. */
 static void what_is_too_large_is_refused_unread(void **state)
 {
@@ -342,6 +379,7 @@ int main(void)
         cmocka_unit_test(what_is_mended_is_said_once),
         cmocka_unit_test(parts_are_one_mesh),
         cmocka_unit_test(what_cannot_be_had_is_refused),
+        cmocka_unit_test(a_scale_is_asked_about),
         cmocka_unit_test(what_is_too_large_is_refused_unread),
         cmocka_unit_test(counts_before_reading),
         cmocka_unit_test(a_cut_head_is_refused),
