@@ -78,7 +78,9 @@ bool output_begin(Output *output, const char *path, Error *error)
         return false;
     snprintf(output->path, sizeof output->path, "%s", path);
     output_clear_stale(output->target);
-    snprintf(output->temp, sizeof output->temp, "%s.%ld.tmp", output->target, (long)getpid());
+    const char *here = output->target[0] == '/' ? "" : "./"; /* so that no program that writes it takes a name
+                                                                for an option, a protocol or a pipe */
+    snprintf(output->temp, sizeof output->temp, "%s%s.%ld.tmp", here, output->target, (long)getpid());
     int file = open(output->temp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {
         int reason = errno;

@@ -9,10 +9,10 @@
 
 /* A file being written. Zero-initialise before use. */
 typedef struct Output {
-    char path[1024];   /* the requested name */
-    char target[1024]; /* the file to replace: the target of `path` if `path` is a link, which stays */
-    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp, in the same folder: write here until the commit; "": none
-                                  */
+    char path[1024];   /* the name that was asked for */
+    char target[1024]; /* the file that gets replaced: where `path` leads when it is a link, which stays */
+    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp, in the same folder, from "./" or "/" on: write here until
+                                    the commit; empty: none */
 } Output;
 
 /* Creates the empty temporary file, which shows at once if the file is writable. Returns false with the

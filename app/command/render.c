@@ -393,8 +393,9 @@ int cmd_render(const Args *args)
     if (code == EXIT_USAGE || (code == 0 && args->json && !json_file_check(args->json, &error))) {
         fprintf(stderr, "%s\n", error.message);
         code = code == 0 ? EXIT_FAILED : code;
-    } else if (code != 0 || !(render->pictures = pictures_create(args->output, args->width, args->height,
-                                                                 args->fps, &error))) {
+    } else if (code != 0 ||
+               !(render->pictures = pictures_create(args->output, args->width, args->height, args->fps,
+                                                    make_schedule(args, kind).count, &error))) {
         code = fail(render, &error);
     } else {
         code = shoot_all(render, kind, &error);

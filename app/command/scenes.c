@@ -6,6 +6,7 @@
 #include "app/shelf/scene_list.h"
 #include "app/shelf/thumbnail.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -55,12 +56,22 @@ static void put_text(FILE *file, const char *text)
     }
 }
 
+/* A name as a part of an address: all but what means nothing in one as its bytes' numbers. */
+static void put_url(FILE *file, const char *name)
+{
+    for (; *name; name++)
+        if (isalnum((unsigned char)*name) || strchr("-._~", *name))
+            fputc(*name, file);
+        else
+            fprintf(file, "%%%02X", (unsigned char)*name);
+}
+
 static void put_row(FILE *file, const SceneRow *row, bool picture)
 {
     fputs("<figure>", file);
     if (picture) {
         fputs("<img alt=\"\" src=\"", file);
-        put_text(file, row->name);
+        put_url(file, row->name);
         fputs(".png\">", file);
     }
     fputs("<figcaption><b>", file);

@@ -1,5 +1,7 @@
 #include "app/export/export_index.h"
 
+#include "sim/base/error.h"
+
 #include <errno.h>
 #include <jansson.h>
 #include <string.h>
@@ -10,9 +12,10 @@ static const char *last_part(const char *path)
     return slash ? slash + 1 : path;
 }
 
-void export_index_name(const char *folder, size_t index, const char *extension, char *name, size_t size)
+void export_index_name(const char *folder, size_t index, size_t of, const char *extension, char *name,
+                       size_t size)
 {
-    snprintf(name, size, "%s-%04zu%s", last_part(folder), index, extension);
+    snprintf(name, size, "%s-%0*zu%s", last_part(folder), number_digits(of, 4), index, extension);
 }
 
 /* Prints a text within the quotes of an attribute. */
@@ -37,7 +40,7 @@ static void print_part(FILE *file, const ExportIndex *index, size_t number, size
 {
     const IndexPart *own = index->part_count > 0 ? &index->parts[part] : NULL;
     char name[1088], part_name[1120];
-    export_index_name(index->folder, number, index->extension, name, sizeof name);
+    export_index_name(index->folder, number, index->of, index->extension, name, sizeof name);
     export_part_name(name, own ? own->suffix : "", part_name, sizeof part_name);
     fprintf(file, "<DataSet timestep=\"%.17g\" group=\"\" part=\"%zu\"", index->times[number], part);
     if (own) {
@@ -69,7 +72,7 @@ bool export_index_series(FILE *file, const ExportIndex *index)
     char name[1088];
     json_t *files = json_array();
     for (size_t i = 0; i < index->count; i++) {
-        export_index_name(index->folder, i, index->extension, name, sizeof name);
+        export_index_name(index->folder, i, index->of, index->extension, name, sizeof name);
         json_array_append_new(files, json_pack("{s:o, s:f}", "name",
                                                json_sprintf("%s/%s", last_part(index->folder), name), "time",
                                                index->times[i]));

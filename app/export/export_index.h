@@ -10,9 +10,12 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* Makes NAME-0000EXTENSION: NAME is the last part of the folder's path, the number has at least four
-   digits, the extension is ".vtp" or ".ply". */
-void export_index_name(const char *folder, size_t index, const char *extension, char *name, size_t size);
+/* Makes NAME-0000EXTENSION: NAME is the last part of the folder's path, the number has at least four digits,
+   and as many as the greatest of `of` numbers needs, so that names sort as numbers do; the extension is
+   ".vtp" or
+   ".ply". */
+void export_index_name(const char *folder, size_t index, size_t of, const char *extension, char *name,
+                       size_t size);
 
 /* One of the files of a time: a mesh. */
 typedef struct IndexPart {
@@ -26,6 +29,7 @@ void export_part_name(const char *name, const char *suffix, char *own, size_t si
 typedef struct ExportIndex {
     const char *folder, *extension;
     size_t count;           /* count of times */
+    size_t of;              /* numbers that names have room for */
     const double *times;    /* of each, s */
     size_t part_count;      /* 0: one file per time, without a name in the index */
     const IndexPart *parts; /* not owned */

@@ -54,7 +54,7 @@ static bool write_files(Series *series, const SeriesJob *job, Progress *progress
 {
     for (*written = 0; *written < job->count && !(*written > 0 && interrupted());) {
         char name[1088], path[sizeof series->folder.temp + sizeof name];
-        export_index_name(series->folder.path, *written, job->extension, name, sizeof name);
+        export_index_name(series->folder.path, *written, job->count, job->extension, name, sizeof name);
         snprintf(path, sizeof path, "%s/%s", series->folder.temp, name);
         if (!job->write(job->user, *written, path, &series->times[*written], error))
             return false;
@@ -69,6 +69,7 @@ static bool write_index(const Series *series, const SeriesJob *job, size_t count
     const ExportIndex index = {.folder = series->folder.path,
                                .extension = job->extension,
                                .count = count,
+                               .of = job->count,
                                .times = series->times,
                                .part_count = job->part_count,
                                .parts = job->parts};

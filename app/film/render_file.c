@@ -197,7 +197,8 @@ static bool open_all(FileRender *render, Error *error)
            (render->panels = panels_create(subjects, count, args->width, args->height, error)) &&
            (image_create(&render->image, args->width, args->height) ||
             error_set(error, "out of memory for a picture of %d x %d", args->width, args->height)) &&
-           (render->pictures = pictures_create(args->output, args->width, args->height, args->fps, error));
+           (render->pictures =
+                pictures_create(args->output, args->width, args->height, args->fps, render->wanted, error));
 }
 
 static void close_all(FileRender *render)

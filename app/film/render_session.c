@@ -210,7 +210,8 @@ static int shoot_film(Film *film, Error *error)
 {
     const Args *args = film->args;
     if ((args->json && !json_file_check(args->json, error)) || !open_shoot(film, error) ||
-        !(film->pictures = pictures_create(args->output, args->width, args->height, args->fps, error)))
+        !(film->pictures =
+              pictures_create(args->output, args->width, args->height, args->fps, film->wanted, error)))
         return fail(film, EXIT_FAILED, error);
     progress_begin(&film->progress, stderr, "render", args->quiet);
     const bool done = simulate(film, error);

@@ -17,7 +17,7 @@ struct Pictures {
     Video *video;
     Output png;
     const ImageText *text; /* NULL: none */
-    size_t count;
+    size_t count, of;      /* that are there; that are to come, 0: not known */
     bool made_folder;
 };
 
@@ -42,7 +42,7 @@ static void frame_path(const Pictures *pictures, size_t index, char path[1088])
 {
     size_t length = strlen(pictures->path);
     const char *slash = length && pictures->path[length - 1] == '/' ? "" : "/";
-    snprintf(path, 1088, "%s%sframe_%05zu.png", pictures->path, slash, index);
+    snprintf(path, 1088, "%s%sframe_%0*zu.png", pictures->path, slash, number_digits(pictures->of, 5), index);
 }
 
 /* Makes the folder, and checks that a file can be written there. */
@@ -75,7 +75,7 @@ static bool begin(Pictures *pictures, int width, int height, double fps, Error *
     return pictures->video != NULL;
 }
 
-Pictures *pictures_create(const char *path, int width, int height, double fps, Error *error)
+Pictures *pictures_create(const char *path, int width, int height, double fps, size_t count, Error *error)
 {
     Pictures *pictures = calloc(1, sizeof *pictures);
     if (!pictures) {
@@ -83,6 +83,7 @@ Pictures *pictures_create(const char *path, int width, int height, double fps, E
         return NULL;
     }
     snprintf(pictures->path, sizeof pictures->path, "%s", path);
+    pictures->of = count;
     if (begin(pictures, width, height, fps, error))
         return pictures;
     pictures_discard(pictures);

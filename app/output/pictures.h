@@ -16,15 +16,16 @@ bool pictures_kind(const char *path, PicturesKind *kind, Error *error);
 
 typedef struct Pictures Pictures;
 
-/* Creates the output. A missing folder is created, but not its parents. Returns NULL with the reason, see
-   output_begin and video_create. */
-Pictures *pictures_create(const char *path, int width, int height, double fps, Error *error);
+/* A folder that is missing is created (not those above it). NULL with the reason, see output_begin and
+   video_create. `count` pictures are to come, whose numbers in a folder are as wide as the last one's; 0: not
+   known. */
+Pictures *pictures_create(const char *path, int width, int height, double fps, size_t count, Error *error);
 
 /* Embeds the scene of `text` in all later PNG files; `text` must outlive `pictures`; NULL: none. */
 void pictures_carry(Pictures *pictures, const ImageText *text);
 
-/* Adds a picture of the given size. In a folder each picture is a separate complete file, frame_00000.png and
-   so on. Adding a second picture to a PNG is an error of the caller. */
+/* One more picture, of that size. In a folder each is a whole file of its own, frame_00000.png and so on, or
+   with more digits where there are more; a second one into a PNG is a mistake of the caller. */
 bool pictures_add(Pictures *pictures, const Image *image, Error *error);
 
 /* Finds the folder's next frame, if left by an earlier, longer run; `frame` gets its path. Returns false if

@@ -26,6 +26,14 @@ bool error_set(Error *error, const char *format, ...)
     return false;
 }
 
+int number_digits(size_t count, int least)
+{
+    int digits = 1;
+    for (size_t left = count > 0 ? (count - 1) / 10 : 0; left > 0; left /= 10)
+        digits++;
+    return digits > least ? digits : least;
+}
+
 void number_grouped(size_t number, char text[32])
 {
     char digits[24];

@@ -23,6 +23,9 @@ static inline const char *plural(size_t count)
     return count == 1 ? "" : "s";
 }
 
+/* How many digits the greatest number below `count` has, at least `least`: names sort as their numbers do. */
+int number_digits(size_t count, int least);
+
 /* A number with a comma at each thousand: "16,384". */
 void number_grouped(size_t number, char text[32]);
 

@@ -342,7 +342,7 @@ static void a_series_of_ply_has_an_index_in_json(void **state)
     static const double times[] = {0, 0.1};
     char text[1024] = "";
     FILE *file = fopen("a.ply.series", "w+");
-    assert_true(export_index_series(file, &(ExportIndex){"x/a \"b\"", ".ply", 2, times, 0, NULL}));
+    assert_true(export_index_series(file, &(ExportIndex){"x/a \"b\"", ".ply", 2, 2, times, 0, NULL}));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);
@@ -355,11 +355,11 @@ static void a_series_of_ply_has_an_index_in_json(void **state)
     json_decref(index);
     file = fopen("a.ply.series", "w+");
     assert_false(
-        export_index_series(file, &(ExportIndex){"\xff", ".ply", 2, times, 0, NULL})); /* not UTF-8 */
+        export_index_series(file, &(ExportIndex){"\xff", ".ply", 2, 2, times, 0, NULL})); /* not UTF-8 */
     fclose(file);
     file = fopen("/dev/full", "w");
     setbuf(file, NULL);
-    assert_false(export_index_series(file, &(ExportIndex){"a", ".ply", 2, times, 0, NULL}));
+    assert_false(export_index_series(file, &(ExportIndex){"a", ".ply", 2, 2, times, 0, NULL}));
     fclose(file);
 }
 
@@ -368,12 +368,15 @@ static void the_index_names_its_files(void **state)
     (void)state;
     static const double times[] = {0, 0.1};
     char name[64], text[1024] = "";
-    export_index_name("some/where/fluid", 7, ".vtp", name, sizeof name);
+    export_index_name("some/where/fluid", 7, 10000, ".vtp", name, sizeof name);
     assert_string_equal(name, "fluid-0007.vtp");
-    export_index_name("fluid", 12345, ".ply", name, sizeof name);
+    export_index_name("fluid", 7, 10001, ".ply", name, sizeof name);
+    assert_string_equal(name, "fluid-00007.ply");
+    export_index_name("fluid", 12345, 0, ".ply", name,
+                      sizeof name); /* not known: at least as many as it has */
     assert_string_equal(name, "fluid-12345.ply");
     FILE *file = fopen("a.pvd", "w+");
-    assert_true(export_index_pvd(file, &(ExportIndex){"x/a&<b>\"", ".vtp", 2, times, 0, NULL}));
+    assert_true(export_index_pvd(file, &(ExportIndex){"x/a&<b>\"", ".vtp", 2, 2, times, 0, NULL}));
     rewind(file);
     assert_true(fread(text, 1, sizeof text - 1, file) > 0);
     fclose(file);

@@ -36,7 +36,7 @@ static void probe(const char *path, char text[256])
 static void write_pictures(const char *path, int width, int height, int frames)
 {
     Error error = {{0}};
-    Pictures *pictures = pictures_create(path, width, height, 25, &error);
+    Pictures *pictures = pictures_create(path, width, height, 25, 0, &error);
     if (!pictures)
         fail_msg("%s", error.message);
     for (int k = 0; k < frames; k++) {
@@ -57,6 +57,23 @@ static void a_video_has_all_frames(void **state)
     probe("a.mp4", text);
     assert_string_equal(text, "h264,64,48,yuv420p,25/1,7");
     assert_int_equal(count_files("."), 1);
+}
+
+/* Names that ffmpeg would take for a protocol, an option, a pattern or a pipe. */
+static void any_name_is_a_files(void **state)
+{
+    (void)state;
+    static const char *const names[] = {"12:30.mp4", "-dash.mp4", "http:x.gif", "pipe:1.mp4", "a:b.gif",
+                                        "%03d.mp4",  ".h:x.mp4",  "|cat.mp4",   "file:a.gif", "a#b? c.mp4"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        char path[64], text[256];
+        write_pictures(names[k], 16, 16, 2);
+        snprintf(path, sizeof path, "./%s", names[k]);
+        assert_true(exists(path));
+        probe(path, text);
+        assert_non_null(strstr(text, "16,16,"));
+    }
+    assert_int_equal(count_files("."), (int)(sizeof names / sizeof *names));
 }
 
 static void odd_sizes_become_even(void **state)
@@ -197,14 +214,20 @@ static void a_folder_gets_numbered_frames(void **state)
     assert_int_equal(image.rgb[1], 80);
     image_destroy(&image);
     write_text("file", "");
-    assert_null(pictures_create("file", 8, 6, 30, &error));
+    assert_null(pictures_create("file", 8, 6, 30, 0, &error));
     assert_contains(error.message, "is a file, not a folder");
-    assert_null(pictures_create("missing/frames", 8, 6, 30, &error));
+    assert_null(pictures_create("missing/frames", 8, 6, 30, 0, &error));
     assert_contains(error.message, "cannot be created: No such file or directory");
-    Pictures *none = pictures_create("empty", 8, 6, 30, &error);
+    Pictures *none = pictures_create("empty", 8, 6, 30, 0, &error);
     assert_non_null(none);
     pictures_discard(none);
     assert_false(exists("empty"));
+    Image one = plain_image(8, 6, 0); /* numbers as wide as the last one's */
+    Pictures *many = pictures_create("many", 8, 6, 30, 100001, &error);
+    assert_non_null(many);
+    assert_true(pictures_add(many, &one, &error) && pictures_finish(many, &error));
+    assert_true(exists("many/frame_000000.png"));
+    image_destroy(&one);
 }
 
 static void a_png_appears_when_whole(void **state)
@@ -212,12 +235,12 @@ static void a_png_appears_when_whole(void **state)
     (void)state;
     Error error = {{0}};
     Image image = plain_image(8, 6, 0);
-    Pictures *pictures = pictures_create("a.png", 8, 6, 30, &error);
+    Pictures *pictures = pictures_create("a.png", 8, 6, 30, 0, &error);
     assert_true(pictures_add(pictures, &image, &error));
     assert_false(exists("a.png"));
     assert_true(pictures_finish(pictures, &error));
     assert_true(exists("a.png"));
-    pictures = pictures_create("b.png", 8, 6, 30, &error);
+    pictures = pictures_create("b.png", 8, 6, 30, 0, &error);
     assert_true(pictures_add(pictures, &image, &error));
     pictures_discard(pictures);
     assert_int_equal(count_files("."), 1);
@@ -230,6 +253,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(a_video_has_all_frames),
+        TEST(any_name_is_a_files),
         TEST(odd_sizes_become_even),
         TEST(colours_survive),
         TEST(an_old_video_stays_until_the_new_one_is_whole),

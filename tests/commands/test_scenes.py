@@ -31,24 +31,25 @@ class Scenes(CommandTest):
         self.assertEqual(self.listed('own'), f'{"?[2Ja":13} ?[2Ja\n{"":13} One ?]0;b?idea.\n')
 
     def test_pictures_and_a_page(self):
+        one = 'a#b? 50%&c:é'  # each of them means something in an address
         os.mkdir(self.path('own'))
-        self.write('own/one.yaml', '# One <idea>, over\n# two lines. Another sentence.\n' + SMALL)
+        self.write(f'own/{one}.yaml', '# One <idea>, over\n# two lines. Another sentence.\n' + SMALL)
         self.write('own/broken.yaml', 'title: "Tools & more"\nbox: {size: 7}\n')
         code, said = self.slosh('scenes', 'own', '-o', 'out')
         self.assertEqual(code, 1)
         self.assertRegex(said, r'(?m)^broken: no picture: own/broken.yaml:2:')
         self.assertIn('out/index.html: 2 scenes, 1 picture made, 0 kept\n', said)
-        self.assertEqual(sorted(os.listdir(self.path('out'))), ['index.html', 'one.png'])
+        self.assertEqual(sorted(os.listdir(self.path('out'))), sorted(['index.html', f'{one}.png']))
         page = self.read('out/index.html').decode()
-        self.assertIn('<b>A small tank</b><br>One &lt;idea>, over two lines.<br><code>slosh one</code>', page)
+        self.assertIn('<b>A small tank</b><br>One &lt;idea>, over two lines.<br><code>slosh a#b? 50%&amp;c:é</code>', page)
         self.assertIn('<b>Tools &amp; more</b>', page)
-        self.assertEqual(re.findall('src="(.*?)"', page), ['one.png'])
+        self.assertEqual(re.findall('src="(.*?)"', page), ['a%23b%3F%2050%25%26c%3A%C3%A9.png'])
         os.remove(self.path('own/broken.yaml'))
-        before = os.stat(self.path('out/one.png')).st_mtime_ns
+        before = os.stat(self.path(f'out/{one}.png')).st_mtime_ns
         code, said = self.slosh('scenes', 'own', '-o', 'out')
         self.assertEqual((code, said.splitlines()[-1]), (0, 'out/index.html: 1 scene, 0 pictures made, 1 kept'))
-        self.assertEqual(os.stat(self.path('out/one.png')).st_mtime_ns, before)
-        os.utime(self.path('out/one.png'), (1e9, 1e9))  # older than its scene
+        self.assertEqual(os.stat(self.path(f'out/{one}.png')).st_mtime_ns, before)
+        os.utime(self.path(f'out/{one}.png'), (1e9, 1e9))  # older than its scene
         self.assertIn('1 picture made, 0 kept', self.slosh('scenes', 'own', '-o', 'out')[1])
 
     def test_what_is_no_folder_of_scenes(self):
