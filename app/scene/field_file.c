@@ -20,7 +20,8 @@ typedef struct Reader {
     const char *path, *at, *end;
     const FieldFileKind *kind;
     int line;
-    int columns, meaning[COLUMNS]; /* index in a row for each column */
+    char between;                  /* cells */
+    int columns, meaning[COLUMNS]; /* of each column: its place in a row */
     bool has[COLUMNS];
     Row *rows;
     size_t count, room;
@@ -52,15 +53,40 @@ static bool next_line(Reader *r, const char **line, const char **end)
     return false;
 }
 
-/* Copies the cell at `*at` without outer spaces, and moves *at after its comma; NULL after the last cell. */
+/* A semicolon, or a tab, where the first line has one and no comma before it. */
+static char separator_of(const char *line, const char *end)
+{
+    for (; line < end; line++)
+        if (*line == ';' || *line == '\t' || *line == ',')
+            return *line;
+    return ',';
+}
+
+/* The end of a cell, behind its quotes where it is in quotes. */
+static const char *cell_end(const Reader *r, const char *at, const char *end)
+{
+    while (at < end && *at == ' ')
+        at++;
+    const char *quote = at < end && *at == '"' ? memchr(at + 1, '"', (size_t)(end - at - 1)) : NULL;
+    if (quote)
+        at = quote + 1;
+    while (at < end && *at != r->between)
+        at++;
+    return at;
+}
+
+/* The cell at `*at`, without spaces and quotes about it, and *at behind what ends it: NULL behind the last
+ * one. */
 static bool next_cell(const Reader *r, const char **at, const char *end, char cell[CELL_SIZE])
 {
-    const char *comma = memchr(*at, ',', (size_t)(end - *at)), *begin = *at, *stop = comma ? comma : end;
-    *at = comma ? comma + 1 : NULL;
+    const char *begin = *at, *stop = cell_end(r, begin, end);
+    *at = stop < end ? stop + 1 : NULL;
     while (begin < stop && (*begin == ' ' || *begin == '\t'))
         begin++;
     while (stop > begin && (stop[-1] == ' ' || stop[-1] == '\t'))
         stop--;
+    if (stop - begin > 1 && *begin == '"' && stop[-1] == '"')
+        begin++, stop--;
     if (stop - begin >= CELL_SIZE)
         return WRONG(r, r->line, "a cell of %d letters; write a number or a name", (int)(stop - begin));
     if (memchr(begin, 0, (size_t)(stop - begin)))
@@ -123,6 +149,7 @@ static bool read_header(Reader *r)
     if (!next_line(r, &at, &end))
         return error_set(r->error, "%.300s: has no line; the first one names columns of %s", r->path,
                          r->kind->words);
+    r->between = separator_of(at, end);
     while (at)
         if (!next_cell(r, &at, end, cell) || !add_column(r, cell))
             return false;
@@ -160,7 +187,9 @@ static bool read_row(Reader *r, const char *at, const char *end)
         if (column == r->columns)
             return WRONG(r, r->line, "more than %d cell%s; the first line names %d column%s", r->columns,
                          plural((size_t)r->columns), r->columns, plural((size_t)r->columns));
-        char *behind;
+        char *behind, *comma = r->between == ',' ? NULL : strchr(cell, ',');
+        if (comma) /* as numbers have it where cells end with a semicolon */
+            *comma = '.';
         const double value = strtod(cell, &behind);
         if (behind == cell || *behind || !isfinite(value))
             return WRONG(r, r->line, "'%s' is no number; write one such as 0.25", cell);

@@ -1,6 +1,8 @@
-/* A table of a quantity over places, as a CSV file. Lines beginning with '#' and empty lines are skipped. The
-   first line names the columns, in any order, each with an optional unit in parentheses. Each further line is
-   a place of a grid and its values, in any order:
+/* A table of a quantity over places as a file: CSV. Lines that begin with '#' and empty lines do not count;
+   the first one that does names the columns, in any order, each with its unit in parentheses if at all; each
+   other one is a place of a grid and what is there, in any order. Where the first line has a semicolon or a
+   tab in the place of its first comma, so have all, and numbers may have a decimal comma; cells may be in
+   quotes.
 
      x (m), z (m), height (m)
      -0.5, 0, 0.21

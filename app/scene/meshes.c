@@ -21,6 +21,14 @@ typedef struct Reader {
     Notes *notes;
 } Reader;
 
+/* As lines have it: of a long path the end. */
+static const char *name_of(const MeshUse *mesh)
+{
+    enum { SHOWN = 90 };
+    const size_t length = strlen(mesh->file);
+    return mesh->file + (length > SHOWN ? length - SHOWN : 0);
+}
+
 /* ---- its unit ---- */
 
 static double length_of(const MeshUse *mesh)
@@ -60,8 +68,8 @@ bool scene_ask_scale(const Check *check, const MeshUse *mesh)
     if (used > 0)
         snprintf(
             check->error->message + used, sizeof check->error->message - used,
-            ". %.90s is %.3g m long at its scale of %g; is the scale right (0.001 where its file counts millimetres)?",
-            odd->file, length_of(odd), odd->scale);
+            ". %s is %.3g m long at its scale of %g; is the scale right (0.001 where its file counts millimetres)?",
+            name_of(odd), length_of(odd), odd->scale);
     return false;
 }
 
@@ -73,9 +81,9 @@ static void say_size(const Reader *reader, const char *key, const MeshUse *mesh)
     if (length > box)
         advise(
             reader->check.tree, key, reader->notes,
-            "%.90s is %.3g m long at its scale of %g, more than the box of %.3g m from corner to corner; is that "
-            "its unit (0.001 for millimetres)?",
-            mesh->file, length, mesh->scale, box);
+            "%s is %.3g m long at its scale of %g, more than the box of %.3g m from corner to corner; is the "
+            "scale right (0.001 where its file counts millimetres)?",
+            name_of(mesh), length, mesh->scale, box);
 }
 
 /* Parts that overlap, and by how much of what they enclose one by one. */
@@ -92,7 +100,7 @@ static void say_overlap(const Reader *reader, const char *key, const char *file,
     if (state->cutting > 0)
         snprintf(cuts, sizeof cuts, "the mesh cuts itself, at %s%zu pair%s of triangles",
                  state->all_looked_at ? "" : "at least ", state->cutting, plural(state->cutting));
-    advise(reader->check.tree, key, reader->notes, "%.90s: %s; what any part encloses is solid%s", file, cuts,
+    advise(reader->check.tree, key, reader->notes, "%s: %s; what any part encloses is solid%s", file, cuts,
            weighs);
 }
 
@@ -102,37 +110,38 @@ static void say_state(const Reader *reader, const char *key, const char *file, c
 {
     const TrianglesState *triangles = &state->triangles;
     if (triangles->inside_out)
-        advise(reader->check.tree, key, reader->notes, "%.90s: the mesh is inside out; its faces are turned",
+        advise(reader->check.tree, key, reader->notes, "%s: the mesh is inside out; its faces are turned",
                file);
     if (triangles->turned > 0)
         advise(reader->check.tree, key, reader->notes,
-               "%.90s: %zu of its parts %s inside out; %s faces are turned", file, triangles->turned,
+               "%s: %zu of its parts %s inside out; %s faces are turned", file, triangles->turned,
                triangles->turned == 1 ? "is" : "are", triangles->turned == 1 ? "its" : "their");
     if (triangles->flat > 0)
         advise(reader->check.tree, key, reader->notes,
-               "%.90s: %zu of its triangles ha%s no area and are left out", file, triangles->flat,
+               "%s: %zu of its triangles ha%s no area and are left out", file, triangles->flat,
                triangles->flat == 1 ? "s" : "ve");
     if (triangles->doubled > 0)
         advise(reader->check.tree, key, reader->notes,
-               "%.90s: %zu of its triangles lie%s on another one with the same corners and %s left out", file,
+               "%s: %zu of its triangles lie%s on another one with the same corners and %s left out", file,
                triangles->doubled, triangles->doubled == 1 ? "s" : "",
                triangles->doubled == 1 ? "is" : "are");
     if (state->coarse[0])
-        advise(reader->check.tree, key, reader->notes, "%.90s: %s", file, state->coarse);
+        advise(reader->check.tree, key, reader->notes, "%s: %s", file, state->coarse);
     say_overlap(reader, key, file, shape, state);
 }
 
 static void say_mesh(const Reader *reader, const char *key, const MeshUse *mesh, const MeshState *state)
 {
-    say_state(reader, key, mesh->file, mesh->shape, state);
+    say_state(reader, key, name_of(mesh), mesh->shape, state);
     say_size(reader, key, mesh);
 }
 
 static bool find(const Reader *reader, const char *file, char path[1200], Error *why)
 {
     const char *scene = reader->check.tree->path;
-    return reader->settings->recorded ? scene_recorded_path(scene, reader->settings->folder, file, path, why)
-                                      : scene_beside_path(scene, file, path, why);
+    return reader->settings->recorded
+               ? scene_recorded_path(scene, reader->settings->folder, file, path, why)
+               : scene_beside_path(scene, file, path, why) && scene_file_is_there(scene, file, path, why);
 }
 
 static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
@@ -146,13 +155,13 @@ static bool read_one(const Reader *reader, const char *key, MeshUse *mesh)
     if (find(reader, mesh->file, path, &why))
         mesh->shape = mesh_file_load(path, &state, &why);
     if (!mesh->shape && !reader->settings->recorded)
-        return FAIL(check, key, "%.90s: %s", mesh->file, why.message);
+        return FAIL(check, key, "%s: %s", name_of(mesh), why.message);
     if (!reader->notes)
         return true;
     if (mesh->shape)
         say_mesh(reader, key, mesh, &state);
     else
-        notes_add(reader->notes, "%.90s: %.300s; it is not drawn", mesh->file, why.message);
+        notes_add(reader->notes, "%s: %.200s; it is not drawn", name_of(mesh), why.message);
     return true;
 }
 

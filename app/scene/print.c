@@ -279,7 +279,7 @@ static bool is_absent(const Key *key, const char *base)
 
 static void print_key(const Key *key, const Walk *walk, const char *shown, FILE *file)
 {
-    char value[TIME_TABLE_ROWS * 48], like[sizeof value];
+    char value[FILE_NAME_SIZE], like[sizeof value]; /* longer than a curve */
     Walk inner = {.base = walk->base, .like = walk->like};
     switch (key->type) {
     case KEY_MAPPING:

@@ -8,6 +8,7 @@
 #include "app/volume/volume_file.h"
 #include "app/yaml/yaml.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,17 +60,46 @@ bool scene_names_table(const char *text)
     return length > 4 && strcmp(text + length - 4, ".csv") == 0;
 }
 
-bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error)
+/* False where the path is too long. */
+static bool in_folder_of(const char *scene, const char *name, char path[1200])
 {
     const char *slash = *name == '/' ? NULL : strrchr(scene, '/');
     const int folder = slash ? (int)(slash - scene) + 1 : 0;
-    if (snprintf(path, 1200, "%.*s%s", folder, scene, name) >= 1200)
-        return error_set(error, "%.300s: its path is too long", name);
-    char found[SCENE_PATH_SIZE];
+    return snprintf(path, 1200, "%.*s%s", folder, scene, name) < 1200;
+}
+
+/* Where a scene that is a link leads; false: nowhere else. */
+static bool beside_target(const char *scene, const char *name, char path[1200])
+{
+    char target[PATH_MAX], own[1200];
+    return *name != '/' && realpath(scene, target) && in_folder_of(target, name, path) &&
+           in_folder_of(scene, name, own) && strcmp(own, path) != 0;
+}
+
+bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error)
+{
+    char found[SCENE_PATH_SIZE], other[1200];
     Error none;
+    if (!in_folder_of(scene, name, path))
+        return error_set(error, "%.300s: its path is too long", name);
+    if (access(path, F_OK) != 0 && beside_target(scene, name, other) && access(other, F_OK) == 0)
+        memcpy(path, other, sizeof other);
     if (picture_text_name(scene) && access(path, F_OK) != 0 && scene_path_find(name, found, &none))
         memcpy(path, found, sizeof found);
     return true;
+}
+
+bool scene_file_is_there(const char *scene, const char *name, const char *path, Error *error)
+{
+    char other[1200], target[PATH_MAX];
+    if (access(path, F_OK) == 0)
+        return true;
+    const char *reason = strerror(errno);
+    const bool link =
+        beside_target(scene, name, other) && realpath(scene, target) && strcmp(scene, target) != 0;
+    return error_set(error, "%s: %.300s%s%.300s; name a file that is there%s", reason, path,
+                     link ? ", nor " : "", link ? other : "",
+                     *name == '/' ? "" : ", from the scene's folder");
 }
 
 static bool is_in(const char *folder, const char *name, char path[1200])
@@ -110,8 +140,11 @@ static const FieldTable *table_of(const Check *check, const char *key, const cha
     char path[1200];
     size_t size;
     Error why;
-    if (!scene_beside_path(check->tree->path, name, path, check->error))
+    if (!scene_beside_path(check->tree->path, name, path, &why) ||
+        !scene_file_is_there(check->tree->path, name, path, &why)) {
+        (void)FAIL(check, key, "%.200s: %s", name, why.message);
         return NULL;
+    }
     char *bytes = read_file(path, FIELD_FILE_BYTES_MAX, "table", &size, &why);
     const Kept *kept = bytes ? find_kept(kind, bytes, size) : NULL;
     if (!bytes)

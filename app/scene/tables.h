@@ -26,12 +26,15 @@ void scene_each_file(Tree *tree, FileNamed *named, void *user);
 /* True if the text names a mesh, by the suffix. */
 bool scene_names_mesh(const char *text);
 
-/* The path of a file named by a scene: in the scene's folder, or, for a scene embedded in a picture, in the
-   search path of scenes. */
+/* The path of a file that a scene names, from the scene's folder, or, where it is not there, from that of
+   what the scene is a link to; of one that a picture carries, else where scenes are looked for. */
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
 
-/* The path of a file for a recorded run: beside its snapshots, otherwise in the scene's folder, otherwise in
-   the search path of scenes. Returns false with the missing file. */
+/* Whether there is something at that path, which scene_beside_path has given; else where was looked. */
+bool scene_file_is_there(const char *scene, const char *name, const char *path, Error *error);
+
+/* The same for what is read of a recorded run: beside its snapshots, else in the folder that the scene was
+   in, else where scenes are looked for. False with what is missing. */
 bool scene_recorded_path(const char *snapshots, const char *folder, const char *name, char path[1200],
                          Error *error);
 

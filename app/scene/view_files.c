@@ -27,7 +27,8 @@ static bool read_file_of(const Reading *reading, const char *view, const ViewFil
     const bool recorded = reading->settings->recorded;
     const bool found = recorded
                            ? scene_recorded_path(scene, reading->settings->folder, file->name, path, &why)
-                           : scene_beside_path(scene, file->name, path, &why);
+                           : scene_beside_path(scene, file->name, path, &why) &&
+                                 scene_file_is_there(scene, file->name, path, &why);
     *file->data = found ? volume_kept(path, &why) : NULL;
     if (!*file->data && recorded)
         notes_add(reading->notes, "%s: %.300s; what is of it is left out", key, why.message);

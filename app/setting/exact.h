@@ -2,11 +2,12 @@
 #ifndef SLOSH_EXACT_H
 #define SLOSH_EXACT_H
 
+#include "sim/base/file_name.h"
 #include "sim/base/key.h"
 
 #include <stdio.h>
 
-enum { EXACT_SIZE = 16 * 48 }; /* the rows of a curve are longest */
+enum { EXACT_SIZE = 2 * FILE_NAME_SIZE + 2 }; /* in quotes, with any letter escaped */
 
 /* Like key_value_text, but numbers with all significant digits. `dimensions`: of the scene. */
 void exact_text(const Key *key, const void *base, int dimensions, char *text, size_t size);

@@ -27,7 +27,6 @@ enum {
     VIEW_KINDS_MAX = 8,
     OVERLAY_KINDS_MAX = 4,
     VIEW_OWN_SIZE = 1792,
-    VIEW_FILE_SIZE = 256,
     VIEW_SET_SIZE = 512
 };
 
@@ -102,7 +101,7 @@ typedef struct ViewDef {
     /* own settings of each overlay, in the order of the list */
     ViewOwn of_overlay[OVERLAY_KINDS_MAX];
     /* For one of several views: the source of its states; "": the scene. Not read in render. */
-    char file[VIEW_FILE_SIZE]; /* a recorded run */
+    char file[FILE_NAME_SIZE]; /* a recorded run */
     char set[VIEW_SET_SIZE];   /* the scene with these settings changed: KEY_SETTINGS */
 } ViewDef;
 

@@ -101,7 +101,7 @@ const Key view_frame_keys[] = {
     BOOLEAN("view.carries_scene", L, AT(carries_scene), "PNG files carry the scene as text: slosh FILE.png opens it again"),
     CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: best in files, draft for clear fluid and filtered splats in the window on a software driver, else good"),
     NUMBER("view.resolution", L, "", 0.05, 1, AT(resolution), "pixels drawn for a pixel shown, each way: less is faster; the box's edges, words and the legend have all of them"),
-    TEXT("view.file", 0, VIEW_FILE_SIZE, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
+    TEXT("view.file", 0, FILE_NAME_SIZE, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
     SETTINGS("view.set", VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),
     KEYS_END,
 };

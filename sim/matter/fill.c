@@ -118,7 +118,7 @@ bool fill_ends(const Fill *fill, double x, double z, double *y)
         *y = field_table_at(fill->heights, 0, (double[]){x, 0, z});
         return true;
     }
-    if (!formula_given(fill->below))
+    if (!formula_given(fill->below) || strlen(fill->below) >= FORMULA_SIZE) /* the name of a table */
         return false;
     Height *height = height_of(fill->below);
     if (height->formula.count == 0)

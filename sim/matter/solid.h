@@ -7,6 +7,7 @@
 #ifndef SLOSH_SOLID_H
 #define SLOSH_SOLID_H
 
+#include "sim/base/file_name.h"
 #include "sim/box/box_motion.h"
 
 #include <stdbool.h>
@@ -35,12 +36,11 @@ typedef enum Slip { SLIP_FREE, SLIP_NONE } Slip;
 
 extern const char *const slip_names[]; /* in its order, ended by NULL */
 
-enum { MESH_NAME_SIZE = 96 };
 struct MeshShape;
 
 /* A mesh that a solid or a fill has the shape of. */
 typedef struct MeshUse {
-    char file[MESH_NAME_SIZE];     /* the name of the file that `shape` was read from */
+    char file[FILE_NAME_SIZE];     /* the name of the file that `shape` was read from */
     double scale;                  /* m of a unit of the file */
     const struct MeshShape *shape; /* sim/mesh/mesh_shape.h; must outlive all copies. NULL: no kind of mesh,
                                       or its file is gone */

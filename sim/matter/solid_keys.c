@@ -27,7 +27,7 @@
     NUMBER(S ".thickness", 0, "m", 0, 1e6, SOLID(thickness), "of its wall; 0: the support radius"),          \
         DIRECTION(S, "where it opens to")
 #define FIELDS_MESH(S)                                                                                       \
-    TEXT(S ".file", R, MESH_NAME_SIZE, SOLID(mesh.file), NULL,                                               \
+    TEXT(S ".file", R, FILE_NAME_SIZE, SOLID(mesh.file), NULL,                                               \
          "found from the scene's folder: .obj, .ply, .stl, .gltf or .glb, of at most 2,000,000 triangles"),  \
         CENTRE(S, "where the middle of the block around it is")                                              \
             NUMBER(S ".scale", O, "m", 0, 1e6, SOLID(mesh.scale), "of a unit of the file"),                  \

@@ -33,15 +33,15 @@ typedef enum FillKind { FILL_BLOCK, FILL_BALL, FILL_CYLINDER, FILL_MESH } FillKi
    with the scene's spacing, half a spacing from the floor and centred between the walls. */
 typedef struct Fill {
     FillKind kind;
-    double min[3], max[3];     /* block, m */
-    double centre[3], radius;  /* ball and cylinder, m; of a mesh the middle of the block around it */
-    double axis[3], height;    /* cylinder: its direction, of any length but zero; m. 3D only */
-    double angle_deg;          /* mesh: its turn about `axis`, degrees */
-    MeshUse mesh;              /* 3D only */
-    char below[FORMULA_SIZE];  /* it ends at this height (m), a formula of x and z, if one is given; or the
-                                  name of the file that `heights` was read from */
-    const FieldTable *heights; /* NULL: `below` is a formula or not given; column 0: m. For world_create */
-    bool shut;                 /* a drain: at the start */
+    double min[3], max[3];      /* block, m */
+    double centre[3], radius;   /* ball and cylinder, m; of a mesh the middle of the block around it */
+    double axis[3], height;     /* cylinder: its direction, of any length but zero; m. 3D only */
+    double angle_deg;           /* mesh: its turn about `axis`, degrees */
+    MeshUse mesh;               /* 3D only */
+    char below[FILE_NAME_SIZE]; /* it ends at this height (m), a formula of x and z, if one is given; or the
+                                 name of the file that `heights` was read from */
+    const FieldTable *heights;  /* NULL: `below` is a formula or not given; column 0: m. For world_create */
+    bool shut;                  /* a drain: at the start */
 } Fill;
 
 /* A disk that sends out fluid at rest density, with a velocity along its normal, in the box's frame. A
@@ -78,7 +78,7 @@ typedef struct FluidDef {
     int start;                  /* a FluidStart */
     double velocity[3];         /* at the start, in the box's frame, m/s */
     char flow[3][FORMULA_SIZE]; /* besides it, formulas of x, y and z, if given: m/s */
-    char flow_file[FORMULA_SIZE]; /* the name of the file that `flow_table` was read from */
+    char flow_file[FILE_NAME_SIZE]; /* the name of the file that `flow_table` was read from */
     const FieldTable *flow_table; /* besides them, its columns: m/s; NULL: none. Read by world_create only */
     double taylor_green; /* with it the vortices of sim/matter/vortices.h, of that speed, m/s; 0: none */
     float color[3];      /* linear RGB 0..1: for the views, no solver reads it */

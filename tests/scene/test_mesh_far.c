@@ -239,7 +239,7 @@ static void marks_are_named(void **state)
         const char *name, *bytes, *words;
     } files[] = {{"marked.gltf", "\xEF\xBB\xBF{}", "it begins with a byte order mark, which glTF forbids; "},
                  {"wide.obj", "\xFF\xFEv", "it is a text in UTF-16; write it in UTF-8"},
-                 {"wide.ply", "\xFE\xFFply", "it is a text in UTF-16; write it in UTF-8"}};
+                 {"wide.stl", "\xFE\xFFsolid", "it is a text in UTF-16; write it in UTF-8"}};
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
         MeshState found;
         Error error = {""};

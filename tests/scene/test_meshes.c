@@ -17,7 +17,7 @@ static Notes notes;
 
 static const char *in_folder(const char *name)
 {
-    static char path[400];
+    static char path[1400];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
 }
@@ -159,6 +159,46 @@ static void what_is_mended_is_said_once(void **state)
     assert_float_equal(scene.world.solids[0].mesh.shape->volume, 2, 1e-6);
 }
 
+/* Found beside what a scene is a link to; else where was looked is said. A long path is read. */
+static void files_beside_links_and_far_down(void **state)
+{
+    (void)state;
+    static char deep[900], named[1000], text[2000];
+    Error error = {""};
+    char link_path[SCRATCH_PATH + 32];
+    mkdir(in_folder("links"), 0700);
+    snprintf(link_path, sizeof link_path, "%s/links/here.yaml", folder);
+    write_text("tank.yaml", "");
+    assert_int_equal(symlink("../tank.yaml", link_path), 0);
+    write_box("box.obj", 12, false);
+    snprintf(text, sizeof text, TANK "solids:\n  - mesh: {file: box.obj, scale: 0.3, centre: [0, 0.5, 0]}\n");
+    SceneSettings settings = {0};
+    if (!scene_parse(link_path, text, strlen(text), &settings, &scene, &notes, &error))
+        fail_msg("%s", error.message);
+    snprintf(text, sizeof text, TANK "solids:\n  - mesh: {file: no.obj, scale: 0.3, centre: [0, 0.5, 0]}\n");
+    assert_false(scene_parse(link_path, text, strlen(text), &settings, &scene, &notes, &error));
+    assert_non_null(strstr(error.message, "no.obj: No such file or directory: "));
+    assert_non_null(strstr(error.message, "/links/no.obj, nor "));
+    assert_non_null(strstr(error.message, "/no.obj; name a file that is there, from the scene's folder"));
+
+    for (int k = 0; k < 4; k++) {
+        memset(deep + strlen(deep), 'a' + k, 200);
+        mkdir(in_folder(deep), 0700);
+        strcat(deep, "/");
+    }
+    snprintf(named, sizeof named, "%sbox.obj", deep);
+    write_box("box.obj", 12, false);
+    char from[SCRATCH_PATH + 32], to[1400];
+    snprintf(from, sizeof from, "%s/box.obj", folder);
+    snprintf(to, sizeof to, "%s/%s", folder, named);
+    assert_int_equal(rename(from, to), 0);
+    snprintf(text, sizeof text, TANK "solids:\n  - mesh: {file: %s, scale: 0.3, centre: [0, 0.5, 0]}\n",
+             named);
+    if (!load(text, &error))
+        fail_msg("%s", error.message);
+    assert_string_equal(scene.world.solids[0].mesh.file, named);
+}
+
 /* Each part of a file has its own corners. */
 static void parts_are_one_mesh(void **state)
 {
@@ -186,7 +226,7 @@ static void parts_are_one_mesh(void **state)
 static void what_cannot_be_had_is_refused(void **state)
 {
     (void)state;
-    expect_refusal("none.obj", "none.obj: No such file or directory; name a file that is there");
+    expect_refusal("none.obj", "none.obj: No such file or directory: ");
     write_text("box.xyz", "v 0 0 0\n");
     expect_refusal(
         "box.xyz",
@@ -377,6 +417,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_mesh_is_found_from_the_scene),
         cmocka_unit_test(what_is_mended_is_said_once),
+        cmocka_unit_test(files_beside_links_and_far_down),
         cmocka_unit_test(parts_are_one_mesh),
         cmocka_unit_test(what_cannot_be_had_is_refused),
         cmocka_unit_test(a_scale_is_asked_about),

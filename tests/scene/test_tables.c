@@ -46,6 +46,29 @@ static void heights_along_x(void **state)
     field_file_free(table);
 }
 
+/* As spreadsheets of other languages write it. */
+static void semicolons_and_quotes(void **state)
+{
+    (void)state;
+    static const char *const texts[] = {
+        "x (m);z (m);height (m)\n0;0;0,25\n1;0;0,75\n0;2;0.25\n1;2;0.75\n",
+        "\"x (m)\",\"z (m)\",\"height (m)\"\r\n\"0\",0,\"0.25\"\r\n1, \"0\" ,0.75\r\n0,2,0.25\r\n1,2,0.75\r\n",
+        "\"x\";\"z\";\"height\"\n\"0\";\"0\";\"0,25\"\n1;0;0,75\n0;2;0,25\n1;2;0,75\n",
+        "x\tz\theight (m)\n0\t0\t0,25\n1\t0\t0.75\n0\t2\t0.25\n1\t2\t0.75\n"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        FieldTable *table = parse_good(texts[k], &field_file_heights);
+        expect(table, 0, 0.5, 0, 1, 0.5);
+        expect(table, 0, 1, 0, 2, 0.75);
+        field_file_free(table);
+    }
+    Error error = {""};
+    assert_null(
+        parse("x,height\n0,\"1,234\"\n1,2\n", &field_file_heights, &error)); /* a thousand, or little more */
+    assert_non_null(strstr(error.message, ":2: '1,234' is no number; "));
+    assert_null(parse("x;height\n0;1\n1,5;2;3\n", &field_file_heights, &error));
+    assert_non_null(strstr(error.message, ":3: more than 2 cells; "));
+}
+
 /* What is linear along each axis comes out as it is. */
 static void velocities_of_a_grid(void **state)
 {
@@ -197,7 +220,7 @@ static void tables_that_a_scene_cannot_have(void **state)
     expect_refusal(TANK, "tank.yaml:4:21: a 2D scene has no z; leave its columns out of the table");
     expect_refusal("box: {size: [1, 1]}\nparticles: {spacing: 0.05}\nfluids:\n"
                    "  - fill: [{block: {min: [-0.5, 0], max: [0.5, 1]}, below: none.csv}]\n",
-                   "/none.csv: cannot be opened (No such file or directory); name a table");
+                   "none.csv: No such file or directory: ");
     expect_refusal("box: {size: [1, 1]}\nparticles: {spacing: 0.05}\nfluids:\n"
                    "  - velocity_table: sin(x)\n    fill: [{block: {min: [-0.5, 0], max: [0.5, 1]}}]\n",
                    "'sin(x)' is no table; name a file that ends in .csv");
@@ -214,6 +237,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(heights_along_x),
+        cmocka_unit_test(semicolons_and_quotes),
         cmocka_unit_test(velocities_of_a_grid),
         cmocka_unit_test(bad_files_are_told),
         cmocka_unit_test(tables_of_a_scene),
