@@ -78,7 +78,7 @@ bool output_begin(Output *output, const char *path, Error *error)
         return false;
     snprintf(output->path, sizeof output->path, "%s", path);
     output_clear_stale(output->target);
-    const char *here = output->target[0] == '/' ? "" : "./"; /* so that no program that writes it takes a name
+    const char *here = output->target[0] == '/' ? "" : "./"; /* so that no program takes the name
                                                                 for an option, a protocol or a pipe */
     snprintf(output->temp, sizeof output->temp, "%s%s.%ld.tmp", here, output->target, (long)getpid());
     int file = open(output->temp, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);

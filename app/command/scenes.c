@@ -56,7 +56,7 @@ static void put_text(FILE *file, const char *text)
     }
 }
 
-/* A name as a part of an address: all but what means nothing in one as its bytes' numbers. */
+/* A name as a part of an address: all but letters, digits and - . _ ~ as numbers of bytes. */
 static void put_url(FILE *file, const char *name)
 {
     for (; *name; name++)

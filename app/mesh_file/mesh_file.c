@@ -23,7 +23,7 @@
 
 enum { HEAD_SIZE = 1 << 16, SECONDS_MOST = 30 };
 
-static const double FAR = 8; /* of its length: three bits of a float */
+static const double FAR = 8; /* of a mesh's length: three bits of a float */
 
 /* ---- before it is read ---- */
 
@@ -53,12 +53,12 @@ static bool head_fits(const char *path, MeshFormat format, Error *error)
 typedef struct Reading {
     const char *path;
     MeshFormat format;
-    size_t mark; /* bytes of a mark of UTF-8 before it, over which assimp stumbles */
+    size_t mark; /* bytes of a mark of UTF-8 before the text, over which assimp stumbles */
     const struct aiScene *scene;
     MeshBounds bounds;
 } Reading;
 
-/* What comes behind the mark. */
+/* The bytes behind the mark. */
 static char *bytes_of(const Reading *reading, size_t *size, Error *error)
 {
     char *bytes = read_file(reading->path, (size_t)MESH_FILE_MIB_MAX << 20, "mesh", size, error);
@@ -69,7 +69,7 @@ static char *bytes_of(const Reading *reading, size_t *size, Error *error)
     return bytes;
 }
 
-/* glTF allows no such mark, and its reader looks for further files beside the path. */
+/* glTF allows no such mark, and assimp's reader of glTF looks for further files beside the path. */
 static bool see_mark(Reading *reading, Error *error)
 {
     char begin[84] = "";
@@ -87,8 +87,7 @@ static bool see_mark(Reading *reading, Error *error)
            error_set(error, "it begins with a byte order mark, which glTF forbids; write it without one");
 }
 
-/* As assimp reads it: from the file, for it may name others, or, where `bytes` is not NULL, from those of its
- * own format. */
+/* By assimp: from the file, which may name further files, or, where `bytes` is not NULL, from those bytes. */
 static bool import(Reading *reading, const char *bytes, size_t size, Error *error)
 {
     const unsigned flags = aiProcess_Triangulate;
@@ -112,7 +111,7 @@ static double longest_side(const MeshBounds *bounds)
     return longest;
 }
 
-/* Where floats lose some bits of what the mesh has. */
+/* Where floats lose some bits of the mesh's places. */
 static bool is_far(const MeshBounds *bounds)
 {
     double largest = 0;
@@ -121,7 +120,7 @@ static bool is_far(const MeshBounds *bounds)
     return isfinite(largest) && largest > FAR * longest_side(bounds);
 }
 
-/* Text, and doubles, are read once more: moved to where floats lose nothing. */
+/* Text, and doubles, are read once more: moved to where floats lose no bits. */
 static bool read_moved(Reading *reading, Error *error)
 {
     size_t size, moved_size;
@@ -149,7 +148,7 @@ static bool read_first(Reading *reading, Error *error)
     return ok;
 }
 
-/* About 0 where it is far from there. */
+/* A mesh far from 0 comes to 0. */
 static bool take(const Reading *reading, Triangles *triangles, Error *error)
 {
     const MeshBounds *bounds = &reading->bounds;

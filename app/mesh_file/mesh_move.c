@@ -20,7 +20,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Those of a line; as many as there is room for. */
+/* The words of a line; as many as there is room for. */
 static int words_of(const char *line, const char *end, Word word[WORDS_MOST])
 {
     int count = 0;
@@ -68,7 +68,7 @@ static const char *line_end(const char *at, const char *end)
 /* The words of the three numbers of a place. */
 typedef struct Columns {
     int of[3];
-    double times; /* how much of the way they move */
+    double times; /* how much of the way the numbers move */
 } Columns;
 
 static bool write_moved(FILE *to, const char *line, const char *end, const Word *word, const Columns *columns,
@@ -95,7 +95,7 @@ static bool write_moved(FILE *to, const char *line, const char *end, const Word 
     return true;
 }
 
-/* Whether the line has a place, and where. A fourth number of an OBJ divides the others. */
+/* Whether the line has a place, and where. A fourth number of an OBJ divides the first three. */
 static bool place_in_obj(const char *line, const Word *word, int count, Columns *columns)
 {
     double w;
@@ -135,7 +135,7 @@ static bool move_lines(FILE *to, MeshFormat format, const char *at, const char *
 
 typedef enum Coding { TEXT, LITTLE, BIG, UNKNOWN } Coding;
 
-/* Of its first element, which has to be that of the vertices. */
+/* Of the first element, which has to be the vertices. */
 typedef struct Vertices {
     Coding coding;
     double count;
@@ -244,7 +244,7 @@ static void write_double(char *bytes, bool big, double value)
         bytes[i] = (char)(bits >> 8 * (big ? 7 - i : i));
 }
 
-/* Where they are; numbers of four bytes have lost already what moving would keep. */
+/* In place; numbers of four bytes have lost their last digits already. */
 static char *move_doubles(const Vertices *vertices, const char *bytes, size_t size, const double by[3])
 {
     const size_t room = size - (size_t)(vertices->data - bytes);

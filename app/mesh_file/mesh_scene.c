@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A mesh's way into the whole: rows of a matrix, the place in its last column. */
+/* A mesh's way into the whole: rows of a matrix, the place in the last column. */
 typedef struct Way {
     double row[3][4];
 } Way;
@@ -102,7 +102,7 @@ typedef struct Bounded {
     bool alone;
 } Bounded;
 
-/* What a mesh that is alone is moved by does not matter. */
+/* Where a node moves the only mesh does not matter. */
 static void bound_mesh(void *context, const struct aiMesh *mesh, const Way *way)
 {
     const Bounded *bounded = context;

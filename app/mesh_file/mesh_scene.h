@@ -1,4 +1,4 @@
-/* What assimp has read as one set of triangles. */
+/* A scene of assimp as a single set of triangles. */
 #ifndef SLOSH_MESH_SCENE_H
 #define SLOSH_MESH_SCENE_H
 
@@ -6,15 +6,15 @@
 
 struct aiScene;
 
-/* Where it is, over its nodes' matrices in double precision. */
+/* The block around the scene, by nodes' matrices in double precision. */
 typedef struct MeshBounds {
     double low[3], high[3];
-    double largest; /* of the numbers that say where its triangles are to each other */
+    double largest; /* of the numbers by which triangles lie beside each other */
 } MeshBounds;
 
 void mesh_scene_bounds(const struct aiScene *scene, MeshBounds *bounds);
 
-/* The triangles of all its meshes where its nodes put them, less `origin`; those of nodes that mirror are
+/* The triangles of all meshes where nodes put the meshes, less `origin`; triangles of nodes that mirror are
    turned, as glTF asks. False when there are none, or more than TRIANGLES_MAX, or memory is short. */
 bool mesh_scene_take(const struct aiScene *scene, const double origin[3], Triangles *triangles, Error *error);
 

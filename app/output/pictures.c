@@ -17,7 +17,7 @@ struct Pictures {
     Video *video;
     Output png;
     const ImageText *text; /* NULL: none */
-    size_t count, of;      /* that are there; that are to come, 0: not known */
+    size_t count, of;      /* written; to come, 0: not known */
     bool made_folder;
 };
 

@@ -17,7 +17,7 @@ bool pictures_kind(const char *path, PicturesKind *kind, Error *error);
 typedef struct Pictures Pictures;
 
 /* A folder that is missing is created (not those above it). NULL with the reason, see output_begin and
-   video_create. `count` pictures are to come, whose numbers in a folder are as wide as the last one's; 0: not
+   video_create. `count` pictures are to come, with numbers in a folder as wide as the last number; 0: not
    known. */
 Pictures *pictures_create(const char *path, int width, int height, double fps, size_t count, Error *error);
 

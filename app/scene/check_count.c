@@ -120,7 +120,7 @@ static bool holds_block(const WorldDef *world, const SolidDef *solid, const doub
     return true;
 }
 
-/* The solid that all of a fluid's fills lie in; -1: none does. */
+/* The solid around all of a fluid's fills; -1: none. */
 static int covering(const WorldDef *world, const FluidDef *fluid)
 {
     for (int k = 0; k < world->solid_count; k++) {

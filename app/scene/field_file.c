@@ -53,7 +53,7 @@ static bool next_line(Reader *r, const char **line, const char **end)
     return false;
 }
 
-/* A semicolon, or a tab, where the first line has one and no comma before it. */
+/* A semicolon or a tab, where the first line has no comma before. */
 static char separator_of(const char *line, const char *end)
 {
     for (; line < end; line++)
@@ -62,7 +62,7 @@ static char separator_of(const char *line, const char *end)
     return ',';
 }
 
-/* The end of a cell, behind its quotes where it is in quotes. */
+/* The end of a cell, behind quotes where the cell is in quotes. */
 static const char *cell_end(const Reader *r, const char *at, const char *end)
 {
     while (at < end && *at == ' ')

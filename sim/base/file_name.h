@@ -1,4 +1,4 @@
-/* Names of the files that a scene names: as long as paths are that are put together. */
+/* Names of files in scenes: as long as whole paths. */
 #ifndef SLOSH_FILE_NAME_H
 #define SLOSH_FILE_NAME_H
 

@@ -54,7 +54,7 @@ static void add_tetrahedron(Moments *m, const double a[3], const double b[3], co
     }
 }
 
-/* What parts of a mesh that overlap have more than once. */
+/* Volumes within several parts of a mesh count once. */
 static void take_excess(Moments *m, const Moments *excess, double scale)
 {
     m->volume -= pow(scale, 3) * excess->volume;

@@ -17,8 +17,8 @@ typedef struct BodyMass {
 
 /* Of a solid with density > 0. A mesh: sums of exact integrals over the tetrahedra from the origin to its
    triangles, which the divergence theorem makes the integral over what it encloses (Mirtich, "Fast and
-   accurate computation of polyhedral mass properties", 1996); where parts of it overlap, less the excess of
-   its shape, within some thousandths of that. */
+   accurate computation of polyhedral mass properties", 1996); where parts overlap, less the excess of the
+   shape, within some thousandths of the excess. */
 void body_mass(const SolidDef *solid, int dimensions, BodyMass *mass);
 
 #endif

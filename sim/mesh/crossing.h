@@ -4,8 +4,8 @@
 
 #include "sim/mesh/triangles.h"
 
-/* Where the line along x through p meets the triangle: 1 where it comes out there, -1 where it goes in, 0: it
-   does not meet it, and *x is left as it was. A line that meets an edge meets one of two triangles there. */
+/* Where the line along x through p meets the triangle: 1 where the line comes out there, -1 where the line
+   goes in; 0: no meeting, and *x stays. A line through an edge meets one of two triangles there. */
 int triangle_crossing(const Triangles *of, size_t t, const double p[3], double *x);
 
 #endif

@@ -231,7 +231,7 @@ static void sign_range(void *context, size_t begin, size_t end)
 
 /* ---- within parts that overlap ---- */
 
-/* The distance inside that those of three neighbours, least first, give by |grad d| = 1: Zhao, "A fast
+/* The distance inside, of three neighbours' distances, least first, by |grad d| = 1: Zhao, "A fast
    sweeping method for Eikonal equations", 2005, (2.4). */
 static double by_neighbours(const double a[3], double cell)
 {
@@ -251,7 +251,7 @@ static void order(double *low, double *high)
     *low = l, *high = h;
 }
 
-/* What lies outside counts as 0 deep. A plane at the end of the grid is outside. */
+/* Nodes outside count as 0 deep. A plane at the end of the grid is outside. */
 static void deepen(const DistanceGrid *grid, float *deep, const int at[3])
 {
     const size_t step[3] = {1, (size_t)grid->size[0], (size_t)grid->size[0] * (size_t)grid->size[1]},
@@ -279,8 +279,8 @@ static void sweep(const DistanceGrid *grid, float *deep, int way)
             }
 }
 
-/* The surface of a part within another one is no surface: where it was the nearest, the distance is counted
-   from nodes next to the surface of the whole. */
+/* The surface of a part within other parts is no surface: where such a surface was nearest, distances are
+   counted from nodes next to the surface of the whole. */
 static bool leave_inner_surfaces(DistanceGrid *grid)
 {
     const size_t count = distance_count(grid);

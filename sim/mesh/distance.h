@@ -3,7 +3,7 @@
    Values belong to the corners of cubic cells, x fastest, and are straight lines between them. Near the
    surface each is exact; far from it, where nothing but its size matters, it is that of a grid four times as
    coarse, up to 2 % too much. What is inside is said by the winding number along lines of the grid, so that
-   parts that overlap are one body, and what of their surfaces is inside does not count. A part thinner than a
+   parts that overlap are one body, and surfaces of parts within the body do not count. A part thinner than a
    cell may be lost. */
 #ifndef SLOSH_DISTANCE_H
 #define SLOSH_DISTANCE_H
@@ -15,7 +15,7 @@ typedef struct DistanceGrid {
     double low[3];   /* where the first stands */
     double cell;     /* from one to the next */
     double inner[3]; /* the surface is within -inner .. inner */
-    bool overlaps;   /* some node is in several parts, or in one that is inside out */
+    bool overlaps;   /* some node is in several parts, or in a part inside out */
     float *value;
 } DistanceGrid;
 

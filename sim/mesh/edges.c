@@ -21,8 +21,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* By the lesser end: `begin` of each vertex, which comes to its end; the greater end and the side in `key`.
- */
+/* By the lesser end, in `begin` of each vertex, which moves to the end; the greater end and the side in
+ * `key`. */
 static void sort_sides(const Triangles *triangles, size_t *begin, uint64_t *key)
 {
     const size_t sides = 3 * triangles->triangle_count;

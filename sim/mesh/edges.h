@@ -7,14 +7,14 @@
 typedef struct Edges {
     size_t count;
     uint32_t *first; /* count + 1: of each edge's sides in `side` */
-    uint32_t *side;  /* 3 t + c: from corner c of triangle t to the next one; ascending at each edge */
+    uint32_t *side;  /* 3 t + c: from corner c of triangle t to the next corner; ascending at each edge */
 } Edges;
 
-/* Vertices count as one where they have the same number. False when memory is short. */
+/* Vertices are the same where numbers are. False when memory is short. */
 bool edges_make(Edges *edges, const Triangles *triangles);
 void edges_free(Edges *edges); /* a zeroed one is allowed */
 
-/* Whether a side runs from the vertex of the lesser number to the other. */
+/* Whether a side runs from the vertex of the lesser number to the vertex of the greater. */
 bool side_forward(const Triangles *triangles, uint32_t side);
 
 #endif

@@ -10,7 +10,7 @@
 
 enum { STRIPS = 512, PARTS_MOST = 32 };
 
-/* The middles of strips along an axis, which end at all cuts. */
+/* The middles of strips along an axis; strips end at all cuts. */
 typedef struct Strips {
     size_t count;
     double at[STRIPS + 2 * PARTS_MOST + 2], width[STRIPS + 2 * PARTS_MOST + 2];
@@ -90,7 +90,7 @@ static size_t first_from(const Strips *strips, double x)
     return low;
 }
 
-/* Those that a triangle reaches into. */
+/* The strips along a triangle. */
 static BinSpan span_of(const Lines *lines, size_t t, int a)
 {
     double low = INFINITY, high = -INFINITY;

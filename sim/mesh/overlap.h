@@ -1,5 +1,5 @@
-/* What a closed surface encloses more than once, or less than nothing: by how much integrals over its
-   triangles are more than those over the union of its parts. */
+/* Volumes within several parts of a closed surface, or within a part inside out: by how much integrals over
+   the triangles exceed integrals over the union of the parts. */
 #ifndef SLOSH_OVERLAP_H
 #define SLOSH_OVERLAP_H
 
@@ -11,9 +11,9 @@ typedef struct Moments {
 } Moments;
 
 /* The integrals of w - 1 where the winding number w is not 0: exact along x, by the middles of at least 512
-   strips of the longer one of the other two sides, which end where parts do. Exact for blocks that stand
-   along the axes, else within some thousandths of itself. The same bits for any number of threads. False when
-   memory is short. */
+   strips of the longer of the other two sides; strips end where parts end. Exact for blocks along the axes,
+   else within some thousandths of the excess. The same bits for any number of threads. False when memory is
+   short. */
 bool overlap_excess(const Triangles *triangles, int threads, Moments *excess);
 
 #endif

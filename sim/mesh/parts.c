@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- what is joined ---- */
+/* ---- joined triangles ---- */
 
-/* Triangles in sets, each known by one of them: Galler and Fischer, "An improved equivalence algorithm",
+/* Triangles in sets, each known by a member: Galler and Fischer, "An improved equivalence algorithm",
  * 1964.
  */
 static uint32_t set_of(uint32_t *up, uint32_t t)
@@ -19,7 +19,7 @@ static uint32_t set_of(uint32_t *up, uint32_t t)
     return t;
 }
 
-/* The lesser one stays the one that the set is known by. */
+/* The lesser of both members stays the name of the set. */
 static void join(uint32_t *up, uint32_t a, uint32_t b)
 {
     a = set_of(up, a);
@@ -38,7 +38,7 @@ static uint32_t *all_apart(size_t count)
     return up;
 }
 
-/* `open`, of room for all sides: those of the edge whose other one is yet to come. */
+/* `open`, of room for all sides: sides of the edge whose partner is yet to come. */
 static void join_at_edge(const Triangles *triangles, const Edges *edges, size_t e, uint32_t *up,
                          uint32_t *open)
 {
@@ -64,7 +64,7 @@ bool parts_make(Parts *parts, const Triangles *triangles, const Edges *edges)
     }
     for (size_t e = 0; e < edges->count; e++)
         join_at_edge(triangles, edges, e, parts->of, open);
-    for (size_t t = 0; t < count; t++) { /* what a set is known by comes before its others */
+    for (size_t t = 0; t < count; t++) { /* the name of a set is the first member */
         const uint32_t first = set_of(parts->of, (uint32_t)t);
         open[t] = first == t ? parts->count++ : open[first];
     }
@@ -81,7 +81,7 @@ void parts_free(Parts *parts)
 
 /* ---- turning ---- */
 
-enum { LAYERS = 1024, ASKED = 8 }; /* of bins of triangles; places that are asked, of each part */
+enum { LAYERS = 1024, ASKED = 8 }; /* of bins of triangles; places asked of each part */
 
 typedef struct Part {
     double volume;
@@ -173,7 +173,7 @@ static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
     return winding;
 }
 
-/* A little outside of what a part that is inside out encloses, at the middle of the triangle. */
+/* A little outside of the volume of a part inside out, at the middle of the triangle. */
 static void place_outside(const Turner *turner, size_t t, double x[3])
 {
     const Triangles *of = turner->triangles;
@@ -188,7 +188,7 @@ static void place_outside(const Turner *turner, size_t t, double x[3])
     }
 }
 
-/* `member`: the triangles of each part, one after the other. */
+/* `member`: the triangles of each part, part by part. */
 static bool is_cavity(const Turner *turner, uint32_t p, const uint32_t *member)
 {
     const Part *part = &turner->part[p];
@@ -266,7 +266,7 @@ bool parts_turn(Triangles *triangles, const Parts *parts, size_t *turned)
     return ok;
 }
 
-/* ---- what is there twice ---- */
+/* ---- doubled triangles ---- */
 
 typedef struct Merge {
     const Triangles *triangles;
@@ -274,7 +274,7 @@ typedef struct Merge {
     bool walls;
     bool *copy, *wall; /* of each triangle */
     uint32_t *set;     /* copies that edges join */
-    long *worse;       /* of each set: by how many edges without it */
+    long *worse;       /* of each set: by how many edges without the set */
 } Merge;
 
 /* Of a triangle whose third corner is not at a side. */
@@ -289,8 +289,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of triangles that share all corners: as many of one turn as of the other are walls, the first of the rest
-   stays. */
+/* Of triangles with the same corners: as many of each turn as of the opposite turn are walls, the first of
+   the rest stays. */
 static void mark_set(Merge *merge, const uint64_t *key, size_t count)
 {
     size_t ways[2] = {0}, seen[2] = {0};
@@ -305,7 +305,7 @@ static void mark_set(Merge *merge, const uint64_t *key, size_t count)
     }
 }
 
-/* Those at an edge whose third corner comes after its ends, so that each set is seen at one edge. */
+/* Triangles at an edge whose third corner comes after the ends, so that each set is seen at a single edge. */
 static void mark_at_edge(Merge *merge, size_t e, uint64_t *key)
 {
     const Triangles *triangles = merge->triangles;
@@ -338,7 +338,7 @@ static void join_copies(Merge *merge, size_t e)
     }
 }
 
-/* Whether an edge is in balance with its copies, and without them. */
+/* Whether an edge is in balance with copies, and without copies. */
 static void count_worse(Merge *merge, size_t e)
 {
     long with = 0, without = 0;

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SAME = 1e-6; /* of the whole: such vertices are one */
+static const double SAME = 1e-6; /* of the whole: vertices as near are the same */
 
 void triangles_free(Triangles *triangles)
 {
@@ -173,7 +173,7 @@ static bool copy_of(const Triangles *triangles, Triangles *copy)
     return true;
 }
 
-/* Whether the surface is closed once vertices that are so near each other are joined. */
+/* Whether the surface is closed once vertices as near as `part` are joined. */
 static bool closes(const Triangles *triangles, double part)
 {
     Triangles copy;
@@ -189,7 +189,7 @@ static bool closes(const Triangles *triangles, double part)
     return ok;
 }
 
-/* The least of some widths at which it closes; 0: at none. */
+/* The least of some widths at which the surface closes; 0: at none. */
 static double gap_of(const Triangles *triangles)
 {
     static const double width[] = {3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3};
@@ -222,7 +222,7 @@ static bool turn_outwards(Triangles *triangles)
     return true;
 }
 
-/* Copies of triangles go where they are one too many at their edges. */
+/* Copies of triangles go where edges have too many triangles. */
 static bool close_edges(Triangles *triangles, Edges *edges, TrianglesState *state)
 {
     if (count_edges(triangles, edges, state))
@@ -238,7 +238,7 @@ static bool close_edges(Triangles *triangles, Edges *edges, TrianglesState *stat
     return true;
 }
 
-/* Each part outwards, and nothing twice. */
+/* Each part outwards, and no triangle twice. */
 static bool settle_parts(Triangles *triangles, Edges *edges, TrianglesState *state, double middle[3])
 {
     Parts parts = {0};

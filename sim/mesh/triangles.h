@@ -16,7 +16,7 @@ typedef struct Triangles {
     size_t vertex_count, triangle_count;
     float (*vertex)[3];
     uint32_t (*triangle)[3];
-    double largest; /* of the floats that its places were before they were moved near 0; 0: of no matter */
+    double largest; /* of the floats in the file, before the move to 0; 0: of no matter */
 } Triangles;
 
 void triangles_free(Triangles *triangles); /* a zeroed one is allowed */
@@ -24,20 +24,20 @@ void triangles_free(Triangles *triangles); /* a zeroed one is allowed */
 /* What triangles_mend found. */
 typedef struct TrianglesState {
     size_t open;     /* edges that a triangle lacks at */
-    size_t crowded;  /* edges at which there is one too many, as three */
+    size_t crowded;  /* edges with a triangle too many, as three */
     size_t opposed;  /* edges whose triangles turn opposite ways */
     size_t flat;     /* triangles without area; those whose corners coincide were taken out */
-    size_t doubled;  /* triangles that were there twice, or have parts of it on both sides: taken out */
-    size_t turned;   /* parts that were inside out beside the others, and were turned */
+    size_t doubled;  /* copies of triangles, and walls between parts: taken out */
+    size_t turned;   /* parts inside out beside the whole, and turned */
     bool inside_out; /* it enclosed less than nothing, and was turned */
-    double gap;      /* where it is open: it closes once vertices as near, of its length, are joined; 0: it
-                        does not, to a thousandth */
+    double gap;      /* of an open surface: the width, of the length, at which joined vertices close the
+                        surface; 0: no width up to a thousandth does */
 } TrianglesState;
 
 /* Vertices that share a place, to a millionth of the whole, become one; those of no triangle go; the whole is
-   turned so that it encloses a volume above 0, and then each part of it that is closed by itself, but for
-   cavities of others; it is moved so that the middle of the block around it is at 0: `middle` says where that
-   was. False when there is nothing left, a number is not finite, or memory is short; open, crowded and
+   turned so that it encloses a volume above 0, and then each closed part, but for cavities; copies of
+   triangles and walls between parts go; the middle of the block around the whole moves to 0: `middle` says
+   from where. False when there is nothing left, a number is not finite, or memory is short; open, crowded and
    opposed edges are for the caller to refuse. */
 bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *state, Error *error);
 
@@ -48,11 +48,11 @@ double triangles_area(const Triangles *triangles);
 /* The corners of the least block around it. */
 void triangles_bounds(const Triangles *triangles, double low[3], double high[3]);
 
-/* Normal of a triangle, twice its area long; and six times the volume of its cone from the origin. */
+/* Normal of a triangle, twice the area long; and six times the volume of the cone from the origin. */
 void triangle_normal(const Triangles *triangles, size_t t, double normal[3]);
 double triangle_volume6(const Triangles *triangles, size_t t);
 
-/* The other side becomes its front. */
+/* The back becomes the front. */
 void triangle_turn(Triangles *triangles, size_t t);
 
 #endif

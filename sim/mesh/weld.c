@@ -12,7 +12,7 @@ typedef struct Weld {
     float (*vertex)[3];
     double low[3], near, cell;
     size_t slots;
-    uint64_t *key;  /* of each slot's cell; 0: free. A cell has a slot for each of its vertices */
+    uint64_t *key;  /* of each slot's cell; 0: free. A cell has a slot for each vertex */
     uint32_t *name; /* the new number */
 } Weld;
 
@@ -37,7 +37,7 @@ static bool are_near(const Weld *weld, const float a[3], const float b[3])
     return d2 <= weld->near * weld->near;
 }
 
-/* The first one of a cell that is near x, where it is before `best`. */
+/* The first vertex of a cell near x, where before `best`. */
 static uint32_t first_near(const Weld *weld, uint64_t key, const float x[3], uint32_t best)
 {
     for (size_t slot = first_slot(weld, key); weld->key[slot]; slot = (slot + 1) & (weld->slots - 1))
@@ -47,7 +47,7 @@ static uint32_t first_near(const Weld *weld, uint64_t key, const float x[3], uin
     return best;
 }
 
-/* The first one of all that is near x: whoever comes later with the same x finds the same one. */
+/* The first vertex near x of all cells: a later vertex at the same x finds the same. */
 static uint32_t find(const Weld *weld, const float x[3], const int64_t cell[3])
 {
     int step[3], count[3];
@@ -74,7 +74,7 @@ static void add(Weld *weld, uint64_t key, uint32_t name)
     weld->name[slot] = name;
 }
 
-/* `name`: of each vertex, its new number. */
+/* `name`: of each vertex, the new number. */
 static void weld_all(Triangles *triangles, Weld *weld, uint32_t *name)
 {
     uint32_t kept = 0;
