@@ -1,6 +1,6 @@
 /* The edges of a surface of triangles, and the triangles at each. */
-#ifndef SLOSH_EDGES_H
-#define SLOSH_EDGES_H
+#ifndef SLOSH_MESH_EDGES_H
+#define SLOSH_MESH_EDGES_H
 
 #include "sim/mesh/triangles.h"
 

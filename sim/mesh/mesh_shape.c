@@ -67,7 +67,7 @@ static void say_coarse(const Triangles *of, MeshState *state)
         longest = fmax(longest, high[k] - low[k]);
     const float largest = (float)of->largest;
     const double step = (double)nextafterf(largest, INFINITY) - largest;
-    if (step > COARSE * longest)
+    if (of->largest > 0 && step > COARSE * longest)
         snprintf(
             state->coarse, sizeof state->coarse,
             "it is %.3g from the origin of its file, whose numbers are %.2g apart there, and it is %.3g long; "

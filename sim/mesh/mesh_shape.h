@@ -4,6 +4,7 @@
 #define SLOSH_MESH_SHAPE_H
 
 #include "sim/mesh/distance.h"
+#include "sim/mesh/mend.h"
 #include "sim/mesh/overlap.h"
 
 typedef struct MeshShape {

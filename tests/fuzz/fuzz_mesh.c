@@ -3,6 +3,7 @@
  */
 #include "app/mesh_file/mesh_count.h"
 #include "app/mesh_file/mesh_move.h"
+#include "sim/mesh/mend.h"
 #include "sim/mesh/triangle_tree.h"
 
 #include <math.h>
