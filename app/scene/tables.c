@@ -71,9 +71,10 @@ static bool in_folder_of(const char *scene, const char *name, char path[1200])
 /* Where a scene that is a link leads; false: nowhere else. */
 static bool beside_target(const char *scene, const char *name, char path[1200])
 {
-    char target[PATH_MAX], own[1200];
-    return *name != '/' && realpath(scene, target) && in_folder_of(target, name, path) &&
-           in_folder_of(scene, name, own) && strcmp(own, path) != 0;
+    char target[PATH_MAX];
+    struct stat is;
+    return *name != '/' && lstat(scene, &is) == 0 && S_ISLNK(is.st_mode) && realpath(scene, target) &&
+           in_folder_of(target, name, path);
 }
 
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error)
@@ -91,12 +92,11 @@ bool scene_beside_path(const char *scene, const char *name, char path[1200], Err
 
 bool scene_file_is_there(const char *scene, const char *name, const char *path, Error *error)
 {
-    char other[1200], target[PATH_MAX];
+    char other[1200];
     if (access(path, F_OK) == 0)
         return true;
     const char *reason = strerror(errno);
-    const bool link =
-        beside_target(scene, name, other) && realpath(scene, target) && strcmp(scene, target) != 0;
+    const bool link = beside_target(scene, name, other);
     return error_set(error, "%s: %.300s%s%.300s; name a file that is there%s", reason, path,
                      link ? ", nor " : "", link ? other : "",
                      *name == '/' ? "" : ", from the scene's folder");

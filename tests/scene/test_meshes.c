@@ -181,6 +181,9 @@ static void files_beside_links_and_far_down(void **state)
     assert_non_null(strstr(error.message, "/links/no.obj, nor "));
     assert_non_null(strstr(error.message, "/no.obj; name a file that is there, from the scene's folder"));
 
+    assert_false(load_solid("no.obj", &error));
+    assert_null(strstr(error.message, ", nor ")); /* of no link */
+
     for (int k = 0; k < 4; k++) {
         memset(deep + strlen(deep), 'a' + k, 200);
         mkdir(in_folder(deep), 0700);
