@@ -21,7 +21,7 @@ typedef struct Reader {
     Notes *notes;
 } Reader;
 
-/* As lines have it: of a long path the end. */
+/* The name in lines: of a long path the end. */
 static const char *name_of(const MeshUse *mesh)
 {
     enum { SHOWN = 90 };
@@ -86,7 +86,7 @@ static void say_size(const Reader *reader, const char *key, const MeshUse *mesh)
             name_of(mesh), length, mesh->scale, box);
 }
 
-/* Parts that overlap, and by how much of what they enclose one by one. */
+/* Reports overlapping parts, with the share of the volume. */
 static void say_overlap(const Reader *reader, const char *key, const char *file, const MeshShape *shape,
                         const MeshState *state)
 {
@@ -104,7 +104,7 @@ static void say_overlap(const Reader *reader, const char *key, const char *file,
            weighs);
 }
 
-/* What was mended, or cannot be. */
+/* Reports repaired faults and faults beyond repair. */
 static void say_state(const Reader *reader, const char *key, const char *file, const MeshShape *shape,
                       const MeshState *state)
 {
