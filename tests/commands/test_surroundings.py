@@ -95,7 +95,7 @@ class Driver(TinyDiskTest):
                 obey_interrupts()
                 resource.setrlimit(resource.RLIMIT_AS, (size, size))
             for arguments in (['info'], PICTURE, ['run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--backend', 'compute']):
-                code, said = self.slosh(*arguments, before=limit)
+                code, said = self.slosh(*arguments, before=limit, gl_errors=True)
                 self.assertIn(code, (0, 1), (mib, arguments, said))
                 self.assertEqual([name for name in self.entries() if name.endswith('.tmp')], [])
                 crashes += 'a library crashed, the OpenGL driver most likely: memory may be short' in said

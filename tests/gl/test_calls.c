@@ -195,7 +195,7 @@ static void a_step_makes_so_many_calls(void **state)
     count_step("compute, dfsph", &def, (Bounds){150, 0, 1400, 10});
     def = pool_def("compute", "pbf");
     def.dt = 1.0 / 60;
-    count_step("compute, pbf", &def, (Bounds){60, 0, 600, 5});
+    count_step("compute, pbf", &def, (Bounds){60, 0, 600, 6});
     def = pool_def("fragment", "mueller");
     count_step("fragment, mueller", &def, (Bounds){42, 29, 560, 1});
 }
