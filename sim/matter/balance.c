@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What is left of gravity over a spacing, of compressions, and iterations at most. */
+/* Residuals at which the solver stops: relative to gravity over a spacing, and to compressions; and the
+   greatest number of iterations. */
 static const double LEFT_OF_GRAVITY = 1e-5, LEFT_OF_COMPRESSION = 1e-3;
 enum { ITERATIONS_MAX = 1000, ARRAYS = 6 };
 
@@ -15,7 +16,7 @@ static double along(const double a[3], const float b[3])
     return a[0] * (double)b[0] + a[1] * (double)b[1] + a[2] * (double)b[2];
 }
 
-/* Of the faces that are open. */
+/* Number of open faces. */
 static int open_count(const Balance *b, size_t i)
 {
     return __builtin_popcount(b->touches.open[i]);
@@ -27,7 +28,7 @@ static double lightness(const Balance *b, const double *density, size_t i, size_
     return density ? 2 / (density[b->fluid[i]] + density[b->fluid[j]]) : 1;
 }
 
-/* The entries of A: what each particle's open faces and each touch weigh, and its diagonal. */
+/* Entries of A: weights of each particle's open faces and of each touch, and the diagonal. */
 static void weigh(Balance *b, const double *density, double *diagonal)
 {
     const Touches *t = &b->touches;
@@ -62,7 +63,7 @@ static void apply_rows(void *context, size_t begin, size_t end)
     }
 }
 
-/* out = A x, the sum over faces of what x falls by. */
+/* out = A x: the sum over faces of the face's weight times the fall of x through the face. */
 static void apply(const Balance *b, const double *x, double *out)
 {
     Rows rows = {b, x, out};
@@ -77,8 +78,8 @@ static double product(const double *a, const double *b, size_t count)
     return sum;
 }
 
-/* A x = rhs, by conjugate gradients with Jacobi's preconditioner from the x that is there, until the
-   residual's square is `enough`. */
+/* Solve A x = rhs by conjugate gradients with Jacobi's preconditioner, from the given x, until the residual's
+   sum of squares is `enough`. */
 static void solve(Balance *b, const double *density, const double *rhs, double enough, double *x)
 {
     const size_t n = b->touches.count;
@@ -104,7 +105,7 @@ static void solve(Balance *b, const double *density, const double *rhs, double e
     }
 }
 
-/* What hangs together, part by part. */
+/* Find the parts: particles connected by touches. */
 static void find_parts(Balance *b)
 {
     const Touches *t = &b->touches;
@@ -159,7 +160,7 @@ void balance_destroy(Balance *b)
     free(b->other);
 }
 
-/* The product with the outward normals of the open faces. */
+/* Sum over the open faces of `vector` times the face's outward normal. */
 static double through_open(const Balance *b, size_t i, const double vector[3])
 {
     double sum = 0, normal[3];
@@ -171,7 +172,7 @@ static double through_open(const Balance *b, size_t i, const double vector[3])
     return sum;
 }
 
-/* The particle of a part that lies highest, of those at a free surface if there is one. */
+/* The highest particle of a part, among particles at a free surface if there are any. */
 static uint32_t part_top(const Balance *b, size_t part, const double gravity[3], const float *position)
 {
     uint32_t top = b->order[b->part_begin[part]];
@@ -190,7 +191,7 @@ static uint32_t part_top(const Balance *b, size_t part, const double gravity[3],
     return top;
 }
 
-/* What the weight above gives on the way from the top of each part: right where it rests. */
+/* First guess: the weight of fluid along a path from the top of each part; exact where fluid rests. */
 static void guess(Balance *b, const double gravity[3], const float *position, double *pressure)
 {
     const Touches *t = &b->touches;
@@ -232,7 +233,7 @@ void balance_pressure(Balance *b, const double gravity[3], const float *position
         pressure[i] = (float)x[i];
 }
 
-/* Whether a part has no free surface. */
+/* True if a part has no free surface. */
 static bool is_closed(const Balance *b, size_t part)
 {
     int open = 0;
@@ -241,7 +242,7 @@ static bool is_closed(const Balance *b, size_t part)
     return open == 0;
 }
 
-/* The mean over a part. */
+/* Mean of `values` over a part. */
 static double mean_of(const Balance *b, size_t part, const double *values)
 {
     const size_t begin = b->part_begin[part], end = b->part_begin[part + 1];
@@ -251,7 +252,7 @@ static double mean_of(const Balance *b, size_t part, const double *values)
     return sum / (double)(end - begin);
 }
 
-/* Less its mean in parts that cannot give way. */
+/* Subtract the mean of rhs in parts without a free surface, whose volume cannot change. */
 static void give_way(const Balance *b, double *rhs)
 {
     for (size_t part = 0; part < b->parts; part++) {
@@ -261,7 +262,7 @@ static void give_way(const Balance *b, double *rhs)
     }
 }
 
-/* By the mean of how far its faces go: along each axis two of them share the way. */
+/* Move a particle by the mean displacement of its faces: along each axis two faces share the way. */
 static void move(const Balance *b, size_t i, const double *x, float *position)
 {
     const Touches *t = &b->touches;
@@ -278,7 +279,7 @@ static void move(const Balance *b, size_t i, const double *x, float *position)
         position[a] += (float)way[a];
 }
 
-/* Presses a part by what give_way took from its compressions: all alike, towards its lowest end. */
+/* Compress a closed part evenly towards its lowest end, by the mean that give_way removed. */
 static void sink(const Balance *b, size_t part, const double down[3], const double *compression,
                  float *position)
 {
@@ -295,7 +296,7 @@ static void sink(const Balance *b, size_t part, const double down[3], const doub
     }
 }
 
-/* The direction of a gravity along an axis. */
+/* Write the direction of gravity; true if along an axis. */
 static bool axis_of(const double gravity[3], double down[3])
 {
     const double g = sqrt(gravity[0] * gravity[0] + gravity[1] * gravity[1] + gravity[2] * gravity[2]);
@@ -327,7 +328,7 @@ void balance_move(Balance *b, const double gravity[3], const double *compression
 
 /* --- gaps next to solids --- */
 
-/* How far the face of a bit is to go, m. */
+/* Distance that the face of a bit must move to the solid, m; writes the face's normal. */
 static double gap_through(const Balance *b, size_t i, int bit, double normal[3])
 {
     touch_normal(bit, normal);
@@ -357,8 +358,9 @@ void balance_fit(Balance *b, float *position)
 
 /* --- a surface by formula --- */
 
-/* From the face at height y between particle i, or NULL its top, and one of another fluid: how far the
-   surface of the lower one is above it, m; false where this is no such face. */
+/* Height of the lower fluid's surface above a horizontal face, m. The face lies between particle i and a
+   touching particle of another fluid; with NULL it is the top of particle i. False if there is no such face
+   or surface, or the surface is a spacing away or more. */
 static bool rise_at(const Balance *b, const BalanceSurface *surface, const float *position, size_t i,
                     const Touch *touch, double *rise)
 {
@@ -376,14 +378,14 @@ static bool rise_at(const Balance *b, const BalanceSurface *surface, const float
     return fabs(*rise) < b->spacing;
 }
 
-/* Its top, where that is open. */
+/* Rise of the particle's top face, if that face is open. */
 static bool top_rise(const Balance *b, const BalanceSurface *surface, const float *position, size_t i,
                      double *rise)
 {
     return (b->touches.open[i] >> 3 & 1) && rise_at(b, surface, position, i, NULL, rise);
 }
 
-/* Its mean over all faces, which no volume allows, and their sum for each particle: what flows in. */
+/* Mean rise over all faces of the surface. The caller subtracts the mean, since the volume is fixed. */
 static double mean_rise(const Balance *b, const BalanceSurface *surface, const float *position)
 {
     const Touches *t = &b->touches;
@@ -403,8 +405,8 @@ static double mean_rise(const Balance *b, const BalanceSurface *surface, const f
     return faces > 0 ? sum / (double)faces : 0;
 }
 
-/* Cuts what touches across the surface, closes all else, and puts half of each face's rise into `moved`, its
-   flow into `rhs`. */
+/* Cut the touches across the surface and close all other faces. Half of each face's rise above the mean goes
+   into `moved`, the flow through the face into `rhs`. */
 static void cut(Balance *b, const BalanceSurface *surface, const float *position, double *rhs, float *moved)
 {
     const Touches *t = &b->touches;
@@ -440,7 +442,7 @@ bool balance_raise(Balance *b, const BalanceSurface *surface, float *position)
     cut(b, surface, position, rhs, moved);
     for (size_t i = 0; i < count; i++)
         x[i] = 0;
-    double *kept = x + count; /* find_parts writes over the first one */
+    double *kept = x + count; /* find_parts overwrites rhs */
     memcpy(kept, rhs, count * sizeof *rhs);
     find_parts(b);
     memcpy(rhs, kept, count * sizeof *rhs);

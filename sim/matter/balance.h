@@ -1,58 +1,58 @@
-/* A start in balance: the pressure under which fluid at rest would not be compressed by gravity in its first
-   moment, and the places in which it has the densities that go with it.
+/* A start in balance: the pressure with which gravity does not compress fluid at rest in its first moment,
+   and the positions that have the densities of that pressure.
 
-   div(grad p / rho - g) = 0, p = 0 at free surfaces, and nothing through walls. Fluid that rests has
-   hydrostatic pressure by it, in layers too; what falls freely has none; what stands before it falls over, as
-   a dam, has what it falls over with. */
+   div(grad p / rho - g) = 0, p = 0 at free surfaces, no flow through walls. Resting fluid gets hydrostatic
+   pressure, in layers too; freely falling fluid gets none; a dam gets the pressure with which the dam begins
+   to collapse. */
 #ifndef SLOSH_BALANCE_H
 #define SLOSH_BALANCE_H
 
 #include "sim/matter/touch.h"
 
-/* Particles; more start at rest. A million take some 15 s of processor time. */
+/* Greatest number of particles for a balanced start: worlds with more start at rest density. A million take
+   some 15 s of processor time. */
 enum { BALANCE_MOST = 2000000 };
 
 typedef struct Balance {
     Touches touches;
     const uint8_t *fluid;
-    double density[FLUIDS_MAX]; /* rho0 of each, kg/m3 */
+    double density[FLUIDS_MAX]; /* rho0 per fluid, kg/m3 */
     double spacing;             /* m */
-    uint32_t *order;            /* particles, what hangs together side by side */
-    uint32_t *part_begin;       /* where the parts begin in it, and where the last one ends */
+    uint32_t *order;            /* particles, sorted by connected parts */
+    uint32_t *part_begin;       /* index in `order` where each part begins, and the end of the last */
     size_t parts;
-    double *work;                 /* for the solution */
-    double *open_weight, *weight; /* of the equations, for each particle and each touch */
-    uint32_t *other;              /* whom each touch is with, side by side */
+    double *work;                 /* for the solver */
+    double *open_weight, *weight; /* of the equations, per particle and per touch */
+    uint32_t *other;              /* neighbour of each touch, in an array without gaps */
 } Balance;
 
-/* Arguments as those of touches_create. False when memory is short. */
+/* Arguments as for touches_create. Returns false if memory is short. */
 bool balance_create(Balance *balance, const WorldDef *def, const Periodic *periodic, size_t count,
                     const float *position, const uint8_t *fluid, const bool take[FLUIDS_MAX]);
 void balance_destroy(Balance *balance);
 
-/* Pa, of each particle, under `gravity` (m/s2, the box's frame); a part with no free surface has 0 at its
-   top. */
+/* Writes each particle's pressure, Pa, under `gravity` (m/s2, the box's frame). In a part with no free
+   surface, pressure is 0 at the top. */
 void balance_pressure(Balance *balance, const double gravity[3], const float *position, float *pressure);
 
-/* Moves particles to where each has the compression that is given, rho / rho0 - 1. A part with no free
-   surface sinks from its lid where gravity is along an axis and nothing stands in it; else it keeps its
-   volume. */
+/* Moves particles to positions with the given compression, rho / rho0 - 1. A part with no free surface sinks
+   from the lid if gravity is along an axis and the world has no solids; else the part keeps its volume. */
 void balance_move(Balance *balance, const double gravity[3], const double *compression, float *position);
 
-/* Moves particles of a lattice, with a flow that compresses nothing, into the gaps that the lattice leaves
-   next to solids: the free surface sinks by what is missing there. The balance is of no more use then. */
+/* Moves lattice particles, by a flow without compression, into the gaps that the lattice leaves next to
+   solids: the free surface sinks by the missing volume. The balance is invalid afterwards. */
 void balance_fit(Balance *balance, float *position);
 
-/* Where fluid ends upwards. */
+/* Heights at which fluids end. */
 typedef struct BalanceSurface {
-    /* Of that fluid at x and z, m; false: nowhere in particular. */
+    /* Surface height of that fluid at x and z, m; false: no particular height. */
     bool (*height)(const void *context, int fluid, double x, double z, double *y);
     const void *context;
 } BalanceSurface;
 
-/* Moves particles of a lattice so that its steps at a surface follow the surface, by a flow that compresses
-   nothing; the balance is of no more use then. What the surface is above the steps in the mean stays. False
-   when memory is short. */
+/* Moves lattice particles, by a flow without compression, so that the lattice's steps at a surface follow the
+   surface. The mean height of the surface above the steps stays. The balance is invalid afterwards. Returns
+   false if memory is short. */
 bool balance_raise(Balance *balance, const BalanceSurface *surface, float *position);
 
 #endif

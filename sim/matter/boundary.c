@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the particles of one solid go. */
+/* Destination of one solid's particles. */
 typedef struct Sink {
     const SolidDef *solid;
     int dimensions;
@@ -30,8 +30,8 @@ static long at_least_one(double count)
     return count > 1 ? lround(count) : 1;
 }
 
-/* `count` points, evenly over the part y >= `top` .. -1 of a sphere turned upside down: a Fibonacci lattice,
-   whose points all have the same area. */
+/* `count` points, evenly over the part -1 <= y / radius <= `top` of a sphere: a Fibonacci lattice, whose
+   points all have the same area. */
 static void put_sphere(Sink *sink, double radius, double top, long count)
 {
     const double golden = M_PI * (3 - sqrt(5));
@@ -99,7 +99,7 @@ static void put_bowl(Sink *sink)
 typedef struct Block {
     long points[3];
     double step[3];
-    long layers[3]; /* as many from each side are not too deep */
+    long layers[3]; /* number of layers on each side that are within the depth */
 } Block;
 
 static bool near_side(const Block *block, int k, long index)
@@ -112,7 +112,7 @@ static double block_at(const Block *block, int k, long index)
     return ((double)index - 0.5 * (double)(block->points[k] - 1)) * block->step[k];
 }
 
-/* One line along x: all of it, or its two ends. */
+/* One line along x: the whole line, or only the two ends. */
 static void put_line(Sink *sink, const Block *block, long y, long z, bool whole)
 {
     const long points = block->points[0], skip = whole ? points : block->layers[0];
@@ -136,7 +136,7 @@ static void put_block(Sink *sink)
             put_line(sink, &block, y, z, near_side(&block, 1, y) || near_side(&block, 2, z));
 }
 
-/* Discs of rings; of the middle ones only the outer rings. */
+/* Discs of rings; the middle discs have only the outer rings. */
 static void put_cylinder(Sink *sink)
 {
     const double s = sink->spacing, radius = sink->solid->radius, height = sink->solid->height;
@@ -172,7 +172,7 @@ size_t boundary_layers(const SolidDef *solid, int dimensions, double spacing, do
     return sink.count;
 }
 
-/* Volume and area of the shape, m3 and m2, or m2 and m. */
+/* Volume and area of the shape, m3 and m2; in two dimensions m2 and m. */
 static void measures(const SolidDef *solid, int dimensions, double *volume, double *area)
 {
     const double r = solid->radius, outer = r + solid->thickness, *e = solid->size;
@@ -207,8 +207,8 @@ double boundary_estimate(const SolidDef *solid, int dimensions, double spacing, 
     return fmin(volume, area * (depth + spacing)) / pow(spacing, dimensions);
 }
 
-/* Of `count` particles those that are in the box, put together; of a solid that moves all: returns how many.
- */
+/* Move particles inside the box to the front of x; returns their number. A moving solid keeps all
+   particles. */
 static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, size_t count)
 {
     const int axes = def->dimensions == 2 ? 2 : 3;
@@ -231,7 +231,7 @@ static size_t keep_in_box(const SolidDef *solid, const WorldDef *def, float *x, 
     return kept;
 }
 
-/* The layers of a solid of the def in memory of their own; NULL when memory is short. */
+/* The layers of a solid of the def, for the caller to free; NULL if memory is short. */
 static float *layers_of(const WorldDef *def, const SolidDef *solid, size_t *count)
 {
     const double depth = def->support * def->spacing;

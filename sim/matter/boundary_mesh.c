@@ -6,24 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* All lengths in here are in spacings. */
+/* All lengths in this file are in spacings. */
 enum { TRIES = 14, ROUNDS = 40 };
-static const double STEP = 0.4;                    /* of the lattice that points are thrown from */
-static const double NEAREST = 0.5, FARTHEST = 1.2; /* of points as they are thrown */
-static const double REACH = 1.7;               /* of the push: the second neighbours just see each other */
-static const double PUSH = 0.12, MOST = 0.1;   /* a round */
-static const double GAP = 0.86;                /* as far from all layers, a place is empty */
-static const double THIN = 0.45, LEAST = 0.02; /* half of what is too thin for a layer, and for anything */
+static const double STEP = 0.4;                    /* of the lattice from which points are thrown */
+static const double NEAREST = 0.5, FARTHEST = 1.2; /* range of the least distance between thrown points */
+static const double REACH = 1.7;               /* range of the push: just includes the second neighbours */
+static const double PUSH = 0.12, MOST = 0.1;   /* per round: factor of the push, and greatest way along an
+                                                  axis */
+static const double GAP = 0.86;                /* a place this far from all layers is empty */
+static const double THIN = 0.45, LEAST = 0.02; /* half thickness: too thin for a layer, and for any
+                                                  particle */
 
 typedef struct Points {
     double (*x)[3];
     size_t count, room;
 } Points;
 
-/* The mesh in spacings. */
+/* The mesh with lengths in spacings. */
 typedef struct Body {
     const DistanceGrid *grid;
-    double unit; /* spacings in a unit of the mesh */
+    double unit; /* spacings per unit of the mesh */
     double half[3];
 } Body;
 
@@ -52,7 +54,7 @@ static bool points_add(Points *points, const double x[3])
 typedef struct Cells {
     double low[3], side;
     long size[3];
-    uint32_t *first, *next; /* 1 more than a point; 0: none */
+    uint32_t *first, *next; /* index of a point, plus 1; 0: none */
 } Cells;
 
 static bool cells_make(Cells *cells, const Body *body, double side, size_t points)
@@ -99,7 +101,7 @@ static void cells_add(Cells *cells, size_t point, const double x[3])
     *first = (uint32_t)point + 1;
 }
 
-/* Calls for each point in the cells within `reach` of x, until one returns false. */
+/* Called for each point in the cells within `reach` of x, until a call returns false. */
 typedef bool Visit(void *context, size_t point);
 
 static bool cells_visit(const Cells *cells, const double x[3], double reach, Visit *visit, void *context)
@@ -119,9 +121,9 @@ static bool cells_visit(const Cells *cells, const double x[3], double reach, Vis
     return true;
 }
 
-/* ---- throwing them ---- */
+/* ---- throwing points ---- */
 
-/* Goes to the level along the slope; false where there is none near. */
+/* Move x along the slope to the level; false if the level is not near. */
 static bool to_level(const Body *body, double level, double x[3])
 {
     for (int i = 0; i < 6; i++) {
@@ -138,15 +140,16 @@ static bool to_level(const Body *body, double level, double x[3])
     return false;
 }
 
-/* What to do with a place of the lattice, by its distance. */
+/* Handles a lattice point x at `distance` from the surface; false stops the walk. */
 typedef bool Take(void *context, const double x[3], double distance);
 
-/* The places of a lattice whose distance is from `low` to `high`; false when one of them said so. */
+/* Calls `take` for the lattice points whose distance is from `low` to `high`; false if a call returned
+   false. */
 static bool walk(const Body *body, double low, double high, Take *take, void *context)
 {
     long size[3], i[3];
     for (int k = 0; k < 3; k++)
-        size[k] = (long)ceil(2 * body->half[k] / STEP) | 1; /* one in the middle */
+        size[k] = (long)ceil(2 * body->half[k] / STEP) | 1; /* odd: a point in the middle */
     for (i[2] = 0; i[2] < size[2]; i[2]++)
         for (i[1] = 0; i[1] < size[1]; i[1]++)
             for (i[0] = 0; i[0] < size[0]; i[0]++) {
@@ -156,8 +159,8 @@ static bool walk(const Body *body, double low, double high, Take *take, void *co
                 const double d = body_at(body, x, NULL), off = d < low ? low - d : d > high ? d - high : 0;
                 if (off == 0 && !take(context, x, d))
                     return false;
-                i[0] +=
-                    off > 2 * STEP ? (long)(0.7 * off / STEP) : 0; /* it grows by 1 a length, and a little */
+                i[0] += off > 2 * STEP ? (long)(0.7 * off / STEP) : 0; /* the distance grows by little more
+                                                                          than 1 per length */
             }
     return true;
 }
@@ -177,7 +180,7 @@ static uint32_t mix(uint32_t bits)
     return bits ^ bits >> 16;
 }
 
-/* Off its place in the lattice, or those on a plane face would stand in steps. */
+/* Offset from the lattice point at random: else points on a plane face would lie in steps. */
 static bool throw_one(void *context, const double x[3], double distance)
 {
     Layer *layer = context;
@@ -188,7 +191,7 @@ static bool throw_one(void *context, const double x[3], double distance)
     return !to_level(layer->body, layer->level, at) || points_add(&layer->points, at);
 }
 
-/* In an order without order. */
+/* Random order, the same in each run. */
 static void shuffle(Points *points)
 {
     for (size_t i = points->count; i > 1; i--) {
@@ -200,7 +203,7 @@ static void shuffle(Points *points)
     }
 }
 
-/* Whether a place is clear of all points by a distance. */
+/* For is_clear: true if `at` is at least sqrt(apart2) from all points. */
 typedef struct Clear {
     const double (*x)[3];
     const double *at;
@@ -216,7 +219,7 @@ static bool is_clear(void *context, size_t point)
     return d2 >= clear->apart2;
 }
 
-/* Marks those that stand `apart` from all that were marked before them: returns how many there are. */
+/* Mark the points at least `apart` from all points marked before; returns the number of marked points. */
 static size_t thin(const Points *points, Cells *cells, double apart, bool *kept)
 {
     size_t count = 0;
@@ -231,7 +234,7 @@ static size_t thin(const Points *points, Cells *cells, double apart, bool *kept)
     return count;
 }
 
-/* As many as are wanted, as nearly as that goes. */
+/* Thin to `wanted` points, as nearly as possible. */
 static void thin_to(Points *points, Cells *cells, size_t wanted, bool *kept)
 {
     double low = NEAREST, high = FARTHEST;
@@ -252,7 +255,7 @@ static void thin_to(Points *points, Cells *cells, size_t wanted, bool *kept)
     points->count = count;
 }
 
-/* ---- pushing them apart ---- */
+/* ---- pushing points apart ---- */
 
 typedef struct Push {
     const double (*x)[3];
@@ -276,7 +279,7 @@ static bool push_from(void *context, size_t point)
     return true;
 }
 
-/* All see where the others were. */
+/* One round of pushes: all use the positions before the round. */
 static void relax(const Layer *layer, Cells *cells, double (*moved)[3])
 {
     const Points *points = &layer->points;
@@ -315,7 +318,7 @@ static bool even(Layer *layer, size_t wanted)
     return ok;
 }
 
-/* Of the level, by the volume around it. */
+/* Area of the level, from the volume of a shell around the level. */
 static double area_of(const Body *body, double level)
 {
     const double unit = body->unit, half = fmax(0.25, body->grid->cell * unit);
@@ -335,7 +338,7 @@ static bool add_layer(const Body *body, double level, Points *all)
     return ok;
 }
 
-/* ---- where no layer is ---- */
+/* ---- gaps without a layer ---- */
 
 typedef struct Gaps {
     const Body *body;
@@ -344,7 +347,7 @@ typedef struct Gaps {
     size_t room;
 } Gaps;
 
-/* Inwards to the middle of a part that is too thin for a layer; false where none is. */
+/* Move x inwards to the middle of a part too thin for a layer; false if there is no such part. */
 static bool to_middle(const Body *body, double x[3])
 {
     double deepest = INFINITY, at[3] = {x[0], x[1], x[2]};

@@ -1,7 +1,7 @@
-/* Boundary particles of a mesh: layers at half a spacing, one and a half ... behind its surface, as
-   sim/matter/ boundary.h has them. Those of a layer are thrown on it at random, no nearer to each other than
-   lets as many stand there as its area asks for, and then push each other apart. Where a part is too thin for
-   a layer, they stand in its middle. */
+/* Boundary particles of a mesh: layers at 0.5, 1.5, ... spacings behind the surface, as in
+   sim/matter/boundary.h. Points of a layer are thrown at random, then thinned by a least distance to the
+   number that the layer's area needs, and then push each other apart. Where a part is too thin for a layer,
+   particles lie in the part's middle. */
 #ifndef SLOSH_BOUNDARY_MESH_H
 #define SLOSH_BOUNDARY_MESH_H
 
@@ -9,8 +9,8 @@
 
 #include <stddef.h>
 
-/* Three floats each, in the solid's frame, m, for the caller to free; NULL when memory is short. The same in
-   each run. */
+/* Returns 3 floats per particle, in the solid's frame, m, for the caller to free; NULL if memory is short.
+   `spacing` and `depth` are in m; *count is the number of particles. Each run gives the same particles. */
 float *boundary_mesh_layers(const MeshUse *mesh, double spacing, double depth, size_t *count);
 
 #endif

@@ -1,21 +1,21 @@
-/* What the watch over energy (sim/world/energy_watch.h) asks of matter, in the box's frame: sums over its
-   parts, so that what comes, what leaves, and solids that float add their own. */
+/* Sums over matter for the energy watch (sim/world/energy_watch.h), in the box's frame. Inflow, outflow and
+   floating solids add their own sums. */
 #ifndef SLOSH_ENERGY_SUMS_H
 #define SLOSH_ENERGY_SUMS_H
 
-/* Those that a box which does not turn has no need of stand last. */
+/* The last fields are needed only in a box that turns. */
 typedef struct EnergySums {
     double own;         /* energy of motion and of compression, J */
     double mass;        /* kg */
     double momentum[3]; /* kg m/s */
     double first[3];    /* sum m x, kg m */
-    double bare; /* at most so much surface has fluid whose tension pulls, m2: sides that cells of h share
-                    with empty ones; of a backend that knows its cells */
+    double bare; /* upper bound on the surface of fluid with surface tension, m2: sides between cells of h
+                    with fluid and empty cells; from backends that know their cells */
     double second[6]; /* sum m x x: xx, yy, zz, xy, yz, zx, kg m2 */
     double turn[3];   /* sum m x cross v, kg m2/s */
 } EnergySums;
 
-/* A mass m (kg) at x (m) that moves with v (m/s). */
+/* Adds a mass m (kg) at x (m) with velocity v (m/s). */
 static inline void energy_sums_add(EnergySums *sums, double m, const double x[3], const double v[3])
 {
     sums->own += 0.5 * m * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -26,7 +26,7 @@ static inline void energy_sums_add(EnergySums *sums, double m, const double x[3]
     }
 }
 
-/* And what a box that turns asks besides. */
+/* Adds the mass's sums for a box that turns. */
 static inline void energy_sums_add_turning(EnergySums *sums, double m, const double x[3], const double v[3])
 {
     for (int k = 0; k < 3; k++) {

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* How high a place is against gravity, m above the box's origin. */
+/* Height of x against gravity, m above the box's origin; 0 without gravity. */
 static double height_of(const double gravity[3], const double x[3])
 {
     double sum = 0, length = 0;
@@ -13,7 +13,7 @@ static double height_of(const double gravity[3], const double x[3])
     return length > 0 ? sum / sqrt(length) : 0;
 }
 
-/* The greatest or least height of a block's corners: of the sign's side. */
+/* Greatest height of a block's corners for sign > 0, least for sign < 0, m. */
 static double block_height(const double gravity[3], const double min[3], const double max[3], double sign)
 {
     double corner[3];

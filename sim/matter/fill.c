@@ -17,7 +17,7 @@ double fill_volume(const Fill *fill, int dimensions)
     return (fill->max[0] - fill->min[0]) * (fill->max[1] - fill->min[1]) * depth;
 }
 
-/* From the box's frame to the mesh's own: the rows of the turn back. */
+/* Rows of the rotation from the box's frame to the mesh's frame. */
 static void mesh_rows(const Fill *fill, double row[3][3])
 {
     static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -27,7 +27,7 @@ static void mesh_rows(const Fill *fill, double row[3][3])
         quat_rotate(q, axes[k], row[k]);
 }
 
-/* How far a mesh reaches from its middle along an axis of the box. */
+/* Reach of a mesh from its middle along an axis of the box, m. */
 static double mesh_reach(const Fill *fill, int axis)
 {
     double row[3][3], reach = 0;
@@ -79,12 +79,12 @@ static bool mesh_holds(const Fill *fill, const double x[3])
     return mesh_use_distance(&fill->mesh, at) <= 0;
 }
 
-/* Points of a lattice ask for the same few formulas, one after the other, and a column of them for the same
-   height: each thread keeps what it has read, and the last value of each. */
+/* Lattice points ask for the same few formulas in a row, and a column of points for the same height. So each
+   thread keeps the formulas read last, and the last value of each. */
 enum { FORMULAS_KEPT = 4 };
 typedef struct Height {
     char text[FORMULA_SIZE];
-    Formula formula; /* without a step: it cannot be read */
+    Formula formula; /* no steps: the text is no valid formula */
     double x, z, y;
 } Height;
 
@@ -152,6 +152,6 @@ static bool shape_holds(const Fill *fill, int dimensions, const double x[3], dou
 
 bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance)
 {
-    double end; /* a formula is dear: last */
+    double end; /* last: a formula is costly */
     return shape_holds(fill, dimensions, x, tolerance) && (!fill_ends(fill, x[0], x[2], &end) || x[1] < end);
 }

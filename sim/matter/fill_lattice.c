@@ -10,17 +10,16 @@ enum {
     SPREAD = 3 /* layers more or less than the spacing asks for */
 };
 
-/* In spacings: fills that are nearer touch; what is nearer to a layer's face is on it; and as in
- * sim/matter/seed.c.
- */
+/* In spacings: fills nearer than `near` touch; a face nearer than `on_face` to a layer's face is on the
+   layer's face; `slack` as in sim/matter/seed.c. */
 static const double near = 0.75, on_face = 1e-3, slack = 1e-6;
 
-/* Fills that touch, one by way of the others. */
+/* Fills connected by touching. */
 typedef struct Group {
     const Fill *fills[GROUP_MAX];
     int count;
     bool has_block;
-    double low[3], high[3]; /* outermost faces of its blocks, m */
+    double low[3], high[3]; /* outermost faces of the group's blocks, m */
 } Group;
 
 static double wall_low(const WorldDef *def, int k)
@@ -28,7 +27,7 @@ static double wall_low(const WorldDef *def, int k)
     return k == 1 ? 0 : -0.5 * def->box_size[k];
 }
 
-/* Of a block that reaches out of the box, what is in it. */
+/* A face of a block, limited to the box, m. */
 static double face_of(const WorldDef *def, const Fill *fill, int k, int side)
 {
     const double wall = wall_low(def, k), face = side ? fill->max[k] : fill->min[k];
@@ -81,17 +80,17 @@ static void group_of(const WorldDef *def, const Fill *fill, Group *group)
             }
 }
 
-/* That of the box. */
+/* Axis k of the box's lattice. */
 static FillAxis box_axis(const WorldDef *def, int k)
 {
-    /* across a periodic side the lattice goes on without a seam */
+    /* the lattice continues across a periodic side without a seam */
     const double size = def->box_size[k], whole = fmax(1, round(size / def->spacing));
     const double s = def->periodic[k] ? size / whole : def->spacing;
     const double points = def->periodic[k] ? whole : floor(size / s + on_face);
     return (FillAxis){.first = k == 1 ? 0.5 * s : -0.5 * (points - 1) * s, .step = s, .end = (long)points};
 }
 
-/* How far the worst face of the group's blocks is from one of the layers', in layers. */
+/* Greatest distance of a face of the group's blocks from the nearest face of a layer, in layers. */
 static double misfit(const WorldDef *def, const Group *group, int k, double first, double step)
 {
     double worst = 0;
@@ -114,11 +113,11 @@ static double cell_of(const WorldDef *def, const FillAxis axes[3])
     return cell;
 }
 
-/* What an axis may have: the box's layers, or some number of whole ones between the outermost faces. */
+/* Candidates for an axis: the box's layers, or whole numbers of layers between the outermost faces. */
 typedef struct Choice {
     int count;
     FillAxis axis[2 * SPREAD + 1];
-    /* how far the step is from the spacing, and faces inside the group from the layers */
+    /* difference of the step from the spacing, plus misfit of the group's inner faces */
     double cost[2 * SPREAD + 1];
 } Choice;
 
@@ -152,14 +151,14 @@ static void choose_from(const WorldDef *def, const Group *group, int k, Choice *
         choice_add(def, group, k, &(FillAxis){.first = group->low[k], .step = def->spacing}, choice);
         return;
     }
-    const long most = about < 50 ? 1 : about < 75 ? 2 : SPREAD; /* some 4 % */
+    const long most = about < 50 ? 1 : about < 75 ? 2 : SPREAD; /* about 4 % */
     for (long n = about > most ? about - most : 1; n <= about + most; n++) {
         const FillAxis axis = whole_layers(def, group, k, (double)n);
         choice_add(def, group, k, &axis, choice);
     }
 }
 
-/* The layers whose points have the volume nearest to a particle's, and then are the most even. */
+/* Choose the layers whose volume per point is nearest to a particle's, then the most even layers. */
 static void group_axes(const WorldDef *def, const Group *group, FillAxis axes[3])
 {
     static const double weight = 4; /* of the volume */
@@ -194,7 +193,7 @@ static bool touches(const WorldDef *def, double place, double wall)
     return fabs(place - wall) < near * def->spacing;
 }
 
-/* Spreads the layers along an axis where one side is free, from the other one on, so that a point has its
+/* Spread the layers along an axis with a free side, from the other side on, so that a point has a particle's
    volume; upwards first. */
 static void keep_volume(const WorldDef *def, const Group *group, FillAxis axes[3])
 {
@@ -240,7 +239,7 @@ static bool blocks_overlap(const WorldDef *def, const Fill *a, const Fill *b)
     return true;
 }
 
-/* Blocks alone, none of which has a part of another. */
+/* True if the group has only blocks, without overlaps. */
 static bool is_pile(const WorldDef *def, const Group *group)
 {
     for (int i = 0; i < group->count; i++)
@@ -261,7 +260,7 @@ bool fill_pile(const WorldDef *def, const Fill *fill, const FillAxis axes[3], Fi
     *pile = (FillPile){.dimensions = def->dimensions};
     if (worst <= on_face || !is_pile(def, &group))
         return false;
-    for (int f = 0; f < def->fluid_count; f++) /* in one order, whichever fill asks */
+    for (int f = 0; f < def->fluid_count; f++) /* the same order for each fill of the pile */
         for (int i = 0; i < def->fluids[f].fill_count; i++)
             if (group_has(&group, &def->fluids[f].fills[i]))
                 pile->blocks[pile->count++] = &def->fluids[f].fills[i];
@@ -269,7 +268,7 @@ bool fill_pile(const WorldDef *def, const Fill *fill, const FillAxis axes[3], Fi
     return true;
 }
 
-/* The part of a layer's cell that the block has. */
+/* The block's part of a layer's cell, 0 to 1. */
 static double part_of(const FillPile *pile, const Fill *block, const long index[3])
 {
     double part = 1;
@@ -282,8 +281,8 @@ static double part_of(const FillPile *pile, const Fill *block, const long index[
 }
 
 /* In [0, 1), evenly spread over any line or plane of points: multiples of the golden ratio and of the roots
-   of 3 and 2. Of points in a plane those below p are p of all but for 1.5 (root of the mean square; 100 to
-   6,000 points). */
+   of 3 and 2. Of n points in a plane, n p are below p, within 1.5 (root of the mean square; 100 to 6,000
+   points). */
 static double turn_of(const long index[3])
 {
     const double at = 0.6180339887498949 * (double)index[0] + 0.7320508075688772 * (double)index[1] +
@@ -314,7 +313,7 @@ static double volume_of_blocks(const WorldDef *def, const Group *group)
     return volume;
 }
 
-/* The group with the most in blocks; without a block, has_block is false. */
+/* The group with the greatest volume of blocks; without a block, has_block is false. */
 static void largest_group(const WorldDef *def, Group *largest)
 {
     double most = 0;
@@ -333,7 +332,7 @@ static void largest_group(const WorldDef *def, Group *largest)
         }
 }
 
-/* The root of a number near 1, by Newton: the C library's last bit depends on the processor. */
+/* Root of a number near 1, by Newton: the last bit of the C library's root depends on the processor. */
 static double root_near_one(double x, int power)
 {
     double root = 1;
@@ -342,9 +341,9 @@ static double root_near_one(double x, int power)
     return root;
 }
 
-/* The spacing at which the lattice that `spacing` gives has a particle's volume a point; its steps differ
-   from it by up to the part `uneven`, and faces inside the group are `off` its layers. 0: with it the lattice
-   is another one. */
+/* The spacing at which the lattice chosen for `spacing` has a particle's volume per point. *uneven is the
+   greatest relative difference of a step from the result, *off the misfit of the group's inner faces. Returns
+   0 if the result gives a different lattice. */
 static double fit_at(const WorldDef *def, const Group *group, double spacing, double *uneven, double *off)
 {
     WorldDef at = *def;

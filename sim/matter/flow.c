@@ -24,7 +24,7 @@ static void across(const Emit *emit, int dimensions, double a[3], double b[3])
         b[0] = b[1] = 0, b[2] = 1;
         return;
     }
-    int least = 0; /* the axis that is most across */
+    int least = 0; /* axis most across the direction */
     for (int k = 1; k < 3; k++)
         if (fabs(u[k]) < fabs(u[least]))
             least = k;
@@ -42,18 +42,18 @@ double emit_time(const Emit *emit, double spacing, long index)
     return emit->start + (double)index * spacing / emit->speed;
 }
 
-/* Points (u / 2, v / 2) spacings of the lattice, u and v both odd or even as `odd` says: all that are nearer
-   to the middle than the rim, and of those on it a share. u^2 + v^2 is their `square`. */
+/* Points (u / 2, v / 2) spacings of the lattice, u and v odd or even by `odd`: all points within the rim, and
+   a share of the points on the rim. The `square` of a point is u^2 + v^2. */
 typedef struct Pattern {
     int odd[2];
     bool line;     /* v is 0 */
-    long rim;      /* its square */
+    long rim;      /* square of the points on the rim */
     long whole;    /* points within the rim */
-    long on_rim;   /* points on it, */
-    double filled; /* of these, a layer */
+    long on_rim;   /* points on the rim */
+    double filled; /* points on the rim with a particle, per layer */
 } Pattern;
 
-/* The greatest odd or even number whose square is `square` at most; -1 for none. */
+/* Greatest number, odd or even by `odd`, whose square is at most `square`; negative: none. */
 static long greatest(long square, int odd)
 {
     long u = square < 0 ? -1 : (long)sqrt((double)square);
@@ -61,7 +61,7 @@ static long greatest(long square, int odd)
     return u % 2 == odd ? u : u - 1;
 }
 
-/* How many points have a square of `most` at most. */
+/* Number of points with a square of at most `most`. */
 static long points_within(const Pattern *p, long most)
 {
     const long top = p->line ? 0 : greatest(most, p->odd[1]);
@@ -71,7 +71,7 @@ static long points_within(const Pattern *p, long most)
     return count;
 }
 
-/* For so many particles a layer. */
+/* Pattern with so many particles per layer. */
 static Pattern pattern_of(int odd_u, int odd_v, bool line, double particles)
 {
     Pattern p = {.odd = {odd_u, odd_v}, .line = line};
@@ -92,7 +92,7 @@ static Pattern pattern_of(int odd_u, int odd_v, bool line, double particles)
     return p;
 }
 
-/* The sum of the squares. */
+/* Sum of the squares of a layer's points. */
 static double moment(const Pattern *p)
 {
     const long top = p->line ? 0 : greatest(p->rim, p->odd[1]);
@@ -104,7 +104,7 @@ static double moment(const Pattern *p)
     return sum;
 }
 
-/* The roundest. */
+/* The roundest pattern: least moment. */
 static Pattern pattern_for(const Emit *emit, int dimensions, double spacing)
 {
     const double r = (1 + 1e-9) * emit->radius / spacing;
@@ -123,7 +123,7 @@ size_t emit_most(const Emit *emit, int dimensions, double spacing)
     return (size_t)(p.whole + p.on_rim);
 }
 
-/* Whether place `number` of the rim has a particle, counted over all layers. */
+/* True if place `number` on the rim, counted over all layers, has a particle. */
 static bool is_filled(const Pattern *p, double number)
 {
     const double share = p->filled / (double)p->on_rim;

@@ -1,4 +1,4 @@
-/* Keys of the fluids: what they are, what they fill at the start, where they come in and go. */
+/* Keys of the fluids: properties, fills at the start, emitters and drains. */
 #include "sim/base/color.h"
 #include "sim/base/key_rows.h"
 #include "sim/matter/world_def.h"
@@ -24,7 +24,8 @@ static const KeyOwner curvature = {
 
 static void fluid_init(void *element, int index)
 {
-    /* Told apart by people with any colour vision: Okabe and Ito, "Color universal design", 2008. */
+    /* Colours that people with any colour vision can tell apart: Okabe and Ito, "Color universal design",
+       2008. */
     static const double palette[][3] = {{0.00, 0.45, 0.70}, {0.90, 0.62, 0.00}, {0.00, 0.62, 0.45},
                                         {0.80, 0.47, 0.65}, {0.34, 0.71, 0.91}, {0.84, 0.37, 0.00},
                                         {0.94, 0.89, 0.26}, {0.30, 0.30, 0.30}};

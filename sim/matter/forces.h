@@ -1,27 +1,28 @@
-/* What the fluid does to the box and to each solid, summed over steps: for who measures (Backend.feel). A
-   world that is never asked pays nothing. */
+/* Forces of the fluid on the box and on each solid, summed over steps, on request (Backend.feel). Without a
+   request a world pays nothing. */
 #ifndef SLOSH_FORCES_H
 #define SLOSH_FORCES_H
 
 #include "sim/matter/world_def.h"
 
-/* In the box's axes; summed over time, N s and N m s, or its mean, N and N m. */
+/* In the box's axes. Summed over time: N s and N m s; as a mean: N and N m. */
 typedef struct Push {
-    double force[3], torque[3]; /* the torque about the box's origin; of a solid about the solid's own */
+    double force[3], torque[3]; /* the torque about the box's origin; for a solid about the solid's own
+                                   origin */
 } Push;
 
-/* The box's is all that fluid pushes on, less the solids: walls, and what is left of a guard. It leaves out
-   what emitters and drains do. A solid's is the sum over its boundary particles of what these push the fluid
-   with, the other way round: pressure, and friction but the implicit one, which is then in the box's. */
+/* The box's push is all push of the fluid less the solids': walls, and the rest of a guard, without emitters
+   and drains. A solid's push is the reaction to the push of the solid's boundary particles on fluid: pressure
+   and explicit friction. Implicit friction counts in the box's push. */
 typedef struct Forces {
-    double seconds; /* that were summed */
+    double seconds; /* summed time */
     Push box, solid[SOLIDS_MAX];
 } Forces;
 
-/* Adds `times` one to another. */
+/* Adds `times` push to `to`. */
 void push_add(Push *to, double times, const Push *push);
 
-/* Adds a force (N) at x, m, from whence the torque counts. */
+/* Adds a force (N) at x, m from the point of the torque. */
 static inline void push_at(Push *push, const double x[3], const double force[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -31,16 +32,16 @@ static inline void push_at(Push *push, const double x[3], const double force[3])
     }
 }
 
-/* The same push with its torque about another point, which is at `to` (m) seen from the one before. */
+/* Moves the torque to another point, at `to` (m) from the old point. */
 void push_about(Push *push, const double to[3]);
 
-/* Adds what is summed to what is summed. */
+/* Adds sums to sums. */
 void forces_add(Forces *to, const Forces *sum);
 
-/* Adds what is the mean of some time to what is summed. */
+/* Adds a mean over some time to sums. */
 void forces_add_mean(Forces *to, const Forces *mean);
 
-/* Means over the time that was summed; all 0 of none. */
+/* Turns sums into means over the summed time; all 0 without time. */
 void forces_mean(Forces *forces);
 
 #endif

@@ -6,19 +6,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ROUNDS = 20 };             /* what pushes falls to a tenth within them */
-static const double PART = 0.5;   /* of a spacing's square times the gradient, a round */
-static const double MOST = 0.1;   /* a round's way along an axis, spacings */
-static const double WHOLE = 0.95; /* full enough to move */
+enum { ROUNDS = 20 };             /* pushes fall to a tenth in so many */
+static const double PART = 0.5;   /* per round: way over a spacing's square times the gradient */
+static const double MOST = 0.1;   /* greatest way along an axis per round, spacings */
+static const double WHOLE = 0.95; /* least fullness of a particle to move */
 
-/* Fluid first, then boundary particles, by cells of a support radius. */
+/* Fluid first, then boundary particles, in cells of a support radius. */
 typedef struct Crowd {
     size_t fluid, count;
     float *position; /* 3 each */
-    uint32_t *near;  /* of the fluid, who may move */
+    uint32_t *near;  /* fluid particles allowed to move */
     size_t near_count;
-    double *way;     /* 3 each of those, m */
-    uint32_t *begin; /* of each cell in `order`, and where the last one ends */
+    double *way;     /* 3 per particle of `near`, m */
+    uint32_t *begin; /* begin of each cell in `order`, and end of the last */
     uint32_t *order;
     int cells[3];
     double h;
@@ -33,7 +33,7 @@ static void to_solid(const BoxState *pose, const float *x, double out[3])
     quat_rotate_inverse(pose->orientation, out, out);
 }
 
-/* Whether x is nearer than `reach` to one of the first `solids`. */
+/* True if x is nearer than `reach` (m) to one of the first `solids`. */
 static bool within(const WorldDef *def, const BoxState *pose, int solids, const float *x, double reach)
 {
     double at[3];
@@ -57,8 +57,7 @@ static bool in_box(const WorldDef *def, const float *x)
     return true;
 }
 
-/* Boundary particles where fluid may see them: not behind walls, nor in a solid that is named before theirs.
- */
+/* Boundary particles visible to fluid: not behind walls, nor in a solid named earlier. */
 static void add_boundary(Crowd *crowd, const Boundary *boundary)
 {
     const BoxState *pose = crowd->pose;
@@ -112,7 +111,7 @@ static void sort(Crowd *crowd)
     }
 }
 
-/* Sums of V0 F x_ij, 1/m, and in out[3] of V0 F r^2 over the dimensions: how full. */
+/* Add the sums over a cell: of V0 F x_ij, 1/m, and in out[3] of V0 F r^2 over the dimensions: how full. */
 static void sum_cell(const Crowd *crowd, const Lattice *lattice, uint32_t i, size_t cell, double out[4])
 {
     const float *x = crowd->position + 3 * (size_t)i;
@@ -181,7 +180,7 @@ static void crowd_destroy(Crowd *crowd)
     free(crowd->way);
 }
 
-/* All at once, but for those whose ways end in a solid. */
+/* Take all ways at once, except ways into a solid. */
 static void take_ways(Crowd *crowd)
 {
     const WorldDef *def = crowd->def;

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A point on a face of a block belongs to it at the low side only, to this part of a spacing. */
+/* Fraction of a spacing: a point on a face of a block belongs to the block at the low side only. */
 static const double slack = 1e-6;
 
 /* The solids of a def as they stand at the start. */
@@ -15,7 +15,7 @@ typedef struct Stand {
     BoxState pose[SOLIDS_MAX];
 } Stand;
 
-/* Whether x is clear of all solids, by half a spacing as of the walls. */
+/* True if x is at least half a spacing away from all solids, as from walls. */
 static bool is_free(const Stand *stand, const double x[3])
 {
     const WorldDef *def = stand->def;
@@ -38,7 +38,7 @@ static bool fill_covers(const WorldDef *def, const Fill *fill, const double x[3]
     return fill_holds(fill, def->dimensions, x, slack * def->spacing);
 }
 
-/* Whether a fill that stands before fill `index` of fluid `fluid` has the point. */
+/* True if a fill before fill `index` of fluid `fluid` has the point. */
 static bool taken_before(const WorldDef *def, int fluid, int index, const double x[3])
 {
     for (int f = 0; f <= fluid; f++)
@@ -48,7 +48,7 @@ static bool taken_before(const WorldDef *def, int fluid, int index, const double
     return false;
 }
 
-/* `pile`: NULL where the fill is of none. */
+/* `pile`: NULL if the fill is in no pile. */
 static bool has_point(const WorldDef *def, const FillPile *pile, int fluid, int index, const double x[3],
                       const long layer[3])
 {
@@ -56,7 +56,7 @@ static bool has_point(const WorldDef *def, const FillPile *pile, int fluid, int 
     return owner ? owner == fill : fill_covers(def, fill, x) && !taken_before(def, fluid, index, x);
 }
 
-/* Where a height by formula cuts fills, no pile tells whose a point is. */
+/* True if a height by formula cuts a fill: then no pile decides about points. */
 static bool is_cut(const WorldDef *def)
 {
     for (int f = 0; f < def->fluid_count; f++)
@@ -66,7 +66,7 @@ static bool is_cut(const WorldDef *def)
     return false;
 }
 
-/* Blocks that share no point. */
+/* True for two blocks without a common point. */
 static bool blocks_apart(const Fill *a, const Fill *b, int dimensions)
 {
     for (int k = 0; k < dimensions && a->kind == FILL_BLOCK && b->kind == FILL_BLOCK; k++)
@@ -75,7 +75,7 @@ static bool blocks_apart(const Fill *a, const Fill *b, int dimensions)
     return false;
 }
 
-/* Whether all that decides about a point of the fill is whether each coordinate is within the block. */
+/* True if only the block's range along each axis decides about a point of the fill. */
 static bool is_plain_block(const WorldDef *def, int fluid, int index)
 {
     const Fill *fill = &def->fluids[fluid].fills[index];
@@ -86,7 +86,7 @@ static bool is_plain_block(const WorldDef *def, int fluid, int index)
     return fill->kind == FILL_BLOCK && !formula_given(fill->below) && def->solid_count == 0;
 }
 
-/* The points of a plain block: those along each axis, multiplied. */
+/* Number of points of a plain block: the product of the numbers along each axis. */
 static size_t block_count(const WorldDef *def, const Fill *block, const FillAxis axes[3])
 {
     size_t count = 1;
@@ -94,7 +94,7 @@ static size_t block_count(const WorldDef *def, const Fill *block, const FillAxis
         size_t along = 0;
         double x[3];
         for (int a = 0; a < 3; a++)
-            x[a] = block->min[a] - slack * def->spacing; /* is within */
+            x[a] = block->min[a] - slack * def->spacing; /* inside */
         for (long i = axes[k].begin; i < axes[k].end; i++) {
             x[k] = axes[k].first + (double)i * axes[k].step;
             along += fill_covers(def, block, x);
@@ -115,7 +115,8 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     const FillPile *pile = !is_cut(def) && fill_pile(def, fill, axes, &piled) ? &piled : NULL;
     if (!position && !pile && is_plain_block(def, fluid, index))
         return block_count(def, fill, axes);
-    const int row = position ? 0 : 1, rows = 1 - row; /* who only counts goes up columns: sim/matter/fill.c */
+    const int row = position ? 0 : 1, rows = 1 - row; /* a count goes up columns, for the cached heights of
+                                                         sim/matter/fill.c */
     long i[3];
     for (i[2] = axes[2].begin; i[2] < axes[2].end; i[2]++)
         for (i[rows] = axes[rows].begin; i[rows] < axes[rows].end; i[rows]++)
@@ -198,7 +199,7 @@ size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
     return count;
 }
 
-/* A number in [-1, 1) that point and axis decide: M. Nobile's mix of 32 bits, "lowbias32". */
+/* A number in [-1, 1) from point and axis: M. Nobile's mix of 32 bits, "lowbias32". */
 static double scatter(uint32_t point, uint32_t axis)
 {
     uint32_t bits = point * 3 + axis + 1;

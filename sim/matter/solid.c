@@ -27,7 +27,7 @@ static double length(const double v[3])
 static void turn_from_y(const double axis[3], double q[4])
 {
     const double norm = length(axis), a[3] = {axis[0] / norm, axis[1] / norm, axis[2] / norm};
-    if (a[1] < -1 + 1e-12) { /* straight down: about z, which keeps a scene's plane */
+    if (a[1] < -1 + 1e-12) { /* straight down: about z, to keep a scene's plane */
         q[0] = q[1] = q[3] = 0, q[2] = 1;
         return;
     }
@@ -100,7 +100,7 @@ static void limit(double v[3], double most)
 bool solid_hand_move(SolidHand *hand, const double at[3], const double turn[4], double time, double speed,
                      double turn_speed, int dimensions)
 {
-    static const double RESPONSE = 0.05, LONGEST = 100; /* s: a mouse tells places in jumps of some 10 ms */
+    static const double RESPONSE = 0.05, LONGEST = 100; /* s: a mouse reports places every 10 ms or so */
     BoxState now;
     const double norm = sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
     if (!(norm > 0) || !isfinite(norm) || !isfinite(at[0] + at[1] + at[2]) || !(speed > 0) ||
@@ -119,8 +119,8 @@ bool solid_hand_move(SolidHand *hand, const double at[3], const double turn[4], 
     memcpy(next.turned_rate, now.angular_velocity, sizeof next.turned_rate);
     limit(next.rate, speed);
     limit(next.turned_rate, turn_speed);
-    /* from rest it is fastest after one time constant: by a / (e tau); with a push at the begin by no more
-       than that besides it */
+    /* from rest the speed is greatest after one time constant: a / (e tau); a push at the begin adds at most
+       the push's own speed */
     next.response = fmin(
         fmax(RESPONSE, fmax(length(next.apart) / (M_E * speed), length(next.turned) / (M_E * turn_speed))),
         LONGEST);
@@ -178,7 +178,7 @@ static double cylinder_distance(const SolidDef *solid, const double x[3])
     return side > 0 && end > 0 ? sqrt(side * side + end * end) : fmax(side, end);
 }
 
-/* Below the rim the nearest point is on one of the two spheres, above it on the rim's ring. */
+/* Below the rim the nearest point is on one of the two spheres, above the rim on the ring. */
 static double bowl_distance(const SolidDef *solid, const double x[3])
 {
     const double inner = solid->radius, outer = inner + solid->thickness;
@@ -218,7 +218,7 @@ double solid_distance(const SolidDef *solid, int dimensions, const double x[3])
     }
 }
 
-/* By differences: for the few particles that come to lie in a solid. */
+/* By differences: only for the few particles inside a solid. */
 void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3])
 {
     const double step = 1e-6 * solid_reach(solid);
@@ -266,7 +266,7 @@ void solid_half(const SolidDef *solid, double half[3])
         half[k] = solid->mesh.scale * solid->mesh.shape->half[k];
 }
 
-/* How far its motions carry it along the axis, m. */
+/* Greatest way of the motions along the axis, m; INFINITY if unbounded. */
 static double way_along(const SolidDef *solid, int axis)
 {
     double way = solid_floats(solid) ? INFINITY : 0;

@@ -6,7 +6,7 @@
 #define AT(field)    offsetof(WorldDef, field)
 #define SOLID(field) offsetof(SolidDef, field)
 
-/* What each kind of solid names. */
+/* Keys of each kind of solid. */
 #define CENTRE(S, HELP)    VEC3(S ".centre", R, "m", -1e6, 1e6, SOLID(centre), HELP),
 #define DIRECTION(S, HELP) VEC3(S ".axis", 0, "", -1000, 1000, SOLID(axis), HELP),
 #define RADIUS(S, HELP)    NUMBER(S ".radius", R | O, "m", 0, 1e6, SOLID(radius), HELP),
@@ -43,7 +43,7 @@ static void solid_init(void *element, int index)
     solid->axis[1] = 1;
     solid->mesh.scale = 1;
     for (int k = 0; k < 3; k++)
-        solid->color[k] = (float)srgb_to_linear(0.62); /* a grey that no fluid has */
+        solid->color[k] = (float)srgb_to_linear(0.62); /* a grey unlike any fluid */
 }
 
 /* clang-format off */

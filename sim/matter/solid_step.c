@@ -35,7 +35,8 @@ void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose)
 
 void solid_step_stand(const SolidDef *solid, const SolidPose *pose, SolidStep *step)
 {
-    const double slack = 1e-5 * solid_reach(solid); /* of roundings, and more than hold() has */
+    const double slack = 1e-5 * solid_reach(solid); /* for rounding errors, and more than the slack of
+                                                       hold() */
     double half[3];
     solid_half(solid, half);
     *step = (SolidStep){.begin = *pose, .end = *pose, .still = true};
@@ -120,7 +121,7 @@ void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3])
         a[k] = step->change[k] + euler[k] + inward[k];
 }
 
-/* A particle's way through the solid's frame, which the solid's own motion bends. */
+/* A particle's way through the solid's frame, taken as straight although the solid's motion bends the way. */
 typedef struct Way {
     const SolidDef *solid;
     int dimensions;
@@ -140,8 +141,8 @@ static double distance_on(const Way *way, double t)
     return solid_distance(way->solid, way->dimensions, x);
 }
 
-/* The first part of the way, 0 .. 1, where it meets the surface; more than 1: it does not. Goes forward by
-   the distance to the surface, which it can't meet sooner. */
+/* The first part of the way, 0 .. 1, where the way meets the surface; more than 1: nowhere. Goes forward by
+   the distance to the surface: no meeting can be sooner. */
 static double meeting(const Way *way, double length, double slack)
 {
     double t = 0;
@@ -154,8 +155,8 @@ static double meeting(const Way *way, double length, double slack)
     return t;
 }
 
-/* Where the surface bends towards the way its tangent plane is within it, a little. The distance from a mesh
-   grows by less than the way does at its edges: there it takes more than one go. */
+/* Push `to` out of the solid. Where the surface bends towards the way, the tangent plane is a little inside.
+   At edges of a mesh the distance grows more slowly than the way: more than one round is needed. */
 static void leave(Way *way, double slack, double normal[3])
 {
     for (int i = 0; i < LEAVES; i++) {
@@ -168,16 +169,16 @@ static void leave(Way *way, double slack, double normal[3])
     }
 }
 
-/* Puts `to` a little above the plane that touches the surface where the way meets it, unless it is there.
-   False when the way keeps clear of the solid. */
+/* Put `to` a little above the tangent plane at the meeting with the surface, unless `to` is above already.
+   False if the way keeps clear of the solid. */
 static bool hold(Way *way, double normal[3])
 {
     const double reach = solid_reach(way->solid), slack = 1e-6 * reach;
     const double d[3] = {way->to[0] - way->from[0], way->to[1] - way->from[1], way->to[2] - way->from[2]};
     const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     const double at_end = distance_on(way, 1);
-    if (at_end >= 2 * length) /* then the start is at least `length` away, a mesh's start too, whose distance
-                                 is rough */
+    if (at_end >= 2 * length) /* then the start is at least `length` away, even with the rough distance of a
+                                 mesh */
         return false;
     if (at_end >= 0 && distance_on(way, 0) + at_end >= length)
         return false;
@@ -185,13 +186,12 @@ static bool hold(Way *way, double normal[3])
     if (t > 1 && at_end >= 0)
         return false;
     double entry[3], depth = 0;
-    along(way, fmin(t, 1),
-          entry); /* a mesh's distance may be a little more than it is, and lead past the end */
+    along(way, fmin(t, 1), entry); /* a mesh's distance may be a little too long, and lead past the end */
     solid_normal(way->solid, way->dimensions, entry, normal);
     for (int k = 0; k < 3; k++)
         depth += (entry[k] - way->to[k]) * normal[k];
     depth += slack - solid_distance(way->solid, way->dimensions, entry);
-    if (depth <= 0 && at_end >= 0) /* it was at the surface and leaves it */
+    if (depth <= 0 && at_end >= 0) /* began at the surface and leaves the solid */
         return false;
     if (depth <= 0) {
         solid_normal(way->solid, way->dimensions, way->to, normal);
@@ -203,8 +203,8 @@ static bool hold(Way *way, double normal[3])
     return true;
 }
 
-/* Whether a ball about the solid keeps clear of all that lies as near to x as `before` does, the solid's own
-   way included. */
+/* True if a ball about the solid keeps clear of all points as near to x as `before`, the solid's own way
+   included. */
 static bool out_of_reach(const SolidStep *step, const float before[3], const float x[3], float reach)
 {
     float r2 = 0, way2 = 0, own2 = 0;
@@ -219,7 +219,7 @@ static bool out_of_reach(const SolidStep *step, const float before[3], const flo
     return r2 > most * most;
 }
 
-/* The same of a block, which may be long and thin: whether one of its sides alone is far enough away. */
+/* The same for a block, possibly long and thin: true if one side alone is far enough away. */
 static bool beside_block(const SolidDef *solid, const Way *way)
 {
     double gap = 0, way2 = 0;

@@ -1,5 +1,5 @@
-/* Solids over a step: where their boundary particles go, what they feel, and the guard that keeps fluid out.
- */
+/* Solids over a step: positions, velocities and accelerations of boundary particles, and the guard against
+   fluid inside. */
 #ifndef SLOSH_SOLID_STEP_H
 #define SLOSH_SOLID_STEP_H
 
@@ -13,10 +13,10 @@ typedef struct SolidPose {
     float w[3]; /* rad/s */
 } SolidPose;
 
-/* What one solid does from one pose to the next. */
+/* Motion of one solid from one pose to the next. */
 typedef struct SolidStep {
     SolidPose begin, end;
-    bool still; /* it has no motion: all of it lies between `low` and `high` in the box's frame, m */
+    bool still; /* no motion: the whole solid lies between `low` and `high` in the box's frame, m */
     float low[3], high[3];
     float change[3]; /* of v, over the step: m/s2 */
     float alpha[3];  /* of w, over the step: rad/s2 */
@@ -25,27 +25,27 @@ typedef struct SolidStep {
 void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose);
 void solid_pose_of(const BoxState *at, SolidPose *pose);
 
-/* From `begin` to `end`, s. */
+/* The solid's step from `begin` to `end`, s. */
 void solid_step_make(const SolidDef *solid, double begin, double end, SolidStep *step);
 
-/* Of one that stands at `pose` throughout. */
+/* The step of a solid at rest at `pose`. */
 void solid_step_stand(const SolidDef *solid, const SolidPose *pose, SolidStep *step);
 
-/* Gives both halves of a step the rates of the whole. */
+/* Gives both halves of a step the rates of the whole step. */
 void solid_step_mean(SolidStep *first, SolidStep *second);
 
 void solid_to_box(const SolidPose *pose, const float in_solid[3], float x[3]);
 void solid_from_box(const SolidPose *pose, const float x[3], float in_solid[3]);
-/* Signed distance of x from the surface, m, or `far` and more where it is further away than that. */
+/* Signed distance of x from the surface, m; further away than `far`: a lower bound of at least `far`. */
 float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensions, const float x[3],
                       float far);
 
 void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3]);
 
-/* The acceleration of the solid's matter at x, by the rates of the step. */
+/* Acceleration of the solid's matter at x, m/s2, by the rates of the step. */
 void solid_acceleration_at(const SolidStep *step, const float x[3], float a[3]);
 
-/* A particle's way from one place to another: the block about it, m, in the box's frame. */
+/* Block around a particle's way, m, in the box's frame. */
 typedef struct WayBounds {
     float low[3], high[3];
 } WayBounds;
@@ -60,7 +60,7 @@ static inline WayBounds way_bounds(const float before[3], const float x[3])
     return way;
 }
 
-/* True where solid_guard would find nothing to do, as for nearly all particles beside what stands still. */
+/* True where solid_guard would find nothing to do: for nearly all particles beside a still solid. */
 static inline bool solid_step_beside(const SolidStep *step, int dimensions, const WayBounds *way)
 {
     return step->still && (way->high[0] < step->low[0] || way->low[0] > step->high[0] ||
@@ -68,8 +68,8 @@ static inline bool solid_step_beside(const SolidStep *step, int dimensions, cons
                            (dimensions == 3 && (way->high[2] < step->low[2] || way->low[2] > step->high[2])));
 }
 
-/* Keeps a particle that went from `before` to x out of the solid, on the side from which it came, however
-   thin the solid is there, and takes its velocity into the surface away; true if it had to. */
+/* Keeps a particle on a way from `before` to x out of the solid, on the side of `before`, however thin the
+   solid is there, and removes the velocity into the surface. True if x and v had to change. */
 bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, const float before[3],
                  float x[3], float v[3]);
 

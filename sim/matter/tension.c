@@ -22,7 +22,7 @@ double cohesion_kernel(double r, double h)
     return 2 * r > h ? cube : 2 * cube - h2 * h2 * h2 / 64;
 }
 
-/* The integral of the kernel from r to h: what it takes to part a pair. */
+/* Integral of the kernel from r to h: the work to part a pair. */
 static double work(double r, double h)
 {
     enum { STEPS = 200 };
@@ -56,7 +56,7 @@ double curvature_weight(double x)
     return x * t * t * (3 - 2 * t);
 }
 
-/* Sums over the lattice below layer k, or all of it, with w of (1 - r/h). */
+/* Sums over the lattice below layer k, or over the whole lattice, with w = (1 - r/h)^3. */
 typedef struct LayerSums {
     double normal, along, height, heights; /* sum w z, w t^2, W |z|, W */
 } LayerSums;
@@ -90,18 +90,18 @@ double wetting_curvature(double angle, double spacing, double h)
  */
 #define CROWDED 1.12
 
-/* The offset a second way: by the balance of half a drop, which forces between pairs keep whatever the
-   pressures are. Layers z below the surface of a drop of radius R have the part D of the weights and the
-   curvature (d - 1) / (R - z). With V the ball of one dimension less, and c = sum D z, they pull the halves
-   together by
+/* The offset a second way: by the balance of half a drop, kept by pair forces whatever the pressures are.
+   Layers z below the surface of a drop of radius R have the part D of the weights and the curvature (d - 1) /
+   (R - z). With V the ball of one dimension less, and c = sum D z, the layers pull the halves together by
        sum D sigma (d - 1) V (R - z)^(d-2) = sigma (d - 1) V R^(d-2) (1 - (d - 2) c / R),
-   and pressure parts them by p V (R - L)^(d-1), where L is what the cut lacks at its rim:
+   and pressure parts the halves by p V (R - L)^(d-1), L the width missing at the rim of the cut:
        p = sigma (d - 1) / R (1 + ((d - 1) L - (d - 2) c) / R).
-   Pairs are lacking that had one end outside. With F = -W' / r they carry F x^2 across the cut, so that
+   Missing are pairs with one end outside. With F = -W' / r such pairs carry F x^2 across the cut, so
        e = sum F x^2 |z| / (2 sum F x^2) = sum W |z| / (2 sum W)
-   by parts along x. Where pressure sets in as the force does, L = c + e, and p is too high by the part
+   after integration by parts along x. Where pressure sets in like the force, L = c + e, and p is too high by
+   the part
        (c + (d - 1) e) / R = (d - 1) offset / R,
-   which is what stands below. Were it the same up to the outermost layer, L would be e alone. */
+   as computed below. If pressure were the same up to the outermost layer, L would be e alone. */
 CurvatureScale curvature_calibrate(int dimensions, double spacing, double h)
 {
     const int reach = (int)ceil(h / spacing);

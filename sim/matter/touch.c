@@ -4,18 +4,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Spacings: particles as near touch, a lattice's diagonal does not; a neighbour as near may cover a face. */
+/* Spacings: greatest distance of a touch, less than a lattice's diagonal; and of a neighbour able to cover a
+   face. */
 static const double TOUCH = 1.3, COVER = 1.6;
 
-/* It covers the face that it is this straight behind: the cosine. A lattice's diagonal does not. */
+/* A neighbour covers a face alone if the direction to the neighbour has a greater cosine to the face's
+   normal. A lattice's diagonal has less. */
 static const double STRAIGHT = 0.75;
 
-/* Several that stand less straight behind a face cover it together where they stand around its middle: what
-   they are aside, in the mean, is less than this. At a step of a surface all are on one side. */
+/* Several neighbours with cosines above AROUND cover a face together if they stand around the face's middle:
+   their mean direction across the normal is shorter than ASIDE. At a step of a surface all are on one
+   side. */
 static const double AROUND = 0.5, ASIDE = 0.4;
 
-/* A face is closed by a wall at most so many spacings from the particle: fills keep half a one from walls;
-   and by a solid so near a spacing behind it, where a lattice has no points. */
+/* A wall closes faces of particles within WALL spacings: fills keep half a spacing from walls. A solid closes
+   a face if the point a spacing behind is within SOLID spacings of the solid: there a lattice has no
+   points. */
 static const double WALL = 1, SOLID = 0.75;
 
 /* Particles by cell, of side COVER spacings at least. */
@@ -80,7 +84,7 @@ static bool bins_create(Bins *bins, size_t count, const uint8_t *fluid, const bo
     return true;
 }
 
-/* The cells next to `cell` along an axis, itself among them; returns how many. */
+/* Cells next to `cell` along an axis, including `cell`; returns their number. */
 static int cells_near(const Bins *bins, int k, long cell, long near[3])
 {
     const long size = bins->size[k];
@@ -93,14 +97,14 @@ static int cells_near(const Bins *bins, int k, long cell, long near[3])
     return count;
 }
 
-/* What stands behind the faces of a particle. */
+/* Neighbours behind the faces of a particle. */
 typedef struct Cover {
-    unsigned straight;  /* faces with a neighbour straight behind them */
-    int around[6];      /* how many are less straight behind each */
-    double aside[6][3]; /* the sums of their directions across its normal */
+    unsigned straight;  /* faces with a neighbour straight behind */
+    int around[6];      /* number of neighbours roughly behind each face */
+    double aside[6][3]; /* sums of their directions across the face's normal */
 } Cover;
 
-/* Adds what is at `way`, r m away. */
+/* Add a neighbour at `way`, r m away. */
 static void cover(Cover *to, const float way[3], double r)
 {
     for (int k = 0; k < 3; k++) {
@@ -122,7 +126,7 @@ static bool covers_together(const Cover *from, int bit)
            aside[0] * aside[0] + aside[1] * aside[1] + aside[2] * aside[2] < most * most;
 }
 
-/* Adds those of particle i that are in a cell; NULL only looks which faces they cover. */
+/* Add the touches of particle i in a cell; NULL only adds to `faces` and counts. */
 static size_t touch_cell(const Bins *bins, size_t i, size_t cell, Touch *to, Cover *faces)
 {
     const double spacing = bins->def->spacing;
@@ -179,7 +183,7 @@ static bool wall_closes(const WorldDef *def, int bit, const float x[3])
     return bit % 2 ? low + def->box_size[k] - x[k] < reach : x[k] - low < reach;
 }
 
-/* The way on to a solid's surface from half a spacing towards it. */
+/* The rest of the way to a solid's surface from half a spacing towards the solid. */
 static void gap_at(const Bins *bins, int s, const float x[3], float gap[3])
 {
     const WorldDef *def = bins->def;
@@ -194,7 +198,7 @@ static void gap_at(const Bins *bins, int s, const float x[3], float gap[3])
         gap[a] = (float)(-fmax(left, 0) * normal[a]);
 }
 
-/* Which one; -1: none does. */
+/* The solid behind the face; -1: no solid closes the face. */
 static int solid_closes(const Bins *bins, int bit, const float x[3])
 {
     const WorldDef *def = bins->def;

@@ -29,7 +29,7 @@ double pair_viscosity(double a, double b)
 
 enum { REACH = 4, SITES = (2 * REACH + 1) * (2 * REACH + 1) * (2 * REACH + 1), WAVES = 8 };
 
-/* Half of the neighbours, since a site and its mirror image weigh the same. */
+/* Half of the neighbours: a site and its mirror image weigh the same. */
 typedef struct Sites {
     int count;
     double x[SITES][3]; /* spacings */
@@ -37,7 +37,7 @@ typedef struct Sites {
     bool along; /* friction acts along x alone */
 } Sites;
 
-/* w(r): a pair's force is V_i V_j mu w v_ji, or V_i V_j mu w (v_ji . x) x where it acts along the line. */
+/* w(r): a pair's force is V_i V_j mu w v_ji, or V_i V_j mu w (v_ji . x) x for friction along the line. */
 static double friction_weight(const Lattice *lattice, Friction friction, double r, double h)
 {
     if (friction == FRICTION_LAPLACIAN)
@@ -72,7 +72,7 @@ static double sites_fill(Sites *sites, const Lattice *lattice, double spacing, F
     return summed ? sum * lattice->density_scale / lattice->number_density : 1;
 }
 
-/* The greatest eigenvalue of a symmetric matrix that is not negative. */
+/* Greatest eigenvalue of a symmetric positive semidefinite matrix. */
 static double greatest_eigenvalue(double m[3][3])
 {
     double v[3] = {1, 0.7, 0.4}, length = 0;
@@ -90,8 +90,8 @@ static double greatest_eigenvalue(double m[3][3])
     return length;
 }
 
-/* cos(pi n / WAVES) from constants: the C library's last bit depends on the processor, and a step would too.
- */
+/* cos(pi n / WAVES) from constants: the last bit of the C library's cosine depends on the processor, and so
+   would a step. */
 static double wave_cosine(int n)
 {
     static const double quarter[] = {1, 0.92387953251128674, 0.70710678118654752, 0.38268343236508977, 0};
@@ -99,7 +99,7 @@ static double wave_cosine(int n)
     return half <= WAVES / 2 ? quarter[half] : -quarter[WAVES - half];
 }
 
-/* Of a wave whose phase goes on by so many times pi / WAVES from one site to the next. */
+/* Rate of a wave whose phase advances by `phase` pi / WAVES per site along each axis. */
 static double rate_of_wave(const Sites *sites, const int phase[3])
 {
     double sum = 0, m[3][3] = {{0}};

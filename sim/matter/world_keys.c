@@ -1,4 +1,4 @@
-/* Keys of the box, of gravity, of the resolution, and of how the fluid is computed. */
+/* Keys of the box, of gravity, of the resolution, and of the solver. */
 #include "sim/base/key_rows.h"
 #include "sim/matter/tension.h"
 #include "sim/matter/viscosity.h"
@@ -30,7 +30,7 @@ const Key box_keys[] = {
     KEYS_END,
 };
 
-/* What every method and backend has. */
+/* Keys of every method and backend. */
 const Key solver_keys[] = {
     NUMBER("solver.sound_speed", L, "m/s", 0.001, 1e4, AT(sound_speed),
            "stiffness: 3 to 10 times the greatest speed of the flow; more is stiffer and needs smaller steps"),
