@@ -1,6 +1,6 @@
-/* The pair sums of implicit viscosity: see sim/viscosity/passes.h. `place` has {x, mu}, `motion` {z, V}; of
-   boundary particles -V. Where walls let fluid slip, its images behind them (sim/box/wall_images.h) have a
-   part, with what is asked of them in the mirror: symmetric and positive like pairs. */
+/* Pair sums of implicit viscosity: see sim/viscosity/passes.h. `place` has {x, mu}, `motion` {z, V}, with -V
+   for boundary particles. Where walls let fluid slip, images of fluid behind walls (sim/box/wall_images.h)
+   take part, with z in the mirror: symmetric and positive like pairs. */
 #include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/cpu/pair_shape.h"
@@ -41,7 +41,7 @@ SIMD_INLINE void place_store(float *const *column, size_t i, size_t begin, size_
     lanes_store(column[2], i, begin, end, scale * sum.z);
 }
 
-/* Images of a group that rub; none where walls hold the fluid, whose own friction is all of it. */
+/* Images of a group with friction; none where walls hold the fluid: there the walls' own friction is all. */
 SIMD_INLINE bool rubbing_images(const PairArgs *args, const WallsFar *far, size_t i, size_t begin, size_t end,
                                 Images *images)
 {
@@ -69,7 +69,7 @@ SIMD_INLINE void block_add_mirrored(Block *sum, const Mirrored *image, const Blo
     sum->zx += sign.z * sign.x * part->zx;
 }
 
-/* Explicit friction; all blocks, and those of solids twice. */
+/* Explicit friction; sums of all blocks, and twice the sum of the blocks of solids. */
 typedef struct Begun {
     Place force;
     Block all, held;
@@ -97,8 +97,8 @@ SIMD_INLINE void begin_of(const PairArgs *args, const Place at, const Near near,
     }
 }
 
-/* Explicit friction, of the velocities that the iterations begin with, into the residual, the sum of all
- * blocks into INVERSE. */
+/* Explicit friction at the first velocities of the iterations into RESIDUAL, the sum of all blocks into
+   INVERSE, twice that of solids into HELD. */
 SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, const ShapeKernel kernel,
                              const bool solids)
 {
@@ -108,7 +108,7 @@ SIMD_INLINE void begin_range(const PairArgs *args, size_t begin, size_t end, con
     GROUPS (i, begin, end) {
         const Near near = near_of(args, i);
         const Themselves own = themselves(args, i);
-        const f8 mi = f8_load(args->term[MISS] + i); /* its viscosity, until the pass ends */
+        const f8 mi = f8_load(args->term[MISS] + i); /* viscosity of i, until the pass ends */
         const f8x4 vi = motion(args, own.j);
         Begun sum = nothing_begun();
         begin_of(args, place_of(args, i), near, mi, vi, kernel, solids, &sum);

@@ -6,7 +6,7 @@
 PAIR_LOOPS(viscosity_sums);
 PAIR_LOOPS(viscosity_products);
 
-/* m in a step of no time: nothing changes. */
+/* Inertia over m, 1/s, in a step of no time: nothing changes. */
 #define ENDLESS 1e18F
 
 static float inertia_of(const CpuRange *range, size_t i)
@@ -17,7 +17,7 @@ static float inertia_of(const CpuRange *range, size_t i)
 
 /* --- begin --- */
 
-/* What the velocity changes by where friction is that of the step before. */
+/* Change of velocity with the friction of the step before. */
 static void change_before(const CpuRange *range, size_t i, float d[3])
 {
     const CpuParticles *p = &range->cpu->now;
@@ -27,7 +27,7 @@ static void change_before(const CpuRange *range, size_t i, float d[3])
     d[2] = dt * (p->az[i] + g[2] + p->own[BEFORE + 2][i]);
 }
 
-/* Velocities with that change; those of solids stay. */
+/* Velocities after that change; velocities of solids stay. */
 static void pack_begin(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
@@ -46,7 +46,7 @@ static void pack_begin(const CpuRange *range)
     }
 }
 
-/* Walls of the box that hold the fluid: K, and their force on it. */
+/* Walls of the box without slip: returns K, kg/s, and adds the walls' force on particle i. */
 static float held_by_walls(const CpuRange *range, size_t i, float mu, const float v[3], float force[3])
 {
     const Constants *s = range->cpu->constants;
@@ -61,8 +61,8 @@ static float held_by_walls(const CpuRange *range, size_t i, float mu, const floa
     return scale * drag;
 }
 
-/* m <- the inverse of the symmetric m, whose eigenvalues are above 0; in double precision, since some may be
-   a millionth of others. */
+/* m <- the inverse of the symmetric positive m; in double precision, since some eigenvalues may be a
+   millionth of others. */
 static void invert(float *const m[6], size_t i)
 {
     const double xx = m[0][i], yy = m[1][i], zz = m[2][i], xy = m[3][i], yz = m[4][i], zx = m[5][i];
@@ -87,7 +87,7 @@ static float length(const float v[3])
     return sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* The residual of d as it begins; z, the first direction, into PRODUCT. */
+/* The first residual, at the first d; z, the first direction, into PRODUCT. */
 static void begin_one(const CpuRange *range, size_t i)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -108,7 +108,7 @@ static void begin_one(const CpuRange *range, size_t i)
         t[CHANGE + k][i] = d[k];
         t[DIRECTION + k][i] = t[ALONG + k][i] = 0;
         t[INVERSE + k][i] += t[INERTIA][i] + (t[HELD] ? 0.5F * t[HELD + k][i] : 0);
-        t[INVERSE + 3 + k][i] += t[HELD] ? 0.5F * t[HELD + 3 + k][i] : 0; /* the sum has them once */
+        t[INVERSE + 3 + k][i] += t[HELD] ? 0.5F * t[HELD + 3 + k][i] : 0; /* the sum has half of HELD */
     }
     invert(t + INVERSE, i);
     times(t + INVERSE, i, force, z);
@@ -125,7 +125,7 @@ static void begin_body(const CpuRange *range)
         begin_one(range, i);
 }
 
-/* For products: boundary particles, whose change is 0, are in B. */
+/* For products: boundary particles have change 0 and no volume here; their part is in B. */
 static void motion_body(const CpuRange *range)
 {
     Cpu *cpu = range->cpu;
@@ -190,7 +190,7 @@ static void product_body(const CpuRange *range)
     }
 }
 
-/* Of a neighbour {x, mu} and {z, V}. */
+/* Per neighbour {x, mu} and {z, V}. */
 static PairCost product_pair(const Constants *constants)
 {
     (void)constants;

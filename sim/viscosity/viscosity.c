@@ -26,7 +26,7 @@ static bool by_quintic(const Constants *constants)
 static const ShaderTerm shader_terms[] = {
     {"FRICTION_WENDLAND_C2", by_wendland}, {"FRICTION_QUINTIC", by_quintic}, {0}};
 
-/* Of vec4: z, mu. */
+/* Elements are vec4: z, mu. */
 static const ShaderBuffer trials = {"Trials", 16, needed};
 
 static const ColumnDef *column_at(int k)
@@ -46,7 +46,7 @@ static void solve(const Substep *step)
                                  .power = column_at(POWER),
                                  .curvature = column_at(CURVATURE),
                                  .tolerance = own->tolerance,
-                                 .few = 1, /* where a particle has more left than 0 */
+                                 .few = 1, /* at least one iteration if any residual is above 0 */
                                  .most = own->most,
                                  .begun = true};
     substep_run(step, &viscosity_begin, step->dt);
