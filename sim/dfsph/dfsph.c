@@ -21,8 +21,8 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-/* Of Jacobi's step as the lattice has it: with momentum 0.6 that holds for eigenvalues greater than the
-   lattice's by three fifths. */
+/* Factor on Jacobi's step of the lattice: with momentum 0.6 stable for eigenvalues up to three fifths above
+   the lattice's. */
 static const float REACH = 1.1F;
 
 static void dfsph_set(Constants *constants, const WorldDef *def)
@@ -45,16 +45,18 @@ static void dfsph_set(Constants *constants, const WorldDef *def)
 
 enum { SOLVE_DENSITY, SOLVE_DIVERGENCE };
 
-/* The mean hides what few have: the row on a floor, or what an impact pressed, stays 4 % too near for many
-   steps. Two iterations take most of that away; more would be for single particles in corners. */
+/* A particle worse than WORST and WORTH needs at least FEW iterations. The mean hides a few bad particles:
+   the row on a floor, or fluid pressed by an impact, stays 4 % too near for many steps. Two iterations remove
+   most of the error; more would serve only single particles in corners. */
 enum { FEW = 2 };
-static const double WORST = 10;                                                     /* tolerances, */
-static const double WORTH[] = {[SOLVE_DENSITY] = 0.01, [SOLVE_DIVERGENCE] = 0.005}; /* and no less */
+static const double WORST = 10;                                                     /* in tolerances, */
+static const double WORTH[] = {[SOLVE_DENSITY] = 0.01, [SOLVE_DIVERGENCE] = 0.005}; /* and at least */
 
-/* Of what calm fluid may leave (sim/incompressible/calm.h): fluid at rest needs fewer iterations by it. */
+/* Factor of the residual for calm fluid (sim/incompressible/calm.h): with it fluid at rest needs fewer
+   iterations. */
 static const double CALM = 0.2;
 
-/* To `tolerance`; more than what is `allowed` is trouble. */
+/* Solve to `tolerance`; a mean above STEP_SOLVE_STANDS times `allowed` is trouble. */
 static void solve(const Substep *step, int which, const Pass *const passes[4], double tolerance,
                   double allowed)
 {
@@ -66,7 +68,7 @@ static void solve(const Substep *step, int which, const Pass *const passes[4], d
                                  .most = dfsph_solvers(step->constants)->most,
                                  .begun = true};
     substep_run(step, passes[0], step->dt);
-    if (which == SOLVE_DIVERGENCE) /* it begins with multipliers */
+    if (which == SOLVE_DIVERGENCE) /* the solver begins with multipliers */
         substep_run(step, passes[1], step->dt);
     substep_run(step, passes[2], step->dt);
     substep_iterate(step, &iteration, which, step->dt);
@@ -75,9 +77,9 @@ static void solve(const Substep *step, int which, const Pass *const passes[4], d
     substep_run(step, passes[3], step->dt);
 }
 
-/* Thick fluid rests on its pressure, so friction at the end of a step has to know one: that of the step
-   before, which the solver of divergence then corrects. Without it fluid would flow as if nothing held it, a
-   step long, each step anew. */
+/* Thick fluid rests on pressure, so friction at the end of a step needs a pressure: that of the step before,
+   corrected afterwards by the solver of divergence. Without pressure fluid would flow as if unsupported for
+   the length of a step, in each step. */
 static void end_terms(const Substep *step)
 {
     if (!step->constants->implicit.on)
@@ -92,8 +94,8 @@ static void end_terms(const Substep *step)
         substep_run(step, &dfsph_unpressed, step->dt);
 }
 
-/* Pressure: velocities that, after gravity and all other accelerations, press nothing that is at rest
- * density. */
+/* Pressure: after gravity and all other accelerations, velocities must not compress particles at rest
+   density. */
 static void end_divergence(const Substep *step)
 {
     static const Pass *const passes[] = {&dfsph_divergence_begin, &dfsph_divergence_push,
@@ -102,8 +104,8 @@ static void end_divergence(const Substep *step)
     solve(step, SOLVE_DIVERGENCE, passes, incompressible_calm(step, step->dt, CALM, allowed), allowed);
 }
 
-/* Moves places to rest density. Velocities have no part in it: given to them, as the papers do, each step's
-   correction flies on into the next one, and fluid at rest boils. */
+/* Moves positions to rest density, without a change of velocities. If velocities changed too, as in the
+   papers, each step's correction would go on in the next step, and fluid at rest would boil. */
 static void hold_density(const Substep *step)
 {
     static const Pass *const passes[] = {&dfsph_density_begin, &dfsph_density_push, &dfsph_density_rate,
@@ -112,8 +114,8 @@ static void hold_density(const Substep *step)
     solve(step, SOLVE_DENSITY, passes, allowed, allowed);
 }
 
-/* Both solvers work between the halves of the drift, with one grid and one set of lists; from there to the
-   middle of the next step particles fly by the velocities that they leave. */
+/* Both solvers work between the halves of the drift, with one grid and one set of lists. From there to the
+   middle of the next step particles move with the solvers' velocities. */
 static void dfsph_substep(const Substep *step)
 {
     const Backend *b = step->backend;
@@ -163,7 +165,7 @@ static bool always(const Constants *constants)
     return true;
 }
 
-/* Of vec4: push.glsl. */
+/* Elements are vec4: push.glsl. */
 static const ShaderBuffer buffers[] = {{"Pushes", 16, always}, {"Moves", 16, always}, {0}};
 
 const Method method_dfsph = {

@@ -6,8 +6,8 @@
 #include "sim/world/method.h"
 
 typedef struct IN_A_ROOM DfsphDef {
-    double tolerance;            /* mean compression that the solver of density leaves, a fraction */
-    double divergence_tolerance; /* mean compression that a step's velocities may make, a fraction */
+    double tolerance;            /* mean compression left by the solver of density, a fraction */
+    double divergence_tolerance; /* mean compression allowed in a step by velocities, a fraction */
     int iterations;              /* of each solver, at most */
 } DfsphDef;
 

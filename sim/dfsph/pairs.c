@@ -3,13 +3,13 @@
 #include "sim/cpu/image_lists.h"
 #include "sim/dfsph/passes.h"
 
-/* Of the number density, where `place` has 1 / m. */
+/* Sums of the number density; `place` has 1 / m. */
 PAIR_LOOP(dfsph_factor)
 {
     density_sums(args, begin, end, dfsph_constants(args->constants)->gradient, args->own[SQUARES]);
 }
 
-/* sum (k_i + k_j) F x_ij, where `place` has k. */
+/* sum (k_i + k_j) F x_ij; `place` has k. */
 PAIR_LOOP(dfsph_push)
 {
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient), zero = f8_splat(0);
@@ -55,7 +55,7 @@ SIMD_INLINE f8 rate_of(const PairArgs *args, size_t i, const Near near, f8x4 vi)
     return sum;
 }
 
-/* -sum F v_ij . x_ij, with the velocities that `motion` has; of images the particles' own among them. */
+/* -sum F v_ij . x_ij, with velocities from `motion`; images include those of the particles themselves. */
 PAIR_LOOP(dfsph_rate)
 {
     const f8 gradient = f8_splat(dfsph_constants(args->constants)->gradient);

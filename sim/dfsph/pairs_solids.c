@@ -1,11 +1,12 @@
-/* What boundary particles of solids are to dfsph where they have multipliers: see sim/dfsph/passes.h. Both
-   sums are of places and of velocities that a solver does not change: once a step. */
+/* Sums over boundary particles of solids for dfsph, with multipliers: see sim/dfsph/passes.h. The solvers
+   change neither the positions nor the velocities in the sums: once a step is enough. */
 #include "sim/cpu/pair_images.h"
 #include "sim/cpu/pair_loop.h"
 #include "sim/cpu/pair_shape.h"
 #include "sim/dfsph/passes.h"
 
-/* Sums over boundary particles of F x, of F x x^T, and of F v . x with their velocity. */
+/* Sums over boundary particles of F x, of F x x^T, and of F v . x with the velocity v of a boundary
+   particle. */
 typedef struct Solid {
     f8 x, y, z, xx, yy, zz, xy, yz, zx, flow;
 } Solid;

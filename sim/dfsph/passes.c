@@ -34,8 +34,8 @@ static void terms_body(const CpuRange *range)
     }
 }
 
-/* 1 / D, of what the sums have left in n, acceleration and squares. Where places are crowded many k make each
-   rate, and Jacobi's step is shorter. */
+/* 1 / D, from the sums in n, acceleration and squares. Where particles are crowded, many k affect each rate,
+   and Jacobi's step is shorter. */
 static void finish_factor(const Cpu *cpu, size_t i)
 {
     const CpuParticles *p = &cpu->now;
@@ -51,7 +51,7 @@ static void finish_factor(const Cpu *cpu, size_t i)
     p->ax[i] = p->ay[i] = p->az[i] = 0;
 }
 
-/* {x, 1 / m}, and velocities, which only those of solids are asked for. */
+/* {x, 1 / m}, and velocities, used only for solids. */
 static void pack_masses(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -201,7 +201,7 @@ static void divergence_end(const CpuRange *range)
     }
 }
 
-/* What the box does to a particle until the middle of the next step, and the kick's gravity, m/s2. */
+/* Effect of the box on a particle until the middle of the next step, and the kick's gravity, m/s2. */
 static void felt_at(const PassInput *input, bool before_kick, const float x[3], float g[3])
 {
     apparent_gravity_at(input->apparent, x, g);
@@ -215,19 +215,19 @@ static bool turning(const ApparentGravity *apparent)
     return a[0] != 0 || a[1] != 0 || a[2] != 0 || w[0] != 0 || w[1] != 0 || w[2] != 0;
 }
 
-/* The velocities with which the particles would come to the middle of the next step without the solver at
-   work: before the kick by accelerations but those of pressure, and by half of what the box does to them
-   meanwhile, in the halves of the drift. */
+/* Velocities of the particles on the way to the middle of the next step, without the solver: changed before
+   the kick by all accelerations except pressure, and by half of the box's effect in the halves of the
+   drift. */
 static void begin_motion(const CpuRange *range, bool before_kick)
 {
     const CpuParticles p =
-        range->cpu->now; /* pointers at hand: what is written may be anything to the compiler */
+        range->cpu->now; /* a copy: for the compiler a write may change any pointer in memory */
     const PassInput *input = range->input;
     const bool turns = turning(input->apparent);
     float *const *base = p.own + BASE, *const *more = before_kick ? p.own + OTHER : NULL, g[3];
-    felt_at(input, before_kick, (float[]){0, 0, 0}, g); /* all places' where the box does not turn */
+    felt_at(input, before_kick, (float[]){0, 0, 0}, g); /* the same everywhere if the box does not turn */
     for (size_t i = range->begin; i < range->end; i++) {
-        const bool solid = p.fluid[i] >= FLUIDS_MAX; /* has its own */
+        const bool solid = p.fluid[i] >= FLUIDS_MAX; /* keeps its velocity */
         const float v[3] = {p.vx[i], p.vy[i], p.vz[i]}, t = solid ? 0 : input->dt;
         if (turns)
             felt_at(input, before_kick, (float[]){p.x[i], p.y[i], p.z[i]}, g);
@@ -237,8 +237,8 @@ static void begin_motion(const CpuRange *range, bool before_kick)
     }
 }
 
-/* From no move on: a part of the last step's would be given to fluid at rest again and again, and lifts it.
-   The accelerations stand in OTHER meanwhile. */
+/* Start from no move: a part of the last step's move would act on fluid at rest again and again, and lift it.
+   OTHER keeps the accelerations meanwhile. */
 static void density_begin(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -262,7 +262,7 @@ static void density_motion(const CpuRange *range)
     begin_motion(range, false);
 }
 
-/* A step's move is a part of a spacing: no guard of solids looks at it. */
+/* A step's move is a part of a spacing: without the guard of solids. */
 static inline void density_end_run(const CpuRange *range, const bool wide)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -290,7 +290,8 @@ static void density_end(const CpuRange *range)
 
 /* --- solvers: an iteration --- */
 
-/* k by Jacobi's step and a part of its step before, then {x, k}. Of what begins to change a part goes on. */
+/* k by Jacobi's step plus a part of the last change, then {x, k}. The first change of a k counts by the
+   factor `begins`. */
 static void pack_place(const CpuRange *range, float went_on, float begins)
 {
     const Constants *s = range->cpu->constants;
@@ -308,7 +309,7 @@ static void pack_place(const CpuRange *range, float went_on, float begins)
             p->pressure_term[i] = k > 0 || pulls ? k : 0;
             p->own[CHANGE][i] = (p->own[CHANGE][i] == 0 ? begins : 1) * (p->pressure_term[i] - before);
         }
-        const float k = of_fluid(range->cpu, i) ? p->pressure_term[i] : 0; /* those of solids have none */
+        const float k = of_fluid(range->cpu, i) ? p->pressure_term[i] : 0; /* particles of solids have none */
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], k}, 16);
     }
 }
@@ -352,13 +353,13 @@ static void density_push(const CpuRange *range)
     go_on(range);
 }
 
-/* SOLID_SHARE that counts. */
+/* SOLID_SHARE, at most SHARE_MOST. */
 static float share_of(const CpuParticles *p, size_t i)
 {
     return fminf(p->own[SOLID_SHARE][i], SHARE_MOST);
 }
 
-/* What is left of a vector of particle i along its solid. */
+/* Remove the part of a vector of particle i across its solid; the part along the solid stays. */
 static void along_solid(const CpuParticles *p, size_t i, float v[3])
 {
     const float s[3] = {p->own[SOLID_SLOPE][i], p->own[SOLID_SLOPE + 1][i], p->own[SOLID_SLOPE + 2][i]};
@@ -368,7 +369,7 @@ static void along_solid(const CpuParticles *p, size_t i, float v[3])
         v[k] -= across * s[k];
 }
 
-/* What boundary particles push with for themselves, and along the solid. */
+/* Add the push by the boundary particles' own k, and the part along the solid. */
 static void push_solids(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -395,7 +396,7 @@ static void divergence_push(const CpuRange *range)
     go_on(range);
 }
 
-/* And how they come nearer, mirrored. */
+/* Add the second half of the rate by boundary particles, whose velocities are mirrored. */
 static void rate_solids(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -406,8 +407,9 @@ static void rate_solids(const CpuRange *range)
     }
 }
 
-/* n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it: it is
-   free to come together. Where pressure pulls no velocity may close a gap in one step: places do. */
+/* n / n0 - 1 after the step. For divergence an excess of density at the begin counts as 0, and a lack counts:
+   such a particle is free to come together. Where pressure pulls, a lack counts as 0 too: no velocity may
+   close a gap in one step; positions do. */
 static void rate(const CpuRange *range, bool of_density)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -418,7 +420,8 @@ static void rate(const CpuRange *range, bool of_density)
     if (p->own[SOLID_SLOPE] && !of_density)
         rate_solids(range);
     const float *volume = p->volume, *k = p->pressure_term, change = dt / n0;
-    const float above = of_density, below = of_density || !pulls, free = pulls; /* what counts of them */
+    const float above = of_density, below = of_density || !pulls,
+                free = pulls; /* factors: excess, lack, no k */
     float *miss = p->own[MISS];
 #pragma omp simd
     for (size_t i = range->begin; i < range->end; i++) {
@@ -445,7 +448,7 @@ static const CpuPass begins[] = {
     {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
     {.loops = {{density_begin}, {density_motion, .solids = true}}},
 };
-/* k for whom b pushes, and for itself; along the solid b's part of what push_solids has added. */
+/* k for the pushed particle, k for b itself; along the solid b's part of the push added by push_solids. */
 static void push_solid(const SolidPair *pair, float force[3])
 {
     const CpuParticles *p = &pair->cpu->now;
@@ -471,7 +474,7 @@ static void push_solid(const SolidPair *pair, float force[3])
 static const CpuPass ends[] = {{.loops = {{divergence_end}}, .solid = push_solid},
                                {.loops = {{density_end}}}};
 
-/* Of a neighbour {x, k}; of a rate {v, V} too. */
+/* Per neighbour {x, k}; for a rate {v, V} too. */
 static PairCost push_pair(const Constants *constants)
 {
     (void)constants;

@@ -1,15 +1,16 @@
-/* The passes of dfsph, its columns and constants.
+/* The passes of dfsph, with columns and constants.
 
-   All particles of all fluids have the volume V0 = 1 / n0 at rest, so what is held is the number density n,
-   that of images in the walls and of boundary particles counted. With grad W_ij = -F x_ij, x_ij = x_i - x_j:
-     force_i = sum (k_i + k_j) F x_ij                 k: a multiplier each, p V0^2
-     dn_i / dt = -sum F v_ij . x_ij                   its adjoint: pressure does no work where n stays
-     D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   what k_i makes of its own rate
-   Masses are in D alone: ratios of density are no matter of the sums.
-   A boundary particle has k_i for whom it pushes, and the velocity of its solid, mirrored: 2 v_b - v_i. So it
-   counts twice in force, rate and D; what moves places goes by n as it is, where it counts once.
-   With k_i on both sides no boundary particle pushes i along its solid, and i has only what fluid has of the
-   gradient of pressure there; so that part of its acceleration is taken 1 / (1 - s) times, where s is
+   All particles of all fluids have the volume V0 = 1 / n0 at rest, so the solvers hold the number density n,
+   including images in the walls and boundary particles. With grad W_ij = -F x_ij, x_ij = x_i - x_j:
+     force_i = sum (k_i + k_j) F x_ij                 k: a multiplier per particle, p V0^2
+     dn_i / dt = -sum F v_ij . x_ij                   the adjoint: pressure does no work where n stays
+     D_i = |sum F x_ij|^2 / m_i + sum F^2 r^2 / m_j   effect of k_i on the rate of n_i
+   Masses are in D alone: ratios of density do not matter in the sums.
+   For particle i a boundary particle has k_i, and the velocity of the solid, mirrored: 2 v_b - v_i. So
+   boundary particles count twice in force, rate and D. The solver of density uses n itself, where they count
+   once.
+   With k_i on both sides no boundary particle pushes i along the solid, and i gets only the fluid's part of
+   the gradient of pressure there. So that part of the acceleration is multiplied by 1 / (1 - s), s =
    SOLID_SHARE. */
 #ifndef SLOSH_DFSPH_PASSES_H
 #define SLOSH_DFSPH_PASSES_H
@@ -20,27 +21,27 @@
 
 #define DFSPH_KERNEL INCOMPRESSIBLE_KERNEL
 
-/* Where its columns stand among a particle's own; k of the solver at work is `pressure_term`. */
+/* Indices of dfsph's columns among a particle's own; k of the running solver is `pressure_term`. */
 enum {
-    KEPT,         /* k that the last step's divergence left, Pa: where the next begins */
-    FACTOR,       /* 1 / D, kg/m; 0 where a particle sees none */
-    SQUARES,      /* sum F^2 r^2 / m_j, m/kg */
-    INVERSE_MASS, /* m3/kg; 0 of the particles of solids */
-    RESIDUAL,     /* n / n0 - 1 that the step would end with */
-    MISS,         /* how far that is from where it is to be: of what k holds, on either side; else above 0 */
-    CHANGE,       /* of k in the iteration before, Pa */
-    OTHER,        /* accelerations but those of the solver at work, m/s2: 3 */
+    KEPT,                         /* k after the last step's solver of divergence, Pa: start of the next */
+    FACTOR,                       /* 1 / D, kg/m; 0 without neighbours */
+    SQUARES,                      /* sum F^2 r^2 / m_j, m/kg */
+    INVERSE_MASS,                 /* m3/kg; 0 for particles of solids */
+    RESIDUAL,                     /* n / n0 - 1 at the end of the step, as predicted */
+    MISS,                         /* error of RESIDUAL: on either side where k holds; else only above 0 */
+    CHANGE,                       /* of k in the iteration before, Pa */
+    OTHER,                        /* accelerations except the running solver's, m/s2: 3 */
     SOLID_SLOPE = OTHER + 3,      /* sum F x_ib over boundary particles b, 1/m: 3 */
-    SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over them, 1/s */
-    SOLID_SHARE,                  /* their part of sum F y^2 along the solid, of a whole lattice's */
-    BASE, /* velocities in the middle of the next step by all but the solver at work, m/s: 3 */
+    SOLID_FLOW = SOLID_SLOPE + 3, /* sum F v_b . x_ib over boundary particles, 1/s */
+    SOLID_SHARE,                  /* boundary particles' part of sum F y^2 along the solid, over a whole
+                                     lattice's */
+    BASE, /* velocities in the middle of the next step without the running solver, m/s: 3 */
 };
 
 extern const ColumnDef dfsph_columns[];
 extern const ColumnDef *const dfsph_miss;
 
-/* What a def means in numbers for dfsph alone: of the pair sums, which shaders have too, and of the solvers.
- */
+/* Constants of a def for dfsph alone: of the pair sums, shared with shaders, and of the solvers. */
 typedef struct DfsphConstants {
     DfsphBlock sums;
     int most; /* iterations */
@@ -57,21 +58,21 @@ static inline const DfsphBlock *dfsph_constants(const Constants *constants)
     return &dfsph_solvers(constants)->sums;
 }
 
-/* What follows from places alone: n, volume, D; what pair sums need of each. */
+/* From positions alone: n, volume, D, and values per particle for pair sums. */
 extern const Pass dfsph_state;
 
-/* Accelerations but those of pressure. */
+/* Accelerations except pressure. */
 extern const Pass dfsph_others;
 
-/* Around terms that the step ends with (sim/world/method.h): to accelerations by the last step's pressure
-   those but pressure are added; what the terms have made of all, less that pressure, is what is not pressure.
- */
+/* Around terms at the end of a step (sim/world/method.h). dfsph_pressed adds all other accelerations to those
+   by the last step's pressure. After the terms dfsph_unpressed subtracts that pressure: the rest is all but
+   pressure. */
 extern const Pass dfsph_pressed, dfsph_unpressed;
 
-/* k and residual that a solver begins with; what it keeps of them. */
+/* First k and residual of a solver; at the end, the values to keep. */
 extern const Pass dfsph_divergence_begin, dfsph_density_begin, dfsph_divergence_end, dfsph_density_end;
 
-/* An iteration: k by the residual before, accelerations by k; the residual by accelerations. */
+/* An iteration: k by the residual before, accelerations by k; then the residual by accelerations. */
 extern const Pass dfsph_divergence_push, dfsph_divergence_rate, dfsph_density_push, dfsph_density_rate;
 
 #endif
