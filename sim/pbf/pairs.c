@@ -2,13 +2,13 @@
 #include "sim/incompressible/pairs.h"
 #include "sim/pbf/passes.h"
 
-/* Of the number density, where `place` has 1 / m. */
+/* Sums of the number density; `place` has 1 / m. */
 PAIR_LOOP(pbf_sums)
 {
     density_sums(args, begin, end, pbf_constants(args->constants)->gradient, args->own[SQUARES]);
 }
 
-/* sum (dk_i + dk_j) F x_ij, where `place` has dk. */
+/* sum (dk_i + dk_j) F x_ij; `place` has dk. */
 PAIR_LOOP(pbf_push)
 {
     push_sums(args, begin, end, pbf_constants(args->constants)->gradient);

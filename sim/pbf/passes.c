@@ -16,8 +16,9 @@ static bool of_fluid(const Cpu *cpu, size_t i)
 
 /* --- prediction --- */
 
-/* In the middle of the flight, in its axes. The velocity of a step is its way over dt, so that what rests has
-   none: places fall by g dt^2, not half of it. A shift alone would turn with the box: hence omega. */
+/* In the middle of the flight, in the axes of that moment. The velocity of a step is the way over dt, so that
+   fluid at rest has velocity 0: positions fall by g dt^2, not half of it. A shift alone would turn with the
+   box: hence omega. */
 static inline void predict_run(const CpuRange *range, const bool wide)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -57,7 +58,7 @@ const Pass pbf_predict = {
 
 /* --- begin --- */
 
-/* What is not sorted: of the lists to come. */
+/* Columns without sorting, filled for the lists to come. */
 static void fill(Cpu *cpu, size_t i)
 {
     const CpuParticles *p = &cpu->now;
@@ -92,7 +93,7 @@ static void again_body(const CpuRange *range)
     }
 }
 
-/* Lists are made in the first walk behind a grid, and while they are made nothing may move. */
+/* The first walk after a grid makes the lists; meanwhile particles must not move. */
 static void list_body(const CpuRange *range)
 {
     (void)range;
@@ -130,7 +131,7 @@ const Pass pbf_again = {
 
 /* --- an iteration: places --- */
 
-/* k by Jacobi's step and a part of its step before. */
+/* k by Jacobi's step plus a part of the last change. */
 static float grown(const CpuParticles *p, size_t i, float scale, float least)
 {
     const float before = p->own[TERM][i];
@@ -159,7 +160,7 @@ static void pack_growth(const CpuRange *range)
     }
 }
 
-/* No further than WAY_LONGEST; nowhere what is no number. */
+/* Shorten a way to `most`, m; a way that is not a number becomes 0. */
 static void shorten(float way[3], float most)
 {
     const float length2 = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
@@ -170,7 +171,7 @@ static void shorten(float way[3], float most)
         way[k] = scale > 0 ? scale * way[k] : 0;
 }
 
-/* What holds a particle on its way: the walls; solids where they stand at the step's end. */
+/* Obstacles on a particle's way: the walls, and solids as placed at the step's end. */
 typedef struct Hold {
     const Cpu *cpu;
     WallsFar inside, box;
@@ -189,8 +190,8 @@ static void hold_make(const Cpu *cpu, Hold *hold)
         solid_step_stand(&s->solids[k], &cpu->solid[k].end, &hold->standing[k]);
 }
 
-/* True where it had to. From a solid's surface no further than into the box: a wall would push it into the
- * solid. */
+/* Move x out of walls and solids; true if x changed. A particle at a solid's surface is moved no further than
+   into the box: the distance from a wall would push the particle into the solid. */
 static bool held(const Hold *hold, const float from[3], float x[3])
 {
     float v[3] = {0};
@@ -202,7 +203,7 @@ static bool held(const Hold *hold, const float from[3], float x[3])
     return by_solid || by_wall;
 }
 
-/* Where what the pairs add up to, kg m, takes particle i. */
+/* Move particle i by the sum over pairs, kg m. */
 static inline __attribute__((always_inline)) void move_one(const Hold *hold, size_t i, const bool wide)
 {
     const CpuParticles *p = &hold->cpu->now;
@@ -243,7 +244,7 @@ static void move_body(const CpuRange *range)
             move_one(&hold, i, false);
 }
 
-/* Of a neighbour {x, k}; 1/m of it besides. */
+/* Per neighbour {x, k}; for sums 1 / m too. */
 static PairCost push_pair(const Constants *constants)
 {
     (void)constants;
@@ -277,7 +278,7 @@ static void pack_place(const CpuRange *range)
         memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
 }
 
-/* `later`: the part of what the step began with that it is to leave; of gaps too where pressure pulls. */
+/* `later`: the part of the step's first compression left to later steps; of gaps too where pressure pulls. */
 static void finish_density(const Cpu *cpu, size_t i, float later)
 {
     const CpuParticles *p = &cpu->now;
@@ -294,15 +295,15 @@ static void finish_density(const Cpu *cpu, size_t i, float later)
     p->volume[i] = 1 / p->volume[i];
 }
 
-/* k n^2: sum (k_i + k_j) F x_ij is -grad (k n^2) / n, of n as a step leaves it. */
+/* k n^2: sum (k_i + k_j) F x_ij is -grad (k n^2) / n, with n at the end of a step. */
 static float pressure_of(const Constants *constants, const CpuParticles *p, size_t i)
 {
     const float ratio = 1 + p->own[COMPRESSED][i];
     return pbf_constants(constants)->pressure_of_term * ratio * ratio * p->own[TERM][i];
 }
 
-/* A new particle was as dense as a step finds it first. What goes on into the next step changes in steps
-   alone: passes run without one (dt = 0) to be timed. */
+/* A new particle starts with the first density found by a step. Values for the next step change only in real
+   steps: passes also run with dt = 0, to be timed. */
 static void density_body(const CpuRange *range)
 {
     const Cpu *cpu = range->cpu;
@@ -370,7 +371,7 @@ static void pack_motion(const CpuRange *range)
                16);
 }
 
-/* No more friction than the step stands. */
+/* The part of friction within the stable limit of the step, at most 1. */
 static float part_of(const Constants *constants, float dt)
 {
     const float stands = pbf_constants(constants)->viscous_dt;
@@ -391,7 +392,8 @@ static void rub(const CpuRange *range)
     }
 }
 
-/* The kick gives velocities all that a step adds, gravity among it, which the flight has had already. */
+/* The kick adds all of a step's change to velocities, gravity included; so gravity of the flight is taken out
+   first. */
 static void force_body(const CpuRange *range)
 {
     const CpuParticles *p = &range->cpu->now;
@@ -410,7 +412,7 @@ static void force_body(const CpuRange *range)
     }
 }
 
-/* By the multipliers of the whole step, at the places where it ends. */
+/* By the multipliers of the whole step, at the positions at the step's end. */
 static void solid_force(const SolidPair *pair, float force[3])
 {
     const CpuParticles *p = &pair->cpu->now;

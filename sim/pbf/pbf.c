@@ -20,7 +20,8 @@ static const Key keys[] = {
 };
 /* clang-format on */
 
-/* What pulls the fluid, m/s2: gravity, or surface tension across the box's height where that is more. */
+/* Acceleration that drives the fluid, m/s2: gravity, or surface tension across the box's height if
+   greater. */
 static double pull_of(const WorldDef *def)
 {
     const double *g = def->gravity, height = def->box_size[1];
@@ -30,9 +31,9 @@ static double pull_of(const WorldDef *def)
     return pull;
 }
 
-/* 1 over the time to settle. It goes with that of a fall through the box, and is 1/60 s where that is 1 m
-   high. Where nothing pulls it goes with the time that sound, which has no other part in this method, takes
-   to cross a spacing, 1/60 s for 10 cm and 20 m/s. */
+/* 1 over the time to settle. The time to settle is proportional to the time of a fall through the box, and is
+   1/60 s for a height of 1 m. Without a driving acceleration the time to settle is proportional to the time
+   of sound across a spacing, 1/60 s for 10 cm and 20 m/s; sound has no other part in pbf. */
 static double settle_rate(const WorldDef *def)
 {
     static const double FALLS = 60 * 60 / 9.81, SOUNDS = 60 * 0.1 / 20;
@@ -63,14 +64,13 @@ static void pbf_set(Constants *constants, const WorldDef *def)
     memcpy(constants->of_method, &own, sizeof own);
 }
 
-/* Where particles have gone more than so many spacings, in the mean, since the lists were made, these do not
-   know all neighbours any more. */
+/* Mean way of particles since the lists were made, in spacings; with a longer way lists miss neighbours. */
 static const double WAY_MOST = 0.2;
 
 /* How often lists are made in a step, at most. */
 enum { LISTS_MOST = 4 };
 
-/* By the multipliers of the step before. */
+/* Move by the multipliers of the step before. */
 static void begin(const Substep *step)
 {
     substep_run(step, &pbf_begin, step->dt);
@@ -78,7 +78,7 @@ static void begin(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* Lists of where the particles are now. */
+/* Make lists at the particles' present positions. */
 static void renew_lists(const Substep *step)
 {
     step->backend->grid(step->state);
@@ -86,8 +86,8 @@ static void renew_lists(const Substep *step)
     substep_run(step, &pbf_density, step->dt);
 }
 
-/* Goes on where lists were of no use any more, whatever was left by the old ones; says how often the
-   iterations ran, and what is compressed behind them. */
+/* Iterate, with new lists where the old lists became useless, whatever their residual. Returns the number of
+   iterations; *left is the final compression. */
 static int iterate(const Substep *step, double tolerance, Excess *left)
 {
     const int most = pbf_solver(step->constants)->most;
@@ -107,13 +107,13 @@ static int iterate(const Substep *step, double tolerance, Excess *left)
     }
 }
 
-/* Of what calm fluid may leave (sim/incompressible/calm.h), in a step of the time to settle or longer. A
-   column of 15 layers has its tolerance in the mean though only its lowest row was moved; the next steps take
-   turns then, with more and with fewer iterations. */
+/* Factor of the residual for calm fluid (sim/incompressible/calm.h), in a step of at least the time to
+   settle. A column of 15 layers meets the mean tolerance even if only the lowest row was moved; then steps
+   with more and with fewer iterations alternate. */
 static const double CALM = 0.15;
 
-/* What is told of a step is what is compressed behind it; of a solver in trouble what such steps would come
-   to. */
+/* A step reports the compression at its end; a solver in trouble reports the compression after many such
+   steps. */
 static void hold_density(const Substep *step)
 {
     const double tolerance = pbf_solver(step->constants)->tolerance,
@@ -127,7 +127,7 @@ static void hold_density(const Substep *step)
     solve->mean /= share;
     solve->most /= share;
     solve->failed = !(solve->mean <= STEP_SOLVE_STANDS * tolerance);
-    if (tolerance == 0) /* a number of iterations was asked for, and no residual */
+    if (tolerance == 0) /* asked for a number of iterations, without a residual */
         solve->failed = false;
     if (solve->failed)
         return;
@@ -135,7 +135,7 @@ static void hold_density(const Substep *step)
     solve->most = left.greatest;
 }
 
-/* The whole flight comes first; grid and lists are of where it ends. */
+/* The whole flight comes first; grid and lists are made at the end of the flight. */
 static void pbf_substep(const Substep *step)
 {
     const Backend *b = step->backend;
@@ -171,7 +171,7 @@ static bool always(const Constants *constants)
     return true;
 }
 
-/* Of vec4: density.comp. */
+/* Elements are vec4: density.comp. */
 static const ShaderBuffer buffers[] = {{"Motions", 16, always}, {0}};
 
 const Method method_pbf = {

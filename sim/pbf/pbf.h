@@ -6,7 +6,7 @@
 #include "sim/world/method.h"
 
 typedef struct IN_A_ROOM PbfDef {
-    double tolerance; /* mean compression with which iterations may end, a fraction; 0: all of them run */
+    double tolerance; /* mean compression at which iterations may end, a fraction; 0: all iterations run */
     int iterations;   /* of a step, at most */
 } PbfDef;
 
