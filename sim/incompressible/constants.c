@@ -16,17 +16,18 @@ StepFriction incompressible_friction(const WorldDef *def, const Lattice *lattice
         .walls = DRAG_MORRIS};
 }
 
-/* f(q) = -w'(q) / q at a half, where sim/cpu/pair_shape.h has it. */
+/* f(q) = -w'(q) / q at q = 0.5, as in sim/cpu/pair_shape.h. */
 static double shape_half(void)
 {
     return INCOMPRESSIBLE_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
 }
 
-/* With momentum m Jacobi holds below 2 (1 + m) over the greatest eigenvalue (Polyak 1964); fluid out of order
-   has greater ones than its lattice, by up to a half. */
+/* With momentum m Jacobi's method is stable below 2 (1 + m) over the greatest eigenvalue (Polyak 1964);
+   disordered fluid has greater eigenvalues than the lattice, by up to a half. */
 static const double RELAXATION = 1.8;
 
-/* Of D on the lattice: D is no less, or particles next to few others or on a wall would be thrown. */
+/* Lower bound of D, over D on the lattice: else particles with few neighbours or on a wall would be
+   thrown. */
 static const double LEAST = 0.1;
 
 IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants)

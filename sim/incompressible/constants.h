@@ -1,4 +1,4 @@
-/* What methods that hold the number density (Method.incompressible) make of a def alike. */
+/* Constants shared by methods with a fixed number density (Method.incompressible). */
 #ifndef SLOSH_INCOMPRESSIBLE_CONSTANTS_H
 #define SLOSH_INCOMPRESSIBLE_CONSTANTS_H
 
@@ -11,9 +11,9 @@
 MethodKernels incompressible_kernels(const WorldDef *def);
 StepFriction incompressible_friction(const WorldDef *def, const Lattice *lattice);
 
-/* The factors of their sums (sim/incompressible/pairs.h) and of Jacobi's step; U is Constants.unit_volume. */
+/* Factors of the sums (sim/incompressible/pairs.h) and of Jacobi's step; U is Constants.unit_volume. */
 typedef struct IncompressibleFactors {
-    float gradient; /* F = -W'(r) / r over f(r / h), of the kernel that sums density, times U, 1/m2 */
+    float gradient;          /* F = -W'(r) / r over f(r / h), of the density kernel, times U, 1/m2 */
     float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
     float relaxation;        /* of Jacobi */
     float pressure_of_term;  /* p over k */

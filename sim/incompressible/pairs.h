@@ -1,7 +1,7 @@
-/* The pair sums of methods that hold the number density (Method.incompressible), in which images of the fluid
-   in the walls of the box have their particles' multipliers: what walls push with is the gradient of the
-   number density that they make, and walls can do no work. For the files that are compiled once for each
-   instruction set; a method's pair loops call these with its factors.
+/* Pair sums of methods with a fixed number density (Method.incompressible). Images of the fluid in the walls
+   of the box have their particles' multipliers: a wall pushes with the gradient of the images' number
+   density, and can do no work. For files compiled once per instruction set; a method's pair loops call these
+   sums with the method's factors.
 
    With grad W_ij = -F x_ij, x_ij = x_i - x_j; F is `gradient` times shape(). */
 #ifndef SLOSH_INCOMPRESSIBLE_PAIRS_H
@@ -12,20 +12,21 @@
 #include "sim/cpu/pair_shape.h"
 #include "sim/incompressible/constants.h"
 
-/* Of an image next to its particle: not 0. */
+/* r / h of an image, above 0 even next to the particle. */
 SIMD_INLINE f8 image_q(const Constants *s, f8 r2)
 {
     const float h = s->support_radius, least = 1e-6f * h;
     return f8_sqrt(greater(r2, f8_splat(least * least))) * f8_splat(1 / h);
 }
 
-/* --- what a particle's k makes of its own number density --- */
+/* --- effect of a particle's k on its own number density --- */
 
 typedef struct DensitySums {
     f8 n, x, y, z, squares;
 } DensitySums;
 
-/* Of an image; `times`: 2 for the particle's own, whose k is its own: its inverse mass is 0 here. */
+/* Part of an image. `times`: 2 for the image of the particle itself, with the same k; then the inverse mass
+   is 0. */
 SIMD_INLINE void density_by(const PairArgs *args, const Mirrored *image, f8x4 near, float times,
                             f8 inverse_mass, DensitySums *sum)
 {
@@ -57,8 +58,8 @@ SIMD_INLINE void density_of(const PairArgs *args, size_t i, const Near near, con
     }
 }
 
-/* Sum of W into `number_density`, of F x_ij into the force, of F^2 r^2 / m_j into `squares`, where `place`
-   has 1 / m. */
+/* Sum of W into `number_density`, of F x_ij into the force, of F^2 r^2 / m_j into `squares`; `place` has 1 /
+   m. */
 SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, float gradient, float *squares)
 {
     const f8 scale = f8_splat(args->constants->kernel_scale), g = f8_splat(gradient), zero = f8_splat(0);
@@ -82,9 +83,9 @@ SIMD_INLINE void density_sums(const PairArgs *args, size_t begin, size_t end, fl
     }
 }
 
-/* --- what k pushes with --- */
+/* --- push by k --- */
 
-/* (k_i + k_j) F x_ij of an image, in its particle's axes. */
+/* (k_i + k_j) F x_ij of an image, in the particle's axes. */
 SIMD_INLINE void push_by(const PairArgs *args, const Mirrored *image, f8 ki, f8x4 near, Place *sum)
 {
     const Separation d = apart(image->at, near);
@@ -111,7 +112,7 @@ SIMD_INLINE void push_of(const PairArgs *args, size_t i, const Near near, f8 ki,
     }
 }
 
-/* sum (k_i + k_j) F x_ij into the force, where `place` has k. */
+/* sum (k_i + k_j) F x_ij into the force; `place` has k. */
 SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const f8 g = f8_splat(gradient), zero = f8_splat(0);
@@ -136,8 +137,8 @@ SIMD_INLINE void push_sums(const PairArgs *args, size_t begin, size_t end, float
 
 /* --- friction --- */
 
-/* Of those that stand at `at`, with the velocities `vi`, from nobody nearer than `nearest`, in h: what g
-   times V_i is not in yet. */
+/* Friction of particles at `at` with velocities `vi`, without the factor of the gradient; distances below
+   `nearest` (in h) count as `nearest`. */
 SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near near, f8x4 vi, f8 mi,
                              float nearest, Place *sum)
 {
@@ -152,9 +153,9 @@ SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near ne
     }
 }
 
-/* In the form of Morris (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, of what `motion` has; images,
-   where walls let fluid slip, with velocities in the mirror, and of none nearer than half a spacing: what
-   stands on a wall would turn round in a step that friction stands elsewhere. */
+/* Morris's form (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, with velocities from `motion`. Where
+   walls let fluid slip, images take part, with velocities in the mirror, at distances of at least half a
+   spacing: nearer, a particle on a wall would turn round in a step stable elsewhere. */
 SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const Constants *s = args->constants;

@@ -4,10 +4,10 @@
 
 #include "sim/cpu/pass.h"
 
-/* Of push_sums: k F x_ib. */
+/* Pair of push_sums: k F x_ib. */
 void incompressible_push(const SolidPair *pair, float k, float force[3]);
 
-/* Of friction_sums, where b moves by u (m/s) as i sees it; 0 where forces have no friction. */
+/* Pair of friction_sums, with velocity u (m/s) of b relative to i; 0 if forces have no friction. */
 void incompressible_rub(const SolidPair *pair, const float u[3], float force[3]);
 
 #endif
