@@ -1,5 +1,5 @@
-// What the passes of dfsph's solvers share. A boundary particle has the particle's k and its solid's velocity, mirrored, where
-// velocities are at stake, and no k where places are: sim/dfsph/passes.h.
+// Shared by the passes of dfsph's solvers. For velocities a boundary particle has the particle's k and the solid's velocity,
+// mirrored; for positions a boundary particle has no k: sim/dfsph/passes.h.
 #include "shaders/sim/dfsph/dfsph_block.h"
 #ifdef DIVERGENCE
 #define BOUNDARY_TIMES 2.0

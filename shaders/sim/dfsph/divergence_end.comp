@@ -1,4 +1,4 @@
-// dfsph: what the solver of divergence has found becomes acceleration, pressure, and k to begin the next step with.
+// dfsph: the result of the solver of divergence becomes acceleration, pressure, and the first k of the next step.
 #ifndef FELT_SOLIDS
 #define OWN_ACCESS writeonly
 #endif
@@ -19,7 +19,7 @@ layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #include "sim/dfsph/along.glsl"
 
-// k for whom the boundary particle pushes, and for itself; along the solid: push_solid in sim/dfsph/passes.c.
+// k for the pushed particle, k for the boundary particle itself; along the solid: push_solid in sim/dfsph/passes.c.
 vec3 push_solid(uint i, vec3 d, float r2)
 {
     vec3 slope = gradient * shape(sqrt(r2) * inverse_support) * d, force = 2.0 * own[OWN_kept_term + i] * slope;

@@ -1,8 +1,8 @@
-// dfsph: what follows from places alone, number density and what a particle's k makes of its own rate: finish_factor in
+// dfsph: terms from positions alone, number density and effect of a particle's k on its own rate: finish_factor in
 // sim/dfsph/passes.c.
 #define LISTS_FIRST
 #define OWN_ACCESS readonly
-#define BOUNDARY_TIMES 2.0 // they push with the particle's own k, too: sim/dfsph/passes.h
+#define BOUNDARY_TIMES 2.0 // boundary particles push with the particle's k too: sim/dfsph/passes.h
 #include "shaders/sim/dfsph/dfsph_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume, m3
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k

@@ -1,5 +1,5 @@
-// dfsph: the velocity with which a particle comes to the middle of the next step, by what the box does to it meanwhile in
-// the halves of the drift: begin_motion in sim/dfsph/passes.c.
+// dfsph: a particle's velocity on the way to the middle of the next step, with the box's effect in the halves of the drift:
+// begin_motion in sim/dfsph/passes.c.
 vec3 flown(vec3 velocity, vec3 x, vec3 acceleration, float dt)
 {
     return velocity + dt * (acceleration + 0.5 * (felt_at(x) - kick_gravity));

@@ -1,5 +1,5 @@
-// dfsph: to what is not pressure that by the last step's multipliers, which push.glsl has just found, is added: pressed_body
-// in sim/dfsph/passes.c.
+// dfsph: adds the acceleration by the last step's multipliers, just found by push.glsl, to the other accelerations:
+// pressed_body in sim/dfsph/passes.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"
 layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };

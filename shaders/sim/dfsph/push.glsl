@@ -1,5 +1,5 @@
-// dfsph, of both solvers: accelerations by k, then the velocities with which particles come to the middle of the next step:
-// push, begin_motion and go_on in sim/dfsph/passes.c.
+// dfsph, both solvers: accelerations by k, then velocities on the way to the middle of the next step: push, begin_motion and
+// go_on in sim/dfsph/passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"
@@ -16,7 +16,7 @@ layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { v
 #include "sim/dfsph/along.glsl"
 #endif
 
-// The kick is behind the solver of divergence.
+// The kick comes after the solver of divergence.
 vec3 accelerated(uint i, vec3 pressed)
 {
 #ifdef DIVERGENCE

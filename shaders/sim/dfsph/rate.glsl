@@ -1,16 +1,16 @@
-// dfsph, of both solvers: what is left of the residual, and k of the next iteration by it: dfsph_rate in sim/dfsph/pairs.c,
-// rate and pack_place in sim/dfsph/passes.c.
+// dfsph, both solvers: the residual, then k of the next iteration: dfsph_rate in sim/dfsph/pairs.c, rate and pack_place in
+// sim/dfsph/passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"
-layout(std430, binding = NEAR_BUFFER) buffer Near { vec4 near[]; };            // w: k, its own alone
+layout(std430, binding = NEAR_BUFFER) buffer Near { vec4 near[]; };            // w: k, of the particle alone
 layout(std430, binding = MOVES_BUFFER) readonly buffer Moves { vec4 move[]; }; // velocities, volume
 #include "sim/incompressible/pairs.glsl"
 #include "sim/incompressible/jacobi.glsl"
 #include "sim/scratch.glsl"
 #ifdef SOLIDS
 #include "sim/solids.glsl"
-layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: which solid
+layout(std430, binding = RESTS_BUFFER) readonly buffer Rests { vec4 rest[]; }; // w: index of the solid
 #endif
 
 // The particle's velocity; the sum of F v_ij . x_ij.
@@ -27,7 +27,8 @@ void boundary_pair(uint j, vec3 d, float q)
 }
 #endif
 
-// n / n0 - 1 after the step; of divergence that of a particle that was at rest density, or below it where nothing pulls.
+// n / n0 - 1 after the step. For divergence an excess at the begin counts as 0; with negative pressure a lack counts as
+// 0 too.
 float residual_of(float volume)
 {
     float now = 1.0 / (volume * rest_number_density) - 1.0;

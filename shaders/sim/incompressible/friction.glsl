@@ -1,5 +1,6 @@
-// Friction in the form of Morris (friction_sums in sim/incompressible/pairs.h); with surface tension all forces but
-// pressure. Images in walls that let fluid slip have a part in it, none as from nearer than half a spacing. A pass says volume_of, and FRICTION where that is not all of `friction_gradient`.
+// Friction in the form of Morris (friction_sums in sim/incompressible/pairs.h); with surface tension all forces but pressure.
+// Images in walls with slip take part, at distances of at least half a spacing. A pass declares volume_of, and FRICTION if
+// different from `friction_gradient`.
 #define KERNEL_WENDLAND_C2 1
 #include "sim/force.glsl"
 #include "sim/shapes.glsl"
@@ -21,7 +22,7 @@ vec3 pair_force(Side one, Side other, vec3 d, float r2)
 
 #if defined RUBS && !defined NO_SLIP
 #include "sim/images.glsl"
-Side image_side; // self_side, its velocity in the mirror
+Side image_side; // self_side with the velocity in the mirror
 vec3 image_force;
 
 void rub_image(Side other, vec3 d)

@@ -1,6 +1,6 @@
-// An iteration of a solver: Jacobi's step and a part, MOMENTUM, of the step before. A pass declares dt.
+// An iteration of a solver: Jacobi's step plus MOMENTUM times the step before. A pass declares dt.
 
-// The k behind the k of now, by 1 / D and by how k changed in the iteration before.
+// The next k, from the present k, 1 / D and the change of k in the iteration before.
 float next_term(float k, float residual, float factor, float change)
 {
     float relaxed = dt > 0.0 ? relaxation * rest_number_density / (dt * dt) : 0.0;
@@ -12,7 +12,7 @@ float next_term(float k, float residual, float factor, float change)
     return next;
 }
 
-// How far a residual is from where it is to be: of what k holds, on either side; else above 0.
+// Error of a residual: on either side where k holds; else only above 0.
 float miss_of(float residual, float k)
 {
 #ifdef NEGATIVE_PRESSURE

@@ -1,5 +1,5 @@
-// The sums over neighbours of methods that hold the number density: what a particle finds, and what its images in the walls
-// find. A pass declares PLACES[], says what a pair adds, and takes `whole`.
+// Sums over neighbours for methods with a fixed number density: of a particle, and of the particle's images in the walls. A
+// pass declares PLACES[], defines the part of a pair, and uses `whole`.
 #define KERNEL_WENDLAND_C2 1
 #include "sim/constants.glsl"
 #include "sim/shapes.glsl"
@@ -8,29 +8,29 @@
 #include "sim/pair_direction.glsl"
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #define BOUNDARY_ID 0x80000000u
-#ifndef BOUNDARY_TIMES // how often a boundary particle of solids counts
+#ifndef BOUNDARY_TIMES // weight of a boundary particle of solids
 #define BOUNDARY_TIMES 1.0
 #endif
 
-// Who looks: particle `self`, or its image with the signs `mirror`. `part` is a sum in the axes of who looks, `whole` that
-// of all of them in the particle's axes.
+// Viewer: particle `self`, or the particle's image with the signs `mirror`. `part` is a sum in the viewer's axes, `whole` the
+// sum over all viewers in the particle's axes.
 uint self;
 vec3 mirror = vec3(1), part = vec3(0), whole;
 
-// The pass's: j adds to the sums, d away, q = |d| / h; `term` is the fourth number of its place. An image sees its own
-// particle, too.
+// Defined by the pass: adds j to the sums, d away, q = |d| / h; `term` is the fourth number of j's place. An image sees the
+// particle itself too.
 void pair(uint j, vec3 d, float q, float term);
 void boundary_pair(uint j, vec3 d, float q);
 
-// Two at one place are taken for apart, along a direction that their ids decide, as far as sim/cpu/pair_loop.h has it. A
-// macro, so that nobody else reads ids.
+// Two particles at one place count as apart, along a direction given by their ids, by the distance of sim/cpu/pair_loop.h. A
+// macro, so that other passes do not read ids.
 #define SEPARATE(a, b, d)                        \
     if (dot(d, d) < 1e-12 * support * support)   \
         d = 0.1 * support * direction_of_ids(a, b);
 
 float q_of(vec3 d) { return length(d) * inverse_support; }
 
-// Of an image next to its particle: not 0.
+// r / h of an image, above 0 even next to the particle.
 float image_q(vec3 d) { return max(q_of(d), 1e-6); }
 
 void meet(uint j, vec3 d, float term)
@@ -63,7 +63,7 @@ void meet_boundary_image(uint j, vec3 d, float volume)
 }
 #endif
 
-// Whom an image sees its particle has in its list (sim/cpu/pair_images.h), but not while the list is made.
+// An image's neighbours are in the particle's list (sim/cpu/pair_images.h), except while the list is made.
 #ifdef LISTS_FIRST
 #define WALK_IMAGE(x, at) WALK(x, at, meet_image, meet_boundary_image)
 #else
@@ -84,7 +84,7 @@ void walk_images(vec3 x, ivec3 at)
     }
 }
 
-// Of particle i at x.
+// Sums of particle i at x.
 void walk_pairs(uint i, vec3 x)
 {
     ivec3 at = cell_of(x);

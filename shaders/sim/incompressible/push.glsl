@@ -1,7 +1,7 @@
 // `whole` is the sum of (k_i + k_j) F x_ij over `gradient`: push_sums in sim/incompressible/pairs.h.
 #include "sim/incompressible/pairs.glsl"
 
-float own_term; // the particle's k; those of others stand with their places
+float own_term; // the particle's k; neighbours' k are in their places
 
 void pair(uint j, vec3 d, float q, float term) { part += (own_term + term) * shape(q) * d; }
 

@@ -1,7 +1,7 @@
-// The number density, and what a particle's k makes of its own: density_sums in sim/incompressible/pairs.h.
+// The number density, and the effect of a particle's k on its own number density: density_sums in sim/incompressible/pairs.h.
 #include "sim/incompressible/pairs.glsl"
 
-// Sums of W, and of F^2 r^2 / m_j; that of F x_ij is `whole`.
+// Sums of W, and of F^2 r^2 / m_j; the sum of F x_ij is `whole`.
 float heights = 1.0, squares = 0.0;
 
 vec3 weigh(vec3 d, float q, float inverse_mass)
@@ -12,14 +12,14 @@ vec3 weigh(vec3 d, float q, float inverse_mass)
     return force;
 }
 
-// The particle's own image has its k, too.
+// The particle's own image has the particle's k too.
 void pair(uint j, vec3 d, float q, float term)
 {
     float inverse_mass = j == self ? 0.0 : 1.0 / fluids[FLUID_OF(j)].mass, times = j == self ? 2.0 : 1.0;
     part += times * weigh(d, q, inverse_mass);
 }
 
-#ifndef BOUNDARY_SEEN // what else a pass does with a boundary particle: F x_ib, x_ib
+#ifndef BOUNDARY_SEEN // further use of a boundary particle in a pass: F x_ib, x_ib
 #define BOUNDARY_SEEN(force, d)
 #endif
 

@@ -1,10 +1,10 @@
-// pbf: a step's iterations begin with what is left of the multipliers of the step before: begin_body in sim/pbf/passes.c.
+// pbf: a step's iterations begin with a part of the multipliers of the step before: begin_body in sim/pbf/passes.c.
 #include "shaders/sim/bindings.h"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
 #include "sim/pbf/list.glsl"
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
-layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; }; // w: what k grows by, times dt^2
+layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; }; // w: growth of k, times dt^2
 layout(location = PASS_DT_AT) uniform float dt;
 
 void main()

@@ -1,11 +1,11 @@
-// pbf: the number density behind an iteration, and what k grows by in the next one: density_body, finish_density, grown and
+// pbf: the number density after an iteration, and the growth of k in the next: density_body, finish_density, grown and
 // pack_motion in sim/pbf/passes.c.
 #define LISTS_LATER
 #define MOMENTUM PBF_MOMENTUM
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };       // w: volume, m3
 layout(std430, binding = VELOCITIES_BUFFER) buffer Velocities { vec4 velocity[]; };     // w: volume
-layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };           // w: what k grows by, times dt^2
+layout(std430, binding = NEAR_BUFFER) writeonly buffer Near { vec4 near[]; };           // w: growth of k, times dt^2
 layout(std430, binding = MOTIONS_BUFFER) writeonly buffer Motions { vec4 motion[]; };   // velocities at the step's end, volume
 layout(location = PASS_DT_AT) uniform float dt;
 #include "sim/incompressible/sums.glsl"
@@ -13,7 +13,7 @@ layout(location = PASS_DT_AT) uniform float dt;
 #include "sim/own.glsl"
 #include "sim/scratch.glsl"
 
-// What a step shares with those to come: where pressure pulls, gaps too.
+// Compression shared with later steps: with negative pressure, gaps too.
 #ifdef NEGATIVE_PRESSURE
 float found(float before) { return before; }
 #else

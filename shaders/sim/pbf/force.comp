@@ -1,7 +1,7 @@
-// pbf: accelerations of the whole step, the way of the iterations among them: force_body in sim/pbf/passes.c.
+// pbf: accelerations of the whole step, including the way of the iterations: force_body in sim/pbf/passes.c.
 #define LISTS_LATER
 #define SEEN_VELOCITY(i) motion[i].xyz
-#define FRICTION (min(viscous_dt / dt, 1.0) * friction_gradient) // no more of it than the step stands
+#define FRICTION (min(viscous_dt / dt, 1.0) * friction_gradient) // within the step's stable limit
 #include "sim/constants.glsl"
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = MOTIONS_BUFFER) readonly buffer Motions { vec4 motion[]; }; // velocities at the step's end, volume

@@ -1,4 +1,4 @@
-// Lists of neighbours are made before anything moves. Where there are none each pass walks.
+// Makes lists of neighbours before particles move. Without lists each pass walks through cells.
 #define LISTS_FIRST
 #include "sim/constants.glsl"
 #include "shaders/sim/pbf/pbf_block.h"

@@ -1,15 +1,15 @@
-// pbf: places by what the multipliers grow: move_one in sim/pbf/passes.c.
+// pbf: positions by the growth of multipliers: move_one in sim/pbf/passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "shaders/sim/pbf/pbf_block.h"
 layout(std430, binding = POSITIONS_BUFFER) writeonly buffer Positions { vec4 position[]; };
-layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: what k grows by, times dt^2
+layout(std430, binding = NEAR_BUFFER) readonly buffer Near { vec4 near[]; }; // w: growth of k, times dt^2
 #include "sim/incompressible/push.glsl"
 #include "sim/own.glsl"
 #include "sim/place.glsl"
 #include "sim/scratch.glsl"
 #ifdef SOLIDS
-#define SOLID_BEGIN(k) solids[k].end // they stand
+#define SOLID_BEGIN(k) solids[k].end // solids stand still
 #include "sim/solid_guard.glsl"
 #endif
 
@@ -21,7 +21,7 @@ vec3 shortened(vec3 way)
     return length2 < 1e38 ? most / sqrt(length2) * way : vec3(0);
 }
 
-// Puts x up to a solid, and no further into a wall than that asks for, else up to a little before the walls.
+// Moves x out of solids, then into the box: up to the walls after a solid, else up to WALL_LEAST before the walls.
 void hold_back(vec3 from, inout vec3 x)
 {
     float apart = WALL_LEAST * spacing;

@@ -1,4 +1,4 @@
-// pbf: what gravity does to a free flight, in its middle: predict_body in sim/pbf/passes.c.
+// pbf: effect of gravity on a free flight, in the middle of the flight: predict_body in sim/pbf/passes.c.
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };

@@ -1,4 +1,4 @@
-// Implicit viscosity: the right side, the blocks, and where the iterations begin: begin_range in sim/viscosity/pairs.c,
+// Implicit viscosity: the right side, the blocks, and first values of the iterations: begin_range in sim/viscosity/pairs.c,
 // begin_one in sim/viscosity/passes.c.
 #include "sim/viscosity/viscosity.glsl"
 #include "sim/own.glsl"
@@ -14,17 +14,17 @@ layout(std430, binding = ACCELERATIONS_BUFFER) readonly buffer Accelerations { v
 layout(std430, binding = TRIALS_BUFFER) writeonly buffer Trials { vec4 trial[]; };
 layout(location = PASS_DT_AT) uniform float dt;
 
-#define ENDLESS 1e18 // m in a step of no time: nothing changes
+#define ENDLESS 1e18 // inertia over m in a step of no time
 
 vec3 own_column_of(uint at, uint i) { return vec3(own[at + i], own[at + OWN_STRIDE + i], own[at + 2u * OWN_STRIDE + i]); }
 
-// What the velocity changes by where friction is that of the step before: where the iterations begin.
+// Change of velocity with the friction of the step before: start of the iterations.
 vec3 change_before(uint j)
 {
     return dt * (acceleration[j].xyz + kick_gravity + own_column_of(OWN_viscosity_friction_before, j));
 }
 
-// Explicit friction, with that change; the sums of all blocks, and of those of solids twice: xx yy zz, xy yz zx.
+// Explicit friction after change_before; sums of all blocks, and twice the sums of solids' blocks: xx yy zz, xy yz zx.
 vec3 own_velocity, friction = vec3(0);
 vec3 diagonal = vec3(0), mixed = vec3(0), held_diagonal = vec3(0), held_mixed = vec3(0);
 
@@ -51,7 +51,7 @@ void meet_boundary(uint j, vec3 d, float volume)
 }
 #endif
 
-// What its images find behind walls that let it slip, each in its mirror's axes.
+// Friction of the particle's images behind walls with slip, each in the mirror's axes.
 void meet_images(uint i, vec3 x, ivec3 at)
 {
 #ifndef NO_SLIP
@@ -72,7 +72,7 @@ void meet_images(uint i, vec3 x, ivec3 at)
 #endif
 }
 
-// Walls of the box that hold the fluid: K; their force goes to the others. held_by_walls in sim/viscosity/passes.c.
+// Walls of the box without slip: returns K and adds the walls' force to `friction`. held_by_walls in sim/viscosity/passes.c.
 float held_by_walls(vec3 x, float volume, vec3 v)
 {
 #ifdef NO_SLIP
@@ -87,7 +87,7 @@ float held_by_walls(vec3 x, float volume, vec3 v)
 #endif
 }
 
-// The inverse of a symmetric matrix, as `invert` has it: some of its eigenvalues may be a millionth of others.
+// Inverse of a symmetric matrix, in double precision like `invert`: some eigenvalues may be a millionth of others.
 void invert(inout vec3 diagonal, inout vec3 mixed)
 {
     dvec3 d = dvec3(diagonal), m = dvec3(mixed);
@@ -115,7 +115,7 @@ void main()
     vec3 a = acceleration[i].xyz + kick_gravity, residual = friction + m * a - inertia * change;
     if (dt > 0.0)
         residual += m / dt * own_column_of(OWN_viscosity_friction_left, i);
-    diagonal = scale * (diagonal + 0.5 * held_diagonal) + inertia; // the sum has those of solids once
+    diagonal = scale * (diagonal + 0.5 * held_diagonal) + inertia; // the sum has solids' blocks once
     mixed = scale * (mixed + 0.5 * held_mixed);
 #ifdef SOLIDS
     residual -= 0.5 * scale * times(held_diagonal, held_mixed, change); // the sums have the other half

@@ -1,5 +1,5 @@
-/* The storage buffer of implicit viscosity, beside those of shaders/sim/bindings.h: a direction to try, m/s,
-   and the viscosity of a particle. */
+/* Storage buffer of implicit viscosity, beside shaders/sim/bindings.h: a particle's trial direction, m/s, and
+   viscosity. */
 #ifndef SLOSH_VISCOSITY_BUFFERS_H
 #define SLOSH_VISCOSITY_BUFFERS_H
 

@@ -1,4 +1,4 @@
-// Implicit viscosity: the accelerations that make the change of velocity: end_body in sim/viscosity/passes.c.
+// Implicit viscosity: accelerations from the change of velocity: end_body in sim/viscosity/passes.c.
 #include "sim/constants.glsl"
 #include "sim/scratch.glsl"
 #define OWN_ACCESS writeonly

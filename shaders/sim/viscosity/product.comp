@@ -1,5 +1,5 @@
-// Implicit viscosity: what the matrix makes of the direction to try, and what that says of the next step along one:
-// product_range in sim/viscosity/pairs.c, product_body in sim/viscosity/passes.c.
+// Implicit viscosity: product of the matrix and the trial direction, and terms for the length of the next step: product_range
+// in sim/viscosity/pairs.c, product_body in sim/viscosity/passes.c.
 #include "sim/viscosity/viscosity.glsl"
 #include "sim/viscosity/columns.glsl"
 #include "sim/images.glsl"
@@ -13,7 +13,7 @@ void meet(uint j, vec3 d, float volume)
     sum += weight(d, other.w, inverse_unit_volume * volume) * dot(own - other.xyz, d) * d;
 }
 
-// Boundary particles, whose change is 0, are in the blocks `held`.
+// Boundary particles have change 0: their part is in the blocks `held`.
 void walk(uint i, vec3 x, ivec3 at)
 {
 #ifdef LISTS
@@ -23,7 +23,7 @@ void walk(uint i, vec3 x, ivec3 at)
 #endif
 }
 
-// What its images find behind walls that let it slip, each in its mirror's axes.
+// Products for the particle's images behind walls with slip, each in the mirror's axes.
 void walk_images(uint i, vec3 x, ivec3 at)
 {
 #ifndef NO_SLIP

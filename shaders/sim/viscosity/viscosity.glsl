@@ -1,5 +1,5 @@
-// What the walks of implicit viscosity share: sim/viscosity/pairs.c. A method that has one of these kernels has its define;
-// for all others it is Wendland's.
+// Shared by the walks of implicit viscosity: sim/viscosity/pairs.c. Two defines select Wendland's kernel or the quintic spline,
+// by ImplicitViscosity.kernel; without a define the kernel is the cubic spline.
 #define LISTS_LATER
 #include "shaders/sim/viscosity/buffers.h"
 #include "shaders/sim/term_block.h"
@@ -20,7 +20,7 @@ layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 posi
 
 float own_viscosity;
 
-// F R (mu_i + mu_j) V_j of a pair, over friction_scale; 0 where they are too far.
+// F R (mu_i + mu_j) V_j of a pair, over friction_scale; 0 beyond the support radius.
 float weight(vec3 d, float viscosity, float volume)
 {
     float q2 = dot(d, d) * (inverse_support * inverse_support);
