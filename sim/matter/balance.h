@@ -1,5 +1,5 @@
-/* A start in balance: the pressure with which gravity does not compress fluid at rest in its first moment,
-   and the positions that have the densities of that pressure.
+/* A start in balance: the pressure with which gravity does not compress resting fluid in the first moment,
+   and positions with the densities of that pressure.
 
    div(grad p / rho - g) = 0, p = 0 at free surfaces, no flow through walls. Resting fluid gets hydrostatic
    pressure, in layers too; freely falling fluid gets none; a dam gets the pressure with which the dam begins

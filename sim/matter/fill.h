@@ -5,7 +5,7 @@
 #include "sim/matter/world_def.h"
 
 /* True if x (m) is in the region. Both faces of a block are shifted down by `tolerance` (m): a point so near
-   outside the low side is in, a point so near inside the high side is not. */
+   outside the low side is in. A point so near inside the high side is not. */
 bool fill_holds(const Fill *fill, int dimensions, const double x[3], double tolerance);
 
 /* True if the fill ends at a height by formula or table; writes the height at x and z to *y, m. */

@@ -7,7 +7,7 @@
 
 enum {
     GROUP_MAX = FLUIDS_MAX * FILLS_MAX,
-    SPREAD = 3 /* layers more or less than the spacing asks for */
+    SPREAD = 3 /* greatest difference from the number of layers by the spacing */
 };
 
 /* In spacings: fills nearer than `near` touch; a face nearer than `on_face` to a layer's face is on the
@@ -161,7 +161,7 @@ static void choose_from(const WorldDef *def, const Group *group, int k, Choice *
 /* Choose the layers whose volume per point is nearest to a particle's, then the most even layers. */
 static void group_axes(const WorldDef *def, const Group *group, FillAxis axes[3])
 {
-    static const double weight = 4; /* of the volume */
+    static const double weight = 4; /* weight of the volume */
     const int depth = def->dimensions == 3;
     Choice choice[3] = {{0}};
     double least = INFINITY;
@@ -341,9 +341,9 @@ static double root_near_one(double x, int power)
     return root;
 }
 
-/* The spacing at which the lattice chosen for `spacing` has a particle's volume per point. *uneven is the
-   greatest relative difference of a step from the result, *off the misfit of the group's inner faces. Returns
-   0 if the result gives a different lattice. */
+/* The spacing at which the lattice chosen for `spacing` has a particle's volume per point. Writes the
+   greatest relative difference of a step from the result to *uneven, and the misfit of the group's inner
+   faces to *off. Returns 0 if the result gives a different lattice. */
 static double fit_at(const WorldDef *def, const Group *group, double spacing, double *uneven, double *off)
 {
     WorldDef at = *def;

@@ -45,8 +45,8 @@ const Fill *fill_pile_owner(const FillPile *pile, const long index[3]);
 double fill_lattice_spacing(const WorldDef *def);
 
 /* The same without a search: the spacing at which the group keeps the layers that the group has at the def's
-   spacing. *uneven is the greatest relative difference of a step from the result. Returns 0 if the layers
-   change at the result, and the def's spacing without blocks. */
+   spacing. Writes the greatest relative difference of a step from the result to *uneven. Returns 0 if the
+   layers change at the result, and the def's spacing without blocks. */
 double fill_lattice_fit(const WorldDef *def, double *uneven);
 
 #endif

@@ -14,7 +14,7 @@ long emit_layers(const Emit *emit, double spacing, double begin, double end, lon
     return after > *first ? after - *first : 0;
 }
 
-/* Two directions across the emitter's; in two dimensions the second leaves the plane. */
+/* Two unit vectors across the emitter's direction; in two dimensions the second leaves the plane. */
 static void across(const Emit *emit, int dimensions, double a[3], double b[3])
 {
     const double *d = emit->direction, norm = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);

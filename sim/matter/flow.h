@@ -41,7 +41,7 @@ typedef struct Guide {
 enum { EMITTERS_MAX = FLUIDS_MAX * EMITS_MAX, GUIDES_MAX = EMITTERS_MAX + 1 /* 1 for poured fluid */ };
 
 /* Gates: each emitter and each drain has a gate, a bit of the mask of shut gates. gate_find returns the
-   number of the gate with a name like "fluids[0].emit[1]" or "drains[2]"; -1: no such gate. */
+   number of the gate with a name like "fluids[0].emit[1]" or "drains[2]", or -1 if there is no such gate. */
 enum { GATES_MAX = EMITTERS_MAX + DRAINS_MAX, GATE_NAME_SIZE = 32 };
 static inline int gate_of_emitter(int fluid, int emitter)
 {
@@ -55,6 +55,7 @@ static inline bool gate_shut(uint64_t shut, int gate)
 {
     return shut >> gate & 1;
 }
+/* Writes the name of a gate; the gate must be one of 0 .. GATES_MAX - 1. */
 void gate_name(int gate, char name[GATE_NAME_SIZE]);
 int gate_find(const char *name);
 

@@ -19,9 +19,10 @@ typedef struct Packing {
     const bool *take; /* FLUIDS_MAX: fluids with particles to move */
 } Packing;
 
-/* Moves particles of the fluids in `take`, at `position` (3 each, m), within a support radius of a solid:
-   down the gradient of the number density of all particles, and into no solid. Particles near a surface, a
-   wall or a periodic side stay, like all without neighbours all around. Returns false if memory is short. */
+/* Moves particles of the fluids in `take`, at `position` (3 each, m), within a support radius of a solid.
+   They move down the gradient of the number density of all particles, and into no solid. Particles near a
+   surface, a wall or a periodic side stay, like all without neighbours all around. Returns false if memory is
+   short. */
 bool packing_settle(const Packing *packing, size_t count, const uint8_t *fluid, float *position);
 
 #endif

@@ -9,7 +9,7 @@
 /* Fraction of a spacing: a point on a face of a block belongs to the block at the low side only. */
 static const double slack = 1e-6;
 
-/* The solids of a def as they stand at the start. */
+/* Solids of a def at the start. */
 typedef struct Stand {
     const WorldDef *def;
     BoxState pose[SOLIDS_MAX];
@@ -135,7 +135,7 @@ static size_t seed_fill(const Stand *stand, int fluid, int index, float *positio
     return count;
 }
 
-/* Of a column of points: whether one is in the shape. */
+/* True if some point of the column at x[0], x[2] is in the shape; x[1] becomes the height of the point. */
 static bool column_covered(const WorldDef *def, const Fill *shape, const FillAxis axes[3], double x[3])
 {
     for (long i = axes[1].begin; i < axes[1].end; i++) {

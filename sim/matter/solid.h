@@ -1,9 +1,9 @@
 /* Solids: bodies in the box, with fluid around them: at rest in the box, moving on a prescribed path, or
    moved by the fluid.
 
-   A solid has a frame: a sphere is centred there, a box has edges along the axes, a cylinder lies along y, a
-   bowl (half of a hollow sphere) opens towards +y, a mesh has the middle of the block around the mesh there.
-   The pose places the solid's frame in the box's frame. */
+   A solid has a frame. A sphere is centred there, a box has edges along the axes, a cylinder lies along y. A
+   bowl (half of a hollow sphere) opens towards +y. A mesh has the middle of its bounding block there. The
+   pose places the solid's frame in the box's frame. */
 #ifndef SLOSH_SOLID_H
 #define SLOSH_SOLID_H
 
@@ -78,6 +78,7 @@ typedef struct SolidDef {
     double hinge_at[3], hinge_axis[3]; /* about one axis fixed to the box; 0 0 0: freely */
 } SolidDef;
 
+/* Name of the kind in scenes, as in SOLID_LIST. */
 const char *solid_name(SolidKind kind);
 
 /* True if fluid moves the solid. */
@@ -120,7 +121,7 @@ double solid_distance(const SolidDef *solid, int dimensions, const double x[3]);
 /* Unit vector of the fastest growth of the distance. */
 void solid_normal(const SolidDef *solid, int dimensions, const double x[3], double normal[3]);
 
-/* True if the solid is always between `low` and `high` (m) along an axis of the box; false also where not
+/* True if the solid is always between `low` and `high` (m) along an axis of the box. False also where not
    easy to prove, as with an acceleration along the axis. */
 bool solid_between(const SolidDef *solid, int dimensions, int axis, double low, double high);
 

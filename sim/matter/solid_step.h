@@ -22,7 +22,9 @@ typedef struct SolidStep {
     float alpha[3];  /* of w, over the step: rad/s2 */
 } SolidStep;
 
+/* The pose at `time` (s); of a floating solid where the solid began. */
 void solid_pose_at(const SolidDef *solid, double time, SolidPose *pose);
+/* The same pose in single precision. */
 void solid_pose_of(const BoxState *at, SolidPose *pose);
 
 /* The solid's step from `begin` to `end`, s. */
@@ -34,12 +36,15 @@ void solid_step_stand(const SolidDef *solid, const SolidPose *pose, SolidStep *s
 /* Gives both halves of a step the rates of the whole step. */
 void solid_step_mean(SolidStep *first, SolidStep *second);
 
+/* Positions, m, from the solid's frame to the box's frame and back. */
 void solid_to_box(const SolidPose *pose, const float in_solid[3], float x[3]);
 void solid_from_box(const SolidPose *pose, const float x[3], float in_solid[3]);
+
 /* Signed distance of x from the surface, m; further away than `far`: a lower bound of at least `far`. */
 float solid_clearance(const SolidDef *solid, const SolidPose *pose, int dimensions, const float x[3],
                       float far);
 
+/* Velocity of the solid's matter at x (box's frame, m), m/s. */
 void solid_velocity_at(const SolidPose *pose, const float x[3], float v[3]);
 
 /* Acceleration of the solid's matter at x, m/s2, by the rates of the step. */
@@ -50,6 +55,7 @@ typedef struct WayBounds {
     float low[3], high[3];
 } WayBounds;
 
+/* Bounds of the straight way from `before` to x. */
 static inline WayBounds way_bounds(const float before[3], const float x[3])
 {
     WayBounds way;
@@ -69,7 +75,7 @@ static inline bool solid_step_beside(const SolidStep *step, int dimensions, cons
 }
 
 /* Keeps a particle on a way from `before` to x out of the solid, on the side of `before`, however thin the
-   solid is there, and removes the velocity into the surface. True if x and v had to change. */
+   solid is there. Removes the velocity into the surface. True if x and v had to change. */
 bool solid_guard(const SolidDef *solid, const SolidStep *step, int dimensions, const float before[3],
                  float x[3], float v[3]);
 

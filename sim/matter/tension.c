@@ -86,8 +86,7 @@ double wetting_curvature(double angle, double spacing, double h)
     return cos(angle * (M_PI / 180)) / (layers * spacing);
 }
 
-/* The crowd at the surface of drops with shifting over the lattice's: measured at 10 to 30 spacings a radius.
- */
+/* Crowd at the surface of drops with shifting, over the lattice's: measured at 10 to 30 spacings a radius. */
 #define CROWDED 1.12
 
 /* The offset a second way: by the balance of half a drop, kept by pair forces whatever the pressures are.

@@ -21,11 +21,11 @@ extern const TensionKind tension_kinds[]; /* in the order of TensionModel, ended
    r >= h. m6 for r and h in m. */
 double cohesion_kernel(double r, double h);
 
-/* Factor g in the force -g V_i V_j C(r) (x_ij / r) for a tension of 1 N/m at a flat surface: half the work
-   per area to part the lattice at rest along a lattice plane. */
+/* Factor g in the force -g V_i V_j C(r) (x_ij / r) for a tension of 1 N/m at a flat surface. The tension is
+   half the work per area to part the lattice at rest along a lattice plane. */
 double cohesion_scale(int dimensions, double spacing, double h);
 
-/* For the model `curvature`, from the normals N = sum (1 - r/h)^3 x_ij of a fluid: the part of a surface per
+/* For the model `curvature`, with the normals N = sum (1 - r/h)^3 x_ij of a fluid. The part of a surface per
    particle follows from |N| over the |N| of the lattice's outermost layer. */
 typedef struct CurvatureScale {
     float full;   /* 1 over |N| of the outermost layer, 1/m */
@@ -51,9 +51,10 @@ enum {
 /* x t^2 (3 - 2 t), t from 0 at x = 0.1 to 1 at 0.4: disorder within the fluid is no surface. */
 double curvature_weight(double x);
 
-/* Pressure ends where the force begins, and pairs across a surface are missing: SPH feels pressure as if a
-   drop were smaller by (centroid of the weights) + (d - 1) (half the kernel's mean |z|) = (d - 1) times the
-   offset. With the offset a drop at rest has the right pressure; an oscillation wants half of the offset. */
+/* Pressure ends where the force begins, and pairs across a surface are missing. So SPH feels pressure as if a
+   drop were smaller by (d - 1) times the offset: by (centroid of the weights) + (d - 1) (half the kernel's
+   mean |z|). With the offset a drop at rest has the right pressure; an oscillation wants half of the
+   offset. */
 CurvatureScale curvature_calibrate(int dimensions, double spacing, double h);
 
 /* Factor f, 1/m, of a wall with contact angle `angle`, degrees: a surface at distance d from the wall loses

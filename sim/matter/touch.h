@@ -13,7 +13,8 @@ typedef struct Touch {
     float weight;   /* 1 / way^2 */
 } Touch;
 
-/* Bit 2 k + 1 of `open` is the face towards the greater coordinate along axis k, bit 2 k the one opposite. */
+/* Bit 2 k + 1 of `open` is the face towards the greater coordinate along axis k, bit 2 k the opposite
+   face. */
 typedef struct Touches {
     size_t count;
     size_t *begin; /* count + 1: touches of particle i are at[begin[i]] to before at[begin[i + 1]] */

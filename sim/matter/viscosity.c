@@ -48,8 +48,8 @@ static double friction_weight(const Lattice *lattice, Friction friction, double 
                                              : morris;
 }
 
-/* Sites along the lattice's first `axes` axes: a thread, a film, or the whole lattice. Returns their density
- * over that at rest. */
+/* Sites along the lattice's first `axes` axes: a thread, a film, or the whole lattice. Returns the density of
+   the sites over that of the lattice at rest. */
 static double sites_fill(Sites *sites, const Lattice *lattice, double spacing, Friction friction, int axes,
                          double h, const Kernel *summed)
 {

@@ -102,8 +102,8 @@ typedef struct InitialState {
 typedef enum StepMode { STEP_FIXED, STEP_CFL } StepMode;
 
 typedef struct WorldDef {
-    int dimensions;     /* 3, or 2: all in the plane z = 0, a metre deep; the box's depth is then the
-                           spacing, whatever box_size says */
+    int dimensions;     /* 3, or 2: all in the plane z = 0, a metre deep; then the box's depth is the spacing,
+                           not that of box_size */
     double box_size[3]; /* inner width, height, depth, m */
     bool periodic[3];   /* the sides across the axis are joined: see sim/box/periodic.h; a periodic box does
                            not turn */
