@@ -83,7 +83,7 @@ const Pass dfsph_state = {
               "solid_slope solid_flow solid_share",
 };
 
-/* --- what is not pressure --- */
+/* --- accelerations except pressure --- */
 
 static void others_body(const CpuRange *range)
 {
@@ -215,9 +215,9 @@ static bool turning(const ApparentGravity *apparent)
     return a[0] != 0 || a[1] != 0 || a[2] != 0 || w[0] != 0 || w[1] != 0 || w[2] != 0;
 }
 
-/* Velocities of the particles on the way to the middle of the next step, without the solver: changed before
-   the kick by all accelerations except pressure, and by half of the box's effect in the halves of the
-   drift. */
+/* Velocities of the particles on the way to the middle of the next step, without the solver. They include
+   half of the box's effect in the halves of the drift, and before the kick all accelerations except
+   pressure. */
 static void begin_motion(const CpuRange *range, bool before_kick)
 {
     const CpuParticles p =

@@ -155,7 +155,7 @@ SIMD_INLINE void friction_of(const PairArgs *args, const Place at, const Near ne
 
 /* Morris's form (sim/matter/viscosity.h): V_i V_j (mu_i + mu_j) F v_ji, with velocities from `motion`. Where
    walls let fluid slip, images take part, with velocities in the mirror, at distances of at least half a
-   spacing: nearer, a particle on a wall would turn round in a step stable elsewhere. */
+   spacing. At smaller distances a particle on a wall would turn round in a step stable elsewhere. */
 SIMD_INLINE void friction_sums(const PairArgs *args, size_t begin, size_t end, float gradient)
 {
     const Constants *s = args->constants;

@@ -32,8 +32,8 @@ static double pull_of(const WorldDef *def)
 }
 
 /* 1 over the time to settle. The time to settle is proportional to the time of a fall through the box, and is
-   1/60 s for a height of 1 m. Without a driving acceleration the time to settle is proportional to the time
-   of sound across a spacing, 1/60 s for 10 cm and 20 m/s; sound has no other part in pbf. */
+   1/60 s for a height of 1 m. Without a driving acceleration it is proportional to the time of sound across a
+   spacing, 1/60 s for 10 cm and 20 m/s. Sound has no other part in pbf. */
 static double settle_rate(const WorldDef *def)
 {
     static const double FALLS = 60 * 60 / 9.81, SOUNDS = 60 * 0.1 / 20;

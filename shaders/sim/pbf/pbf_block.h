@@ -12,7 +12,7 @@
 #define PBF_MOMENTUM 0.6F
 
 /* Part of the multipliers forgotten by a step, at most, and in the time to settle. With all multipliers kept,
-   remains of a blow or of a tolerance push again before they are taken back, and a column at rest jumps; with
+   remains of a blow or of a tolerance push again before they are taken back, and a column at rest jumps. With
    none kept, half as many iterations more are needed. A short step has one iteration as a rule, and a column
    hums at 0.1 m/s where less is forgotten. */
 #define FORGOTTEN      0.5F

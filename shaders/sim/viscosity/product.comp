@@ -1,4 +1,4 @@
-// Implicit viscosity: product of the matrix and the trial direction, and terms for the length of the next step: product_range
+// Implicit viscosity: product of the matrix and the trial direction, and terms for the length of the next step. product_range
 // in sim/viscosity/pairs.c, product_body in sim/viscosity/passes.c.
 #include "sim/viscosity/viscosity.glsl"
 #include "sim/viscosity/columns.glsl"
