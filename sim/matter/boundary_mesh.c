@@ -1,5 +1,6 @@
 #include "sim/matter/boundary_mesh.h"
 
+#include "sim/base/hash.h"
 #include "sim/mesh/mesh_shape.h"
 
 #include <math.h>
@@ -172,14 +173,6 @@ typedef struct Layer {
     uint32_t thrown;
 } Layer;
 
-/* M. Nobile's mix of 32 bits, "lowbias32". */
-static uint32_t mix(uint32_t bits)
-{
-    bits = (bits ^ bits >> 16) * 0x7feb352dU;
-    bits = (bits ^ bits >> 15) * 0x846ca68bU;
-    return bits ^ bits >> 16;
-}
-
 /* Offset from the lattice point at random: else points on a plane face would lie in steps. */
 static bool throw_one(void *context, const double x[3], double distance)
 {
@@ -187,7 +180,7 @@ static bool throw_one(void *context, const double x[3], double distance)
     double at[3];
     (void)distance;
     for (int k = 0; k < 3; k++)
-        at[k] = x[k] + STEP * (mix(layer->thrown++) * 0x1p-32 - 0.5);
+        at[k] = x[k] + STEP * (hash_mix(layer->thrown++) * 0x1p-32 - 0.5);
     return !to_level(layer->body, layer->level, at) || points_add(&layer->points, at);
 }
 
@@ -195,7 +188,7 @@ static bool throw_one(void *context, const double x[3], double distance)
 static void shuffle(Points *points)
 {
     for (size_t i = points->count; i > 1; i--) {
-        const size_t j = mix((uint32_t)i) % i;
+        const size_t j = hash_mix((uint32_t)i) % i;
         double x[3];
         memcpy(x, points->x[i - 1], sizeof x);
         memcpy(points->x[i - 1], points->x[j], sizeof x);

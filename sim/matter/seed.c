@@ -1,5 +1,6 @@
 #include "sim/matter/seed.h"
 
+#include "sim/base/hash.h"
 #include "sim/matter/fill.h"
 #include "sim/matter/fill_lattice.h"
 
@@ -199,13 +200,10 @@ size_t seed_lattice(const WorldDef *def, float *position, uint8_t *fluid)
     return count;
 }
 
-/* A number in [-1, 1) from point and axis: M. Nobile's mix of 32 bits, "lowbias32". */
+/* A number in [-1, 1) from point and axis. */
 static double scatter(uint32_t point, uint32_t axis)
 {
-    uint32_t bits = point * 3 + axis + 1;
-    bits = (bits ^ bits >> 16) * 0x7feb352dU;
-    bits = (bits ^ bits >> 15) * 0x846ca68bU;
-    return (double)((bits ^ bits >> 16) >> 8) * 0x1p-23 - 1;
+    return (double)(hash_mix(point * 3 + axis + 1) >> 8) * 0x1p-23 - 1;
 }
 
 void seed_jitter(const WorldDef *def, float *position, size_t count)
