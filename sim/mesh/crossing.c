@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Which side of the line from a to b, in y and z, the point p is on: the same number for both triangles of an
-   edge but for its sign. A point on the line is taken for moved aside a little in y, and less in z. */
+/* Signed side of p relative to the line from a to b in the yz plane: equal but for the sign in both triangles
+   of an edge. A point on the line counts as moved aside slightly in y, and less in z. */
 static double side_of(const float a[3], const float b[3], const double p[3])
 {
     const double ay = a[1] - p[1], az = a[2] - p[2], by = b[1] - p[1], bz = b[2] - p[2];

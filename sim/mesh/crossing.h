@@ -1,11 +1,12 @@
-/* Where lines along x meet triangles: through a closed surface, as often inwards as outwards. */
+/* Intersections of lines along x with triangles. A line enters a closed surface as often as it leaves. */
 #ifndef SLOSH_CROSSING_H
 #define SLOSH_CROSSING_H
 
 #include "sim/mesh/triangles.h"
 
-/* Where the line along x through p meets the triangle: 1 where the line comes out there, -1 where the line
-   goes in; 0: no meeting, and *x stays. A line through an edge meets one of two triangles there. */
+/* Intersects triangle t with the line along x through p. Returns 1 where the line leaves the solid (*x: the
+   position), -1 where the line enters, 0 without an intersection (*x unchanged). A line through an edge
+   counts as moved slightly aside, so that each crossing counts once. */
 int triangle_crossing(const Triangles *of, size_t t, const double p[3], double *x);
 
 #endif

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-static const double ROUND = 2e-6; /* more than what single precision loses */
+static const double ROUND = 2e-6; /* relative; more than the rounding error of single precision */
 
 typedef struct Place {
-    double along, off; /* the axis; from it */
+    double along, off; /* along the axis; distance from the axis */
 } Place;
 
 static Place place_at(const Disc *disc, const double x[3])
@@ -39,7 +39,7 @@ static void mean_normal(const Triangles *of, const uint32_t *item, uint32_t coun
         axis[k] = length > 0 ? (float)(sum[k] / length) : 0;
 }
 
-/* The middle of the block around them. */
+/* Middle of the triangles' bounding box. */
 static void middle_of(const Triangles *of, const uint32_t *item, uint32_t count, float middle[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -53,7 +53,7 @@ static void middle_of(const Triangles *of, const uint32_t *item, uint32_t count,
     }
 }
 
-/* Along the axis, so that it is as thin as can be. */
+/* Moves the disc along the axis for the least thickness. */
 static void move_between(Disc *disc, const Triangles *of, const uint32_t *item, uint32_t count)
 {
     double low = INFINITY, high = -INFINITY;

@@ -10,13 +10,13 @@
 
 enum {
     CELLS = 64, /* along the longest side */
-    ACROSS = 3, /* through a part that is as thick as the mean */
-    ROOM = 8,   /* cells around the surface, and a part of one more */
-    COARSE = 4, /* cells from one value of the coarse grid to the next */
+    ACROSS = 3, /* least number of cells through a part of mean thickness */
+    ROOM = 8,   /* cells of margin around the surface, plus a fraction of a cell */
+    COARSE = 4, /* cells between neighbouring values of the coarse grid */
     NODES_MOST = 1 << 23
 };
 
-/* What lies on a plane of a model's own lattice is on no line of the grid. */
+/* Shift of the grid, in cells: keeps grid lines off the planes of the model's own lattice. */
 static const double aside[3] = {0.3819660113, 0.4142135624, 0.2679491924};
 
 size_t distance_count(const DistanceGrid *grid)
@@ -29,7 +29,7 @@ static size_t index_of(const DistanceGrid *grid, int i, int j, int k)
     return (size_t)i + (size_t)grid->size[0] * ((size_t)j + (size_t)grid->size[1] * (size_t)k);
 }
 
-/* ---- its shape ---- */
+/* ---- shape of the grid ---- */
 
 static double nodes_of(DistanceGrid *grid, double cell)
 {
@@ -49,7 +49,7 @@ static void shape(DistanceGrid *grid, const Triangles *of)
     double low[3];
     triangles_bounds(of, low, grid->inner);
     const double longest = 2 * fmax(fmax(grid->inner[0], grid->inner[1]), grid->inner[2]);
-    const double thick = 2 * triangles_volume(of) / triangles_area(of); /* of a plate */
+    const double thick = 2 * triangles_volume(of) / triangles_area(of); /* of an equivalent plate */
     double cell = longest / CELLS;
     if (thick > 0)
         cell = fmax(fmin(cell, thick / ACROSS), longest / (16 * CELLS));
@@ -80,7 +80,7 @@ static float exact_at(const Work *work, int i, int j, int k, uint32_t *near)
     return (float)triangle_tree_nearest(work->tree, x, near);
 }
 
-/* Exact where it is a few cells only. */
+/* Distance at a corner: exact up to ROOM cells, else up to 2 % too large. */
 static float nearly_at(const Work *work, int i, int j, int k, uint32_t *near)
 {
     const double exact = ROOM * work->grid->cell;
@@ -103,7 +103,8 @@ static void coarse_range(void *context, size_t begin, size_t end)
     }
 }
 
-/* Of a block of the coarse grid: the corners that it ends with, on each axis, are the next block's. */
+/* A block between eight values of the coarse grid. Corners at the far end of each axis belong to the next
+   block. */
 typedef struct Block {
     int low[3];
     double corner[8]; /* distances */
@@ -125,7 +126,7 @@ static double between(const double corner[8], const double t[3])
     return sum;
 }
 
-/* Whether all of a block is farther from the surface than two and a half cells. */
+/* True if the whole block is farther than 2.5 cells from the surface. */
 static bool is_far(const Work *work, const Block *block, uint32_t *near)
 {
     const int half = COARSE / 2, *low = block->low;
@@ -152,7 +153,8 @@ static void fill_block(const Work *work, const Block *block, uint32_t *near)
             }
 }
 
-/* Layers of blocks. The coarse values of a layer's far side are the next one's, and stay what they are. */
+/* Fills layers of blocks. The coarse values on a layer's far side belong to the next layer and are only
+   read. */
 static void fine_range(void *context, size_t begin, size_t end)
 {
     const Work *work = context;
@@ -189,7 +191,7 @@ static BinSpan layers_of(const void *context, size_t t)
     return (BinSpan){(size_t)begin, (size_t)(end > begin ? end : begin)};
 }
 
-/* Puts down where the lines of a layer cross the triangle. */
+/* Records winding changes where the grid lines of layer k cross triangle t. */
 static void cross_layer(const Work *work, size_t t, int k)
 {
     const DistanceGrid *grid = work->grid;
@@ -231,8 +233,8 @@ static void sign_range(void *context, size_t begin, size_t end)
 
 /* ---- within parts that overlap ---- */
 
-/* The distance inside, of three neighbours' distances, least first, by |grad d| = 1: Zhao, "A fast
-   sweeping method for Eikonal equations", 2005, (2.4). */
+/* Depth of a node from the depths of three neighbours, least first, by |grad d| = 1: Zhao, "A fast sweeping
+   method for Eikonal equations", 2005, (2.4). */
 static double by_neighbours(const double a[3], double cell)
 {
     double d = a[0] + cell;
@@ -251,7 +253,7 @@ static void order(double *low, double *high)
     *low = l, *high = h;
 }
 
-/* Nodes outside count as 0 deep. A plane at the end of the grid is outside. */
+/* Updates the depth of an inner node. Nodes outside have depth 0. The end planes of the grid are outside. */
 static void deepen(const DistanceGrid *grid, float *deep, const int at[3])
 {
     const size_t step[3] = {1, (size_t)grid->size[0], (size_t)grid->size[0] * (size_t)grid->size[1]},
@@ -265,7 +267,7 @@ static void deepen(const DistanceGrid *grid, float *deep, const int at[3])
     deep[here] = fminf(deep[here], (float)by_neighbours(a, grid->cell));
 }
 
-/* All inner nodes, each axis upwards or downwards. */
+/* Sweeps all inner nodes; bits 1, 2, 4 of `way` reverse x, y, z. */
 static void sweep(const DistanceGrid *grid, float *deep, int way)
 {
     const int *size = grid->size;
@@ -279,8 +281,8 @@ static void sweep(const DistanceGrid *grid, float *deep, int way)
             }
 }
 
-/* The surface of a part within other parts is no surface: where such a surface was nearest, distances are
-   counted from nodes next to the surface of the whole. */
+/* Surfaces of parts within other parts do not count: where such a surface was nearest, depths are computed
+   again, starting at nodes next to the surface of the union. Returns false if memory is short. */
 static bool leave_inner_surfaces(DistanceGrid *grid)
 {
     const size_t count = distance_count(grid);
@@ -315,7 +317,7 @@ bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads)
     bool ok =
         grid->value && work.winding && bins_fill(&bins, layers, tree->of->triangle_count, layers_of, &work);
     for (size_t i = 0; ok && i < distance_count(grid); i++)
-        grid->value[i] = (float)(ROOM * grid->cell); /* the last planes, which are no block's */
+        grid->value[i] = (float)(ROOM * grid->cell); /* for the last planes, outside all blocks */
     if (ok) {
         parallel_ranges(threads, rows * ((layers - 1) / COARSE + 1), 8, coarse_range, &work);
         parallel_ranges(threads, (layers - 1) / COARSE, 1, fine_range, &work);
@@ -335,10 +337,10 @@ void distance_free(DistanceGrid *grid)
     *grid = (DistanceGrid){0};
 }
 
-/* ---- reading it ---- */
+/* ---- reading the grid ---- */
 
-/* Where x is among the values: the cell that it is in or nearest to, how far along it, and how far from it.
- */
+/* A position on the grid: place t in the nearest cell (0 .. 1), corner values, and distance from the grid (0
+   on the grid). */
 typedef struct Spot {
     double t[3], corner[8], beyond;
 } Spot;
@@ -360,7 +362,7 @@ static void spot_at(const DistanceGrid *grid, const double x[3], Spot *spot)
     spot->beyond = sqrt(beyond2);
 }
 
-/* From the block that the surface is in. */
+/* Distance from x to the bounding box of the surface; 0 inside. */
 static double outside(const DistanceGrid *grid, const double x[3])
 {
     double sum = 0;
@@ -400,7 +402,7 @@ double distance_deepest(const DistanceGrid *grid)
     return -deepest;
 }
 
-/* A cell about each value, cut by the level across the way that the distance grows. */
+/* Each value stands for a cell around the node, cut by the level perpendicular to the gradient. */
 double distance_volume_below(const DistanceGrid *grid, double depth)
 {
     const double cell = grid->cell;

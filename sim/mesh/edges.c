@@ -21,8 +21,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* By the lesser end, in `begin` of each vertex, which moves to the end; the greater end and the side in
- * `key`. */
+/* Sorts the sides by the lesser vertex, then by the greater. `key`: greater vertex << 32 | side. `begin`: on
+   return, the end of each vertex's sides in `key`. */
 static void sort_sides(const Triangles *triangles, size_t *begin, uint64_t *key)
 {
     const size_t sides = 3 * triangles->triangle_count;

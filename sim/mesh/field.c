@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SLAB = 8 }; /* slices: a slab of 128^2 of them stays in a core's cache */
+enum { SLAB = 8 }; /* slices in a slab: 8 slices of 128^2 values stay in a core's cache */
 
 size_t volume_grid_cells(const VolumeGrid *grid)
 {
@@ -52,9 +52,9 @@ double field_at(const FieldParticles *particles, const double r[3], double *weig
     return sum;
 }
 
-/* ---- which particles reach into which slab ---- */
+/* ---- particles within reach of each slab ---- */
 
-/* The first whole number from x on, and the first above x, of 0 .. size. */
+/* The least integer >= x, and the least integer > x, limited to 0 .. size. */
 static int whole_from(double x, int size)
 {
     const double bounded = x < 0 ? 0 : x > size ? size : x;
@@ -84,7 +84,7 @@ typedef struct Sum {
     float *field, *weighted;
 } Sum;
 
-/* The slabs that particle i reaches into. */
+/* Slabs within reach of particle i. */
 static BinSpan reached_slabs(const void *context, size_t i)
 {
     const Sum *sum = context;
@@ -100,14 +100,14 @@ void field_slabs_free(FieldSlabs *slabs)
     bins_free(&slabs->bins);
 }
 
-/* A particle as a row of the grid sees it: V W = most (1 - q^2)^3, q = r / h; Müller 2003, eq. 20. */
+/* A particle's contribution in grid units: V W = most (1 - q^2)^3, q = r / h; Müller 2003, eq. 20. */
 typedef struct Bump {
-    int first[3], end[3]; /* the values that it is added to */
-    float at[3];          /* its place among the values, cells */
+    int first[3], end[3]; /* range of grid values within reach */
+    float at[3];          /* position relative to the first value, cells */
     float most, inverse;  /* V W(0); 1 / (h / cell)^2 */
 } Bump;
 
-enum { LANES = 8, ROW = 256 }; /* values along x at a time, of a bump */
+enum { LANES = 8, ROW = 256 }; /* values along x: in a register; in a piece of a row */
 
 typedef float Lanes __attribute__((vector_size(4 * LANES), aligned(4), may_alias));
 typedef int32_t LaneMask __attribute__((vector_size(4 * LANES)));
@@ -129,8 +129,8 @@ INLINE void add_row(float *restrict row, const float *restrict square, int count
     }
 }
 
-/* Adds to the values first <= i < first + count of each row; if there is room to as many as fill whole
-   registers, since those beyond the bump get nothing. */
+/* Adds to the values first <= i < first + count of each row. Rounds count up to whole registers if the row
+   has room: values beyond the bump get 0. */
 INLINE void add_rows(float *values, const VolumeGrid *grid, const Bump *bump, int first, int count)
 {
     float square[ROW];

@@ -20,7 +20,7 @@ typedef struct VolumeGrid {
 
 size_t volume_grid_cells(const VolumeGrid *grid);
 
-/* What is summed. A particle whose position, volume or scalar is not finite is left out. */
+/* The particles to sum. A particle whose position, volume or scalar is not finite is left out. */
 typedef struct FieldParticles {
     size_t count;
     const float *position; /* 4 a particle: x y z (m), volume (m3) */
@@ -28,26 +28,26 @@ typedef struct FieldParticles {
     double support;        /* h, m */
 } FieldParticles;
 
-/* The least and the greatest coordinates of the particles that are not left out; false when there is none. */
+/* Least and greatest coordinates of the particles not left out, m. Returns false if no particle remains. */
 bool field_bounds(const FieldParticles *particles, double low[3], double high[3]);
 
-/* Which particles reach into which slab of the grid, kept from sum to sum so that each needs no new memory.
-   Zero-initialise it. */
+/* Lists of the particles within reach of each slab of the grid; kept between sums to reuse the memory.
+   Zero-initialise. */
 typedef struct FieldSlabs {
     Bins bins;
 } FieldSlabs;
 
-void field_slabs_free(FieldSlabs *slabs); /* a zeroed one is allowed */
+void field_slabs_free(FieldSlabs *slabs); /* zeroed slabs are allowed */
 
-/* Sets each of the grid's values: field to sum V W, `weighted` to sum V W scalar; either may be NULL.
-   Slabs of the grid are summed in parallel, each value in the particles' order: the same bits for any number
-   of threads. A weight is rounded to float before it is added. False when memory is short: then the values
-   are not set. */
+/* Sets each grid value: `field` to sum V W, `weighted` to sum V W scalar; either array may be NULL. Slabs of
+   the grid are summed in parallel, each value in particle order: the same bits for any number of threads.
+   Weights are rounded to float before the sum. Returns false if memory is short: the values are then not
+   set. */
 bool field_sum(const FieldParticles *particles, const VolumeGrid *grid, int threads, FieldSlabs *slabs,
                float *field, float *weighted, Error *error);
 
-/* The same at one point, r (m), in double over all particles: what to measure others against. `weighted` may
-   be NULL. */
+/* The field at point r (m), summed in double over all particles: a reference to check other sums. `weighted`
+   may be NULL. */
 double field_at(const FieldParticles *particles, const double r[3], double *weighted);
 
 #endif

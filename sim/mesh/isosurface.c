@@ -1,11 +1,11 @@
-/* The 256 cases are not a table but are made from one rule, face by face, which both cubes at a face follow:
-   round a face, each run of inside corners is cut off by a line of its own. Where a face has two inside
-   corners across its diagonal, they are thus kept apart on both sides of it. After: C. Montani, R. Scateni,
-   R. Scopigno, "A modified look-up table for implicit disambiguation of marching cubes", 1994.
+/* The 256 cases come from a rule for each face, the same for both cubes at the face: around a face, a
+   separate line cuts off each run of inside corners. Two diagonally opposite inside corners are thus kept
+   apart in both cubes. After: C. Montani, R. Scateni, R. Scopigno, "A modified look-up table for implicit
+   disambiguation of marching cubes", 1994.
 
-   Where a loop is cut into triangles no cut may lie in a face: the neighbour could have the same one, and
-   four triangles would meet there. Own code, since GTS 0.7.6, the one C library for it, takes 14 times as
-   long, and its mesh of noise is not closed. */
+   No diagonal of a loop's triangles may lie in a face of the cube: the neighbouring cube could have the same
+   diagonal, and four triangles would meet there. Own code: GTS 0.7.6, the only C library for marching cubes,
+   takes 14 times as long, and its mesh of noise is not closed. */
 #include "sim/mesh/isosurface.h"
 
 #include <stdlib.h>
@@ -17,10 +17,10 @@ enum { CORNERS = 8, EDGES = 12, CASES = 256, MOST_TRIANGLES = 5 };
 
 typedef struct Cases {
     uint8_t triangles[CASES];
-    uint8_t edge[CASES][3 * MOST_TRIANGLES]; /* three of a triangle */
+    uint8_t edge[CASES][3 * MOST_TRIANGLES]; /* three for each triangle */
 } Cases;
 
-/* The edge along `axis` that `corner` is an end of. */
+/* The edge along `axis` with `corner` as an end. */
 static int edge_at(int corner, int axis)
 {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -32,7 +32,7 @@ static int edge_between(int corner, int other)
     return edge_at(corner, (corner ^ other) >> 1); /* 1, 2, 4 differ in x, y, z */
 }
 
-/* A bit for each face that has the edge: 2 axis + side. */
+/* Bits 2 axis + side of the two faces at an edge. */
 static int edge_faces(int edge)
 {
     const int u = (edge / 4 + 1) % 3, v = (edge / 4 + 2) % 3;
@@ -48,13 +48,13 @@ static void face_corners(int face, int corner[4])
         corner[k] = round[side ? k : 3 - k] | side << axis;
 }
 
-/* The surface's lines on a face: next[edge] is where the line ends that begins on that edge. */
+/* Lines of the surface on a face: next[edge] is the end edge of the line from `edge`. */
 static void cut_face(int inside, int face, int next[EDGES])
 {
     int corner[4];
     face_corners(face, corner);
     for (int k = 0; k < 4; k++) {
-        int first = k; /* of the run of inside corners that ends with k */
+        int first = k; /* of the run of inside corners up to k */
         if (!(inside >> corner[k] & 1) || inside >> corner[(k + 1) % 4] & 1)
             continue;
         while (inside >> corner[(first + 3) % 4] & 1)
@@ -64,8 +64,8 @@ static void cut_face(int inside, int face, int next[EDGES])
     }
 }
 
-/* Whether the fan of triangles from loop[apex] has no side in a face of the cube but the loop's own: the cube
-   behind that face could have the same side, and four triangles would meet there. */
+/* True if the fan of triangles from loop[apex] has no diagonal in a face of the cube: the neighbouring cube
+   could have the same diagonal, and four triangles would meet there. */
 static bool fan_is_inside(const int loop[], int length, int apex)
 {
     for (int k = 2; k < length - 1; k++)
@@ -77,7 +77,7 @@ static bool fan_is_inside(const int loop[], int length, int apex)
 static void add_fan(Cases *cases, int inside, const int loop[], int length)
 {
     int apex = 0;
-    while (!fan_is_inside(loop, length, apex)) /* each of the loops that occur has one */
+    while (!fan_is_inside(loop, length, apex)) /* every loop has such an apex */
         apex++;
     for (int k = 1; k < length - 1; k++) {
         uint8_t *edge = cases->edge[inside] + 3 * cases->triangles[inside]++;
@@ -87,7 +87,7 @@ static void add_fan(Cases *cases, int inside, const int loop[], int length)
     }
 }
 
-/* Follows the lines over the faces until they close. */
+/* Follows the lines across the faces into closed loops. */
 static void make_case(Cases *cases, int inside)
 {
     int next[EDGES], loop[EDGES];
@@ -115,14 +115,14 @@ static void make_cases(Cases *cases)
 
 /* ---- the march ---- */
 
-/* Between two slices of values. What is known of the lower slice was the upper one's a step before. */
+/* State between two slices of values. The upper slice becomes the lower slice of the next step. */
 typedef struct March {
     const float *values;
     float level;
     size_t width, height, depth;
-    uint8_t *inside[2];      /* of each value of the lower and the upper slice */
-    uint32_t *crossed[2][2]; /* the vertex on the edge along x, along y from each */
-    uint32_t *risen;         /* and along z, from the lower to the upper */
+    uint8_t *inside[2];      /* for each value of the lower and the upper slice */
+    uint32_t *crossed[2][2]; /* [slice][axis]: vertex on the edge along x or y */
+    uint32_t *risen;         /* vertex on the edge from the lower to the upper slice */
     size_t vertex_capacity, triangle_capacity;
     IsoMesh *mesh;
 } March;
@@ -150,7 +150,7 @@ static void march_end(March *march)
     free(march->risen);
 }
 
-/* Room for one more in an array that doubles. */
+/* Makes room for a further element; doubles a full array. Returns false if memory is short. */
 static bool room(void **array, size_t count, size_t *capacity, size_t width)
 {
     if (count < *capacity)
@@ -164,15 +164,16 @@ static bool room(void **array, size_t count, size_t *capacity, size_t width)
     return true;
 }
 
-/* Where the level is crossed on the way from one value to the next; at the grid's border beside the value
-   there that is not outside by itself. Away from both ends, where vertices of other edges could be. */
+/* Position of the level between two values, away from both ends, where vertices of other edges could be. If a
+   border value counts as outside only by its place, the vertex goes next to the border value. */
 static float crossing(float from, float to, float level, bool outwards)
 {
     const float t = (outwards ? to : from) >= level ? outwards : (level - from) / (to - from);
     return !(t > 0.001F) ? 0.001F : t > 0.999F ? 0.999F : t;
 }
 
-/* A vertex on the edge along `axis` from `at`, which leaves the inside or enters it. */
+/* Adds a vertex on the edge along `axis` from `at`. `outwards`: `at` is inside. Returns false if memory is
+   short. */
 static bool add_vertex(March *march, size_t at, int axis, size_t step, bool outwards, uint32_t *index)
 {
     IsoMesh *mesh = march->mesh;
@@ -185,7 +186,7 @@ static bool add_vertex(March *march, size_t at, int axis, size_t step, bool outw
     return true;
 }
 
-/* The upper slice becomes the lower one, and slice k the upper. */
+/* Moves up: the upper slice becomes the lower, slice k the upper. */
 static void next_slice(March *march, size_t k)
 {
     uint8_t *inside = march->inside[0];
@@ -203,8 +204,8 @@ static void next_slice(March *march, size_t k)
                 march->values[i + march->width * (j + march->height * k)] >= march->level;
 }
 
-/* The vertices on the edges of slice k, and on those that rise to it. The last of a row and the last row have
-   none, being outside as what is beside them. */
+/* Adds vertices on the edges of slice k, and on the edges between slices k - 1 and k. Border values are all
+   outside, so the end of a row and the last row give no vertex. */
 static bool add_vertices(March *march, size_t k)
 {
     const size_t slice = march->width * march->height;
@@ -250,7 +251,7 @@ static bool add_cube(March *march, const Cases *cases, size_t at, int inside)
     return true;
 }
 
-/* The four values of a slice around the corner `at`, as bits. */
+/* Inside bits of four neighbouring values of a slice. */
 static int four(const uint8_t *inside, size_t width)
 {
     return inside[0] | inside[1] << 1 | inside[width] << 2 | inside[width + 1] << 3;
@@ -306,7 +307,7 @@ void isosurface_free(IsoMesh *mesh)
     *mesh = (IsoMesh){0};
 }
 
-/* ---- values at its vertices ---- */
+/* ---- values at vertices ---- */
 
 static size_t step_along(const IsoMesh *mesh, int axis)
 {
@@ -331,7 +332,7 @@ void isosurface_place(const IsoMesh *mesh, size_t vertex, double place[3])
         place[k] = (double)index[k] + (k == v->axis ? (double)v->t : 0);
 }
 
-/* The sum of the tetrahedra that the triangles make with the first value. */
+/* Sums the signed tetrahedra between the triangles and the first value. */
 double isosurface_volume(const IsoMesh *mesh)
 {
     double volume = 0;
@@ -352,8 +353,7 @@ float isosurface_value(const IsoMesh *mesh, size_t vertex, const float *values)
     return (1 - v->t) * values[v->at] + v->t * values[v->at + step_along(mesh, v->axis)];
 }
 
-/* The difference to the next value along the axis and to the one before, halved; at the grid's border the one
-   that there is. */
+/* Central difference along the axis, per cell; one-sided at the grid's border. */
 static float difference(const IsoMesh *mesh, size_t at, int axis, const float *values)
 {
     size_t index[3];

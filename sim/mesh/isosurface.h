@@ -1,10 +1,9 @@
-/* Where values on a grid cross a level: a closed mesh of triangles, by marching cubes. After: W. Lorensen,
-   H. Cline, "Marching cubes: a high resolution 3D surface construction algorithm", 1987.
+/* Level set of values on a grid, as a closed mesh of triangles, by marching cubes. After: W. Lorensen, H.
+   Cline, "Marching cubes: a high resolution 3D surface construction algorithm", 1987.
 
-   Inside is where a value is at least the level; the grid's outermost values count as outside whatever they
-   are. So the mesh is always closed: each edge belongs to two triangles, which run through it in opposite
-   directions; triangles turn counter-clockwise seen from outside; no two vertices share a place. Values that
-   are no numbers are outside. */
+   Values at or above the level are inside. The outermost values of the grid always count as outside, and so
+   does NaN. So the mesh is always closed: each edge belongs to two triangles with opposite directions along
+   the edge. Triangles turn counter-clockwise seen from outside; no two vertices share a position. */
 #ifndef SLOSH_ISOSURFACE_H
 #define SLOSH_ISOSURFACE_H
 
@@ -14,11 +13,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* On the edge from the value `at` to the next one along `axis`. */
+/* A vertex on the edge from value number `at` to the next value along `axis`. */
 typedef struct IsoVertex {
     size_t at;
     int axis;
-    float t; /* how far along the edge, 0.001 .. 0.999 */
+    float t; /* position along the edge, 0.001 .. 0.999 */
 } IsoVertex;
 
 typedef struct IsoMesh {
@@ -28,22 +27,23 @@ typedef struct IsoMesh {
     uint32_t (*triangle)[3]; /* vertices */
 } IsoMesh;
 
-/* `values` has size[0] size[1] size[2] numbers, x fastest. False when memory is short, or there are more than
-   2^32 vertices: then the mesh is empty. */
+/* Makes the mesh; free with isosurface_free. `values`: size[0] size[1] size[2] numbers, x fastest. Returns
+   false and an empty mesh if memory is short or the mesh needs more than 2^32 - 1 vertices. */
 bool isosurface(const int size[3], const float *values, float level, IsoMesh *mesh, Error *error);
 
-void isosurface_free(IsoMesh *mesh); /* a zeroed one is allowed */
+void isosurface_free(IsoMesh *mesh); /* a zeroed mesh is allowed */
 
-/* The place of a vertex, in cells from the first value. */
+/* Position of a vertex, in cells from the first value. */
 void isosurface_place(const IsoMesh *mesh, size_t vertex, double place[3]);
 
-/* What the mesh encloses, in cells. */
+/* Enclosed volume, in cells. */
 double isosurface_volume(const IsoMesh *mesh);
 
-/* Any values on the same grid at a vertex, linear along its edge. */
+/* Interpolates any values of the same grid linearly along a vertex's edge. */
 float isosurface_value(const IsoMesh *mesh, size_t vertex, const float *values);
 
-/* The slope of values at a vertex, per cell: central differences at the ends of its edge, linear between. */
+/* Gradient of values at a vertex, per cell: central differences at the ends of the vertex's edge, linear
+   between. */
 void isosurface_slope(const IsoMesh *mesh, size_t vertex, const float *values, float slope[3]);
 
 #endif

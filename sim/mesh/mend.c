@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double SAME = 1e-6; /* of the whole: vertices as near are the same */
+static const double SAME = 1e-6; /* relative to the longest side: joining distance of vertices */
 
 static double vector_length(const double v[3])
 {
@@ -26,8 +26,9 @@ static bool all_finite(const Triangles *triangles, Error *error)
 
 /* ---- triangles without area ---- */
 
-/* Corners that coincide leave an edge that is there and back: without such a triangle the rest is as closed
-   as with it. One whose corners stand in a line may be all that joins its neighbours, so it stays. */
+/* Removes triangles with coinciding corners: two of their sides cancel, so the rest stays as closed as
+   before. Keeps triangles with collinear corners, since such a triangle may be the only link of its
+   neighbours. Returns the number of triangles without area. */
 static size_t drop_flat(Triangles *triangles)
 {
     double low[3], high[3], extent[3], normal[3];
@@ -103,7 +104,7 @@ static bool copy_of(const Triangles *triangles, Triangles *copy)
     return true;
 }
 
-/* Whether the surface is closed once vertices as near as `part` are joined. */
+/* True if the surface is closed after joining vertices within `part` of the longest side. */
 static bool closes(const Triangles *triangles, double part)
 {
     Triangles copy;
@@ -119,7 +120,7 @@ static bool closes(const Triangles *triangles, double part)
     return ok;
 }
 
-/* The least of some widths at which the surface closes; 0: at none. */
+/* Least of some relative widths at which joined vertices close the surface; 0: no width does. */
 static double gap_of(const Triangles *triangles)
 {
     static const double width[] = {3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3};
@@ -152,7 +153,7 @@ static bool turn_outwards(Triangles *triangles)
     return true;
 }
 
-/* Copies of triangles go where edges have too many triangles. */
+/* Removes copies of triangles at edges with too many triangles. Returns false if memory is short. */
 static bool close_edges(Triangles *triangles, Edges *edges, TrianglesState *state)
 {
     if (count_edges(triangles, edges, state))
@@ -168,7 +169,7 @@ static bool close_edges(Triangles *triangles, Edges *edges, TrianglesState *stat
     return true;
 }
 
-/* Each part outwards, and no triangle twice. */
+/* Turns each part outwards; removes copies and walls. Returns false if memory is short. */
 static bool settle_parts(Triangles *triangles, Edges *edges, TrianglesState *state, double middle[3])
 {
     Parts parts = {0};

@@ -8,7 +8,7 @@
 
 enum { CUTS_COUNTED = 1000, PAIRS_MOST = 20000000 };
 
-static const double COARSE = 1e-4; /* of a mesh's length: a tenth of the finest cell of distances */
+static const double COARSE = 1e-4; /* relative to the mesh's length: a tenth of the finest distance cell */
 
 static bool refuse_open(const TrianglesState *state, Error *error)
 {

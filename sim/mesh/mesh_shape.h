@@ -1,5 +1,5 @@
-/* A closed mesh as a shape: its triangles, the distance from them, and what it measures. All about the middle
-   of the block around it, in the unit of its file. */
+/* A closed mesh as a shape: triangles, distance grid and measures. Positions are relative to the middle of
+   the bounding box; lengths are in the file's unit. */
 #ifndef SLOSH_MESH_SHAPE_H
 #define SLOSH_MESH_SHAPE_H
 
@@ -10,26 +10,27 @@
 typedef struct MeshShape {
     Triangles triangles;
     DistanceGrid distance;
-    double half[3];      /* half the sides of the block around it */
+    double half[3];      /* half the sides of the bounding box */
     double reach;        /* from the middle to the farthest vertex */
     double volume, area; /* volume: of the union of the parts; area: of the triangles */
     Moments excess; /* integrals over the triangles less integrals over the union; 0 where no parts overlap */
     double depth;   /* from the surface to the place deepest inside */
-    uint64_t hash;  /* of its triangles */
+    uint64_t hash;  /* of the vertices and triangles */
 } MeshShape;
 
-/* What is wrong with a mesh that was made all the same. Parts overlap where the shape's excess is not 0. */
+/* Faults of an accepted mesh. Parts overlap if the shape's excess is not 0. */
 typedef struct MeshState {
     TrianglesState triangles;
-    double middle[3];   /* of the block around it, where it came from */
-    size_t cutting;     /* pairs of triangles that cut each other */
-    bool all_looked_at; /* for such pairs; false: there may be more */
-    char coarse[200]; /* a line for the user where the file's numbers are too coarse, so far from 0; "": none
-                       */
+    double middle[3];   /* of the bounding box, before the move to 0 */
+    size_t cutting;     /* intersecting pairs of triangles */
+    bool all_looked_at; /* all pairs were tested; false: there may be more */
+    char coarse[200];   /* message for the user if the file's floats are too coarse so far from 0; "": fine
+                           enough */
 } MeshState;
 
-/* Takes the triangles over, which are empty then. NULL where they enclose nothing, are open, or memory is
-   short: `error` says "what is wrong; what would be right". */
+/* Makes a shape; free with mesh_shape_free. Takes ownership of the triangles: `triangles` is empty on return.
+   Returns NULL if the mesh encloses nothing, is open, or memory is short; `error` says "what is wrong; what
+   would be right". */
 MeshShape *mesh_shape_make(Triangles *triangles, int threads, MeshState *state, Error *error);
 void mesh_shape_free(MeshShape *shape); /* NULL is allowed */
 

@@ -139,7 +139,7 @@ static bool cross(const Lines *lines, size_t t, size_t row, Crossing **all, size
     return true;
 }
 
-/* `times` the block between two places of a line. */
+/* Adds `times` the moments of the block from `low` to `high`. */
 static void add_block(Moments *sum, const double low[3], const double high[3], double times)
 {
     double size[3], middle[3];

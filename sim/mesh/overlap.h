@@ -1,5 +1,6 @@
-/* Volumes within several parts of a closed surface, or within a part inside out: by how much integrals over
-   the triangles exceed integrals over the union of the parts. */
+/* Overlap of parts: the excess of integrals over the triangles of a closed surface, compared with integrals
+   over the union of the parts. Volumes within several parts, or within a part inside out, cause the
+   excess. */
 #ifndef SLOSH_OVERLAP_H
 #define SLOSH_OVERLAP_H
 
@@ -10,9 +11,9 @@ typedef struct Moments {
     double volume, first[3], second[3][3];
 } Moments;
 
-/* The integrals of w - 1 where the winding number w is not 0: exact along x, by the middles of at least 512
-   strips of the longer of the other two sides; strips end where parts end. Exact for blocks along the axes,
-   else within some thousandths of the excess. The same bits for any number of threads. False when memory is
+/* Integrates w - 1 where the winding number w is not 0: exactly along x; in y and z by the middles of strips,
+   at least 512 along the longer side. Strips end where parts end. Exact for blocks along the axes, else
+   within some thousandths of the excess. The same bits for any number of threads. Returns false if memory is
    short. */
 bool overlap_excess(const Triangles *triangles, int threads, Moments *excess);
 

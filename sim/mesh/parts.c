@@ -9,9 +9,8 @@
 
 /* ---- joined triangles ---- */
 
-/* Triangles in sets, each known by a member: Galler and Fischer, "An improved equivalence algorithm",
- * 1964.
- */
+/* Union-find: returns the set of triangle t, named by a member. Galler and Fischer, "An improved equivalence
+   algorithm", 1964. */
 static uint32_t set_of(uint32_t *up, uint32_t t)
 {
     while (up[t] != t)
@@ -19,7 +18,7 @@ static uint32_t set_of(uint32_t *up, uint32_t t)
     return t;
 }
 
-/* The lesser of both members stays the name of the set. */
+/* Joins two sets under the lesser of both names. */
 static void join(uint32_t *up, uint32_t a, uint32_t b)
 {
     a = set_of(up, a);
@@ -38,7 +37,8 @@ static uint32_t *all_apart(size_t count)
     return up;
 }
 
-/* `open`, of room for all sides: sides of the edge whose partner is yet to come. */
+/* Joins the triangles at an edge in pairs of opposite directions. `open`: scratch for the unpaired sides,
+   with room for all sides. */
 static void join_at_edge(const Triangles *triangles, const Edges *edges, size_t e, uint32_t *up,
                          uint32_t *open)
 {
@@ -81,7 +81,7 @@ void parts_free(Parts *parts)
 
 /* ---- turning ---- */
 
-enum { LAYERS = 1024, ASKED = 8 }; /* of bins of triangles; places asked of each part */
+enum { LAYERS = 1024, ASKED = 8 }; /* bins of triangles; test points on each part */
 
 typedef struct Part {
     double volume;
@@ -155,7 +155,7 @@ static bool rank(Turner *turner)
     return true;
 }
 
-/* How often the greater parts wind around x. */
+/* Winding number of the greater parts around x. */
 static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
 {
     const int layer = layer_at(turner, x[2]);
@@ -173,7 +173,7 @@ static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
     return winding;
 }
 
-/* A little outside of the volume of a part inside out, at the middle of the triangle. */
+/* A point just outside the volume of an inside-out part, at the middle of triangle t. */
 static void place_outside(const Turner *turner, size_t t, double x[3])
 {
     const Triangles *of = turner->triangles;
@@ -188,7 +188,7 @@ static void place_outside(const Turner *turner, size_t t, double x[3])
     }
 }
 
-/* `member`: the triangles of each part, part by part. */
+/* True if all test points of part p are inside greater parts. `member`: the triangles of part p. */
 static bool is_cavity(const Turner *turner, uint32_t p, const uint32_t *member)
 {
     const Part *part = &turner->part[p];
@@ -273,11 +273,11 @@ typedef struct Merge {
     const Edges *edges;
     bool walls;
     bool *copy, *wall; /* of each triangle */
-    uint32_t *set;     /* copies that edges join */
-    long *worse;       /* of each set: by how many edges without the set */
+    uint32_t *set;     /* sets of copies joined by edges */
+    long *worse;       /* increase of unbalanced edges without the set, for each set */
 } Merge;
 
-/* Of a triangle whose third corner is not at a side. */
+/* The corner opposite a side. */
 static uint32_t third(const Triangles *triangles, uint32_t side)
 {
     return triangles->triangle[side / 3][(side + 2) % 3];
@@ -289,8 +289,8 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Of triangles with the same corners: as many of each turn as of the opposite turn are walls, the first of
-   the rest stays. */
+/* Marks triangles with the same corners. With `walls`, pairs of opposite directions are walls; the first
+   remaining triangle of each direction stays; the rest are copies. */
 static void mark_set(Merge *merge, const uint64_t *key, size_t count)
 {
     size_t ways[2] = {0}, seen[2] = {0};
@@ -305,7 +305,8 @@ static void mark_set(Merge *merge, const uint64_t *key, size_t count)
     }
 }
 
-/* Triangles at an edge whose third corner comes after the ends, so that each set is seen at a single edge. */
+/* Marks triangles at an edge whose third corner has a greater number than both ends: each set is seen at a
+   single edge. */
 static void mark_at_edge(Merge *merge, size_t e, uint64_t *key)
 {
     const Triangles *triangles = merge->triangles;
@@ -338,7 +339,8 @@ static void join_copies(Merge *merge, size_t e)
     }
 }
 
-/* Whether an edge is in balance with copies, and without copies. */
+/* Compares the balance of an edge with copies and without: +1 if only balanced with copies, -1 if only
+   balanced without. */
 static void count_worse(Merge *merge, size_t e)
 {
     long with = 0, without = 0;

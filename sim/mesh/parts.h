@@ -1,4 +1,5 @@
-/* The parts of a closed surface: triangles joined by edges, whatever a part touches, cuts or covers. */
+/* Connected parts of a closed surface: triangles joined by edges. Parts may touch, cut or cover each
+   other. */
 #ifndef SLOSH_PARTS_H
 #define SLOSH_PARTS_H
 
@@ -9,20 +10,19 @@ typedef struct Parts {
     uint32_t *of; /* each triangle's part */
 } Parts;
 
-/* Where more than two triangles meet at an edge, neighbours in the file of opposite turns belong together.
- * False when memory is short. */
+/* Finds the parts; free with parts_free. Where more than two triangles meet at an edge, neighbours in file
+   order with opposite directions belong together. Returns false if memory is short. */
 bool parts_make(Parts *parts, const Triangles *triangles, const Edges *edges);
-void parts_free(Parts *parts); /* a zeroed one is allowed */
+void parts_free(Parts *parts); /* zeroed parts are allowed */
 
-/* Of a surface whose every edge has as many triangles forwards as backwards: turns parts of a negative volume
-   outwards, but for cavities, that is such parts inside larger parts. *turned: how many. False when memory is
-   short.
- */
+/* Turns parts of negative volume outwards, except cavities: parts of negative volume inside larger parts.
+   Every edge must have as many triangles forwards as backwards. *turned: number of parts turned. Returns
+   false if memory is short. */
 bool parts_turn(Triangles *triangles, const Parts *parts, size_t *turned);
 
-/* Takes out triangles with the same corners as earlier triangles: copies, where no edge lacks a triangle
-   without the copies; with `walls` also pairs of opposite turns, with the same part of space on both sides.
-   *count: how many. False when memory is short. */
+/* Removes triangles with the same corners as earlier triangles: copies, unless edges would lack triangles
+   without the copies; with `walls` also pairs of opposite directions, with the same part of space on both
+   sides. *count: number of triangles removed. Returns false if memory is short. */
 bool parts_merge(Triangles *triangles, const Edges *edges, bool walls, size_t *count);
 
 #endif

@@ -6,8 +6,8 @@
 
 enum { LEAF = 4, DEPTH = 64, DISC_MOST = 128 };
 
-static const double FAR = 1 + 1e-8; /* more than what rounding adds */
-static const double NEEDLE = 1e-7;  /* as wide for its length: where it faces is mostly rounding */
+static const double FAR = 1 + 1e-8; /* more than the rounding error */
+static const double NEEDLE = 1e-7;  /* width per length below which the normal is mostly rounding error */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -21,7 +21,7 @@ static double triple(const double a[3], const double b[3], const double c[3])
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/* ---- making it ---- */
+/* ---- making the tree ---- */
 
 typedef struct Maker {
     TriangleTree *tree;
@@ -35,8 +35,8 @@ static void swap(uint32_t *a, uint32_t *b)
     *b = t;
 }
 
-/* Puts the item that belongs at `at` there, lesser ones before and greater ones behind it: Hoare, "Algorithm
-   65: find", 1961. */
+/* Puts the right item at `at`, lesser items before and greater items after: Hoare, "Algorithm 65: find",
+   1961. */
 static void select_middle(const Maker *maker, uint32_t *item, long count, long at, int axis)
 {
     long low = 0, high = count - 1;
@@ -160,9 +160,9 @@ void triangle_tree_free(TriangleTree *tree)
     *tree = (TriangleTree){0};
 }
 
-/* ---- the nearest ---- */
+/* ---- nearest triangle ---- */
 
-/* From the point at `p`, relative to the segment's begin, to the segment along d. */
+/* Squared distance from p to the segment 0 .. d; p is relative to the segment's begin. */
 static double segment_distance2(const double p[3], const double d[3])
 {
     const double d2 = dot(d, d), along = dot(p, d), t = along <= 0 ? 0 : along >= d2 ? 1 : along / d2;
@@ -170,8 +170,8 @@ static double segment_distance2(const double p[3], const double d[3])
     return dot(r, r);
 }
 
-/* Above the triangle its plane counts, else the nearest of the sides that x is beyond. `best2` where it is
-   not nearer. */
+/* Squared distance from x to a triangle, or `best2` if not less. Above the triangle: distance from the plane;
+   else from the nearest side, among sides with x beyond. */
 static double triangle_distance2(const float corner[9], const double plane[4], const double x[3],
                                  double best2)
 {
@@ -208,7 +208,7 @@ static double block_distance2(const TreeNode *node, const double x[3])
     return sum;
 }
 
-/* Never more than what the nearest triangle of the node is away. */
+/* Squared distance from x to the node's disc or block: a lower bound for the triangles of the node. */
 static double node_distance2(const TreeNode *node, const double x[3])
 {
     return node->disc.radius < INFINITY ? disc_distance2(&node->disc, x) : block_distance2(node, x);
@@ -247,7 +247,7 @@ double triangle_tree_near(const TriangleTree *tree, const double x[3], double pa
             continue;
         const double one = node_distance2(&tree->node[at + 1], x),
                      other = node_distance2(&tree->node[node->first], x);
-        const bool swapped = other < one; /* the nearer one on top */
+        const bool swapped = other < one; /* the nearer child on top */
         left[count].node = swapped ? at + 1 : node->first;
         left[count].d2 = swapped ? one : other;
         count += left[count].d2 < best * nearer;
@@ -258,7 +258,7 @@ double triangle_tree_near(const TriangleTree *tree, const double x[3], double pa
     return sqrt(best);
 }
 
-/* ---- triangles that cut each other ---- */
+/* ---- intersecting triangles ---- */
 
 typedef struct Cuts {
     const TriangleTree *tree;
@@ -276,7 +276,7 @@ static double volume6(const float a[3], const float b[3], const float c[3], cons
     return triple(u, v, w);
 }
 
-/* Which side of triangle t each corner of the other is on. */
+/* Signed side of triangle t, for each corner of triangle `other`. */
 static void sides_of(const float t[9], const float other[9], double side[3])
 {
     for (int c = 0; c < 3; c++)
@@ -288,7 +288,7 @@ static bool all_beside(const double side[3])
     return (side[0] > 0 && side[1] > 0 && side[2] > 0) || (side[0] < 0 && side[1] < 0 && side[2] < 0);
 }
 
-/* Whether a side of the other goes through the inside of triangle t; one that only touches does not. */
+/* True if a side of triangle `other` goes through the inside of triangle t; touching does not count. */
 static bool pierces(const float other[9], const double side[3], const float t[9])
 {
     for (int e = 0; e < 3; e++) {
@@ -343,7 +343,8 @@ static void leaves_cut(Cuts *cuts, const TreeNode *a, const TreeNode *b)
                 test_pair(cuts, i, j);
 }
 
-/* Those of one part of the tree with those of another, or among themselves. */
+/* Tests the triangles of subtree a against the triangles of subtree b; a == b: all pairs within the
+   subtree. */
 static void parts_cut(Cuts *cuts, uint32_t a, uint32_t b)
 {
     const TreeNode *one = &cuts->tree->node[a], *other = &cuts->tree->node[b];

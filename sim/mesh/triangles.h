@@ -1,4 +1,4 @@
-/* A surface of triangles: plain arrays, and what they measure. */
+/* A surface of triangles as plain arrays, with volume, area and bounds. */
 #ifndef SLOSH_TRIANGLES_H
 #define SLOSH_TRIANGLES_H
 
@@ -8,30 +8,31 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { TRIANGLES_MAX = 2000000 }; /* what is ready within some seconds and some hundred MB */
+enum { TRIANGLES_MAX = 2000000 }; /* can be processed within some seconds and some hundred MB */
 
-/* Counter-clockwise seen from outside. Whoever made it owns the arrays. */
+/* Triangles turn counter-clockwise seen from outside. The creator owns the arrays. */
 typedef struct Triangles {
     size_t vertex_count, triangle_count;
     float (*vertex)[3];
     uint32_t (*triangle)[3];
-    double largest; /* of the floats in the file, before the move to 0; 0: of no matter */
+    double largest; /* largest float in the file, before the move to 0; 0: irrelevant */
 } Triangles;
 
-void triangles_free(Triangles *triangles); /* a zeroed one is allowed */
+void triangles_free(Triangles *triangles); /* zeroed triangles are allowed */
 
-/* What it encloses, and the area, in the cube and the square of its unit. */
+/* Enclosed volume and area, in the cube and the square of the mesh's unit. */
 double triangles_volume(const Triangles *triangles);
 double triangles_area(const Triangles *triangles);
 
-/* The corners of the least block around it. */
+/* Corners of the bounding box. */
 void triangles_bounds(const Triangles *triangles, double low[3], double high[3]);
 
-/* Normal of a triangle, twice the area long; and six times the volume of the cone from the origin. */
+/* Normal of a triangle, twice the area long; and six times the signed volume of the tetrahedron with the
+   origin. */
 void triangle_normal(const Triangles *triangles, size_t t, double normal[3]);
 double triangle_volume6(const Triangles *triangles, size_t t);
 
-/* The back becomes the front. */
+/* Reverses the triangle's direction: the back becomes the front. */
 void triangle_turn(Triangles *triangles, size_t t);
 
 #endif

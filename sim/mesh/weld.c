@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDE = 4 }; /* a cell, over how near vertices are joined: a neighbour is across one border at most */
+enum { WIDE = 4 }; /* cell size per joining distance: along each axis a vertex is near at most one border */
 
 #define NOBODY UINT32_MAX
 
@@ -12,8 +12,8 @@ typedef struct Weld {
     float (*vertex)[3];
     double low[3], near, cell;
     size_t slots;
-    uint64_t *key;  /* of each slot's cell; 0: free. A cell has a slot for each vertex */
-    uint32_t *name; /* the new number */
+    uint64_t *key;  /* cell of each slot; 0: free. Each kept vertex has a slot */
+    uint32_t *name; /* new number of a vertex */
 } Weld;
 
 static uint64_t key_of(const int64_t cell[3])
@@ -37,7 +37,7 @@ static bool are_near(const Weld *weld, const float a[3], const float b[3])
     return d2 <= weld->near * weld->near;
 }
 
-/* The first vertex of a cell near x, where before `best`. */
+/* First kept vertex of a cell within joining distance of x, if before `best`. */
 static uint32_t first_near(const Weld *weld, uint64_t key, const float x[3], uint32_t best)
 {
     for (size_t slot = first_slot(weld, key); weld->key[slot]; slot = (slot + 1) & (weld->slots - 1))
@@ -47,7 +47,7 @@ static uint32_t first_near(const Weld *weld, uint64_t key, const float x[3], uin
     return best;
 }
 
-/* The first vertex near x of all cells: a later vertex at the same x finds the same. */
+/* First kept vertex near x, in all cells: a later vertex at the same x finds the same vertex. */
 static uint32_t find(const Weld *weld, const float x[3], const int64_t cell[3])
 {
     int step[3], count[3];
@@ -74,7 +74,7 @@ static void add(Weld *weld, uint64_t key, uint32_t name)
     weld->name[slot] = name;
 }
 
-/* `name`: of each vertex, the new number. */
+/* `name`: new number of each vertex. */
 static void weld_all(Triangles *triangles, Weld *weld, uint32_t *name)
 {
     uint32_t kept = 0;

@@ -4,9 +4,9 @@
 
 #include "sim/mesh/triangles.h"
 
-/* Joins each vertex to the first vertex no farther away than `part` of the longest side of the block around
-   all; a vertex between two vertices farther apart follows the first of both. Vertices that stay keep order
-   and bits. False when memory is short. */
+/* Joins each vertex to the first kept vertex within `part` of the bounding box's longest side, and renumbers
+   the triangles. A vertex between two kept vertices joins the first of both. Kept vertices keep order and
+   bits. Returns false if memory is short. */
 bool weld_vertices(Triangles *triangles, double part);
 
 #endif
