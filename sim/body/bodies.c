@@ -10,11 +10,11 @@ struct Bodies {
     BodiesIn in;
     Body body[SOLIDS_MAX];
     BodyStates now;
-    double parted; /* by how much overlaps were moved apart in the last step, m */
-    Forces felt;   /* since the last kick, or behind it */
-    Forces *told;  /* NULL: nobody else asked */
+    double parted; /* greatest shift of overlaps in the last step, m */
+    Forces felt;   /* since the last bodies_kick or bodies_end */
+    Forces *told;  /* also receives the forces; may be NULL */
     BodiesStep step;
-    BoxState fixed[SOLIDS_MAX]; /* the solids that do not float, at the end of the step */
+    BoxState fixed[SOLIDS_MAX]; /* poses of fixed solids at the end of the step */
 };
 
 static bool floats(const Bodies *bodies, int solid)
@@ -74,7 +74,7 @@ void bodies_poses(const Bodies *bodies, BoxState floating[SOLIDS_MAX], SolidPose
         }
 }
 
-/* The step of one solid from where it was to where it is. */
+/* Fills in the step of solid k, from the pose `before` to the present pose. */
 static void step_from(const Bodies *bodies, int k, const BoxState *before, SolidStep *step)
 {
     double change[3], alpha[3];
@@ -170,7 +170,7 @@ void bodies_begin(Bodies *bodies, const BodiesStep *step)
     }
 }
 
-/* What was felt, which is then forgotten. */
+/* Takes the forces felt so far, and resets the sums. */
 static void take(Bodies *bodies, Push push[SOLIDS_MAX])
 {
     memcpy(push, bodies->felt.solid, sizeof bodies->felt.solid);

@@ -1,4 +1,4 @@
-/* All solids of a world that float, over its steps. */
+/* The floating solids of a world, over the steps. */
 #ifndef SLOSH_BODIES_H
 #define SLOSH_BODIES_H
 
@@ -12,63 +12,69 @@
 
 typedef struct Bodies Bodies;
 
-/* What they are among. Def and walls outlive them; of the def may change what may while a world lives. */
+/* Surroundings of the bodies. Def and walls must outlive the bodies; the def may change only as far as a
+   living world allows. */
 typedef struct BodiesIn {
     const WorldDef *def;
     const Walls *walls;
     double reach; /* h, m */
-    bool sounds;  /* sound carries pressure: else it holds the density within a step */
-    bool leaps;   /* fluid falls and flies the whole step before it is pushed */
+    bool sounds;  /* true: sound carries pressure; false: pressure holds the density within a step */
+    bool leaps;   /* fluid falls and drifts through the whole step before pressure acts */
 } BodiesIn;
 
-/* A step of theirs. */
+/* A step of the bodies. */
 typedef struct BodiesStep {
-    double time, dt;                 /* of its begin; s */
-    BoxState box[3];                 /* at its begin, middle and end */
+    double time, dt;                 /* begin and length of the step, s */
+    BoxState box[3];                 /* at begin, middle and end of the step */
     const ApparentGravity *apparent; /* in the middle */
     const float *gravity;            /* in the box's axes in the middle, m/s2 */
-    SolidStep (*solids)[SOLIDS_MAX]; /* of both halves: those of what floats are filled in */
+    SolidStep (*solids)[SOLIDS_MAX]; /* of both halves; entries of floating solids are outputs */
 } BodiesStep;
 
-/* At the start. True with *bodies NULL where no solid floats; false when memory is short. */
+/* Creates the bodies at time 0; free with bodies_destroy. *bodies is NULL if no solid floats. Returns false
+   if memory is short. */
 bool bodies_create(Bodies **bodies, const BodiesIn *in, Error *error);
 void bodies_destroy(Bodies *bodies); /* NULL is allowed */
 
-/* What the body that is solid number `solid` overlaps with most at the start, by more than half a spacing;
-   false: nothing, or it doesn't float. */
+/* Finds the deepest overlap of solid number `solid` at the start, if deeper than half a spacing. Returns
+   false without such an overlap, or if the solid does not float. */
 bool bodies_overlap(const Bodies *bodies, int solid, BodyOverlap *overlap);
 
-/* Where a backend sums what they feel (Backend.feel). */
+/* Sums of the forces on the bodies, filled in by a backend (Backend.feel). */
 Forces *bodies_felt(Bodies *bodies);
 
-/* What they and the box feel is added to `to` as well. */
+/* From now on, forces on bodies and box are also added to `to`; NULL: no longer. */
 void bodies_tell(Bodies *bodies, Forces *to);
 
-/* Where they are; of other solids nothing is written. NULL: not wanted. */
+/* Writes the poses of the floating solids; entries of further solids stay unchanged. Either array may be
+   NULL. */
 void bodies_poses(const Bodies *bodies, BoxState floating[SOLIDS_MAX], SolidPose pose[SOLIDS_MAX]);
 
-/* Through the first half of a step, whose members stay until bodies_end. */
+/* Moves the bodies through the first half of a step, with BodiesIn.leaps through both. Arrays in `step` must
+   stay valid until bodies_end. */
 void bodies_begin(Bodies *bodies, const BodiesStep *step);
 
-/* By what the fluid did to them until the kick, and what they touch; then through the second half. */
+/* Applies the fluid forces up to the kick, and contacts; then moves the bodies through the second half,
+   unless BodiesIn.leaps. */
 void bodies_kick(Bodies *bodies);
 
-/* Behind a step. */
+/* Ends a step: keeps the forces since the kick for the next kick. */
 void bodies_end(Bodies *bodies);
 
-/* How far overlaps were moved apart in the last step, m: what is lifted and pressed so is nobody's work. */
+/* Greatest distance by which overlaps were moved apart in the last step, m. No force does the work of these
+   shifts. */
 double bodies_parted(const Bodies *bodies);
 
-/* The greatest speed of their matter, m/s; NaN where a number is none. */
+/* Upper bound of the speed of the bodies' matter, m/s; NaN if a state is not finite. */
 double bodies_speed(const Bodies *bodies);
 
-/* Adds what they have of energy, mass, places and momenta. */
+/* Adds the energy, mass, positions and momenta of the bodies. */
 void bodies_sums(const Bodies *bodies, EnergySums *sums);
 
 void bodies_save(const Bodies *bodies, BodyStates *to);
 void bodies_load(Bodies *bodies, const BodyStates *from);
 
-/* Whether it is the state of all that float. */
+/* True if the orientations of all floating solids in `states` are unit quaternions. */
 bool bodies_sane(const Bodies *bodies, const BodyStates *states);
 
 #endif

@@ -8,7 +8,7 @@ static double dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The point of the hinge, where the body does not move: its frame hangs on it. */
+/* Sets position and velocity of the frame so that the hinge point rests. */
 static void hang(const Body *body, BodyState *state)
 {
     double arm[3], swirl[3];
@@ -20,7 +20,7 @@ static void hang(const Body *body, BodyState *state)
     }
 }
 
-/* Inertia times w, in the box's axes, about the centre of mass; or w out of it. */
+/* Inertia about the centre of mass times w, in the box's axes; `inverse`: inverse inertia times w. */
 static void inertia_times(const Body *body, const double orientation[4], bool inverse, const double w[3],
                           double out[3])
 {
@@ -32,7 +32,7 @@ static void inertia_times(const Body *body, const double orientation[4], bool in
     quat_rotate(axes, own, out);
 }
 
-/* Its matter's tensor sum m x x about the centre is half the trace of the inertia, less the inertia. */
+/* The body's tensor sum m x x about the centre is half the trace of the inertia, less the inertia. */
 void body_sums(const Body *body, const BodyState *state, EnergySums *sums)
 {
     const double *I = body->mass.inertia, *w = state->pose.angular_velocity;
@@ -106,7 +106,7 @@ void body_velocity(const BoxState *pose, const double x[3], double v[3])
 
 /* ---- flight ---- */
 
-/* About principal axis k for a time: that axis keeps its part of the angular momentum L. */
+/* Turns about principal axis k for a time; component k of the angular momentum L stays constant. */
 static void turn_about(int k, double time, const double inertia[3], double L[3], double axes[4])
 {
     const double angle = time * L[k] / inertia[k], c = cos(angle), s = sin(angle);
@@ -119,7 +119,7 @@ static void turn_about(int k, double time, const double inertia[3], double L[3],
     L[j] = c * Lj - s * Li;
 }
 
-/* From the solid's orientation and angular velocity in the world to those `time` later. */
+/* Advances the solid's orientation and angular velocity in the world by a free rotation over `time`. */
 static void turn_freely(const BodyMass *mass, double time, double orientation[4], double w[3])
 {
     static const int order[] = {0, 1, 2, 1, 0};
@@ -198,7 +198,7 @@ void body_drift(const Body *body, const BoxState *begin, const BoxState *end, do
 
 /* ---- kicks ---- */
 
-/* Its centre of mass by dv, its turning by dw. */
+/* Changes the velocity of the centre of mass by dv, the angular velocity by dw. */
 static void change(const Body *body, const double dv[3], const double dw[3], BodyState *state)
 {
     double arm[3], swirl[3];
@@ -210,7 +210,7 @@ static void change(const Body *body, const double dv[3], const double dw[3], Bod
     }
 }
 
-/* M over m. */
+/* M / m, see body.h. */
 static double carried(const Body *body, const BodyFluid *fluid, const Push *push, double dt)
 {
     static const double WET = 0.25;
@@ -265,7 +265,7 @@ void body_push(const Body *body, const BodyFluid *fluid, const Push *push, doubl
         push_free(body, s, &all, dt, state);
 }
 
-/* Torque about the axis of what the box's motion and gravity are for a body that the box takes along, N m. */
+/* Torque about the hinge axis by gravity and the box's motion, for a body carried by the box, N m. */
 static double apparent_torque(const Body *body, const ApparentGravity *apparent, const BodyState *state)
 {
     const double *w = state->pose.angular_velocity;
@@ -348,7 +348,7 @@ void body_rates(const Body *body, const ApparentGravity *apparent, const BodySta
             alpha[k] = state->twist[k] - (double)apparent->alpha[k];
         }
     }
-    cross_product(alpha, arm, swirl); /* of the point that `change` is known of, against the frame's */
+    cross_product(alpha, arm, swirl); /* from the centre of mass or hinge to the frame */
     cross_product(w, arm, inward);
     cross_product(w, inward, inward);
     for (int k = 0; k < 3; k++)

@@ -7,10 +7,10 @@ enum { OF_PAIR = 8, CONTACTS = 1024, ROUNDS = 12, PARTINGS = 4 };
 
 typedef struct Contact {
     int body, other;     /* other: a solid, or BODY_AT_WALL */
-    double x[3], n[3];   /* out of the other, to the body */
+    double x[3], n[3];   /* point; normal, towards the body */
     double gap;          /* m; less than 0: overlap */
     double wanted;       /* least speed along n, m/s */
-    double push, rub[3]; /* blows so far, N s */
+    double push, rub[3]; /* impulses so far, N s */
 } Contact;
 
 typedef struct Contacts {
@@ -18,7 +18,7 @@ typedef struct Contacts {
     Contact of[CONTACTS];
 } Contacts;
 
-/* Of one body and one other: all points within reach. */
+/* All points within reach between a body and another solid or wall. */
 typedef struct Nearest {
     int count;
     Contact of[BODY_POINTS];
@@ -53,9 +53,9 @@ static double apart(const Contact *a, const Contact *b)
     return sqrt(dot(d, d));
 }
 
-/* OF_PAIR at most: the deepest, and then the one that is furthest from those taken, less by how much higher
-   it is than the deepest. What lies flat is held at its ends: contacts on one side alone would let it creep.
- */
+/* Adds up to OF_PAIR contacts: first the deepest, then in turn the point with the greatest distance from the
+   taken points, less the height above the deepest. Contacts at all ends hold a flat body; on one side alone
+   they would let the body creep. */
 static void add(Contacts *contacts, const Nearest *nearest)
 {
     double merit[BODY_POINTS]; /* m */
@@ -83,7 +83,7 @@ static void hull_point(const BodyWorld *world, const BoxState *pose, int body, i
         x[k] += pose->position[k];
 }
 
-/* How far the body comes in dt at most, m. */
+/* Greatest distance the body can move in dt, m. */
 static double way_of(const SolidDef *solid, const BoxState *pose, double dt)
 {
     return dt * (sqrt(dot(pose->velocity, pose->velocity)) +
@@ -123,7 +123,7 @@ static bool far_apart(const BodyWorld *world, const BodyStates *states, int a, i
     return dot(d, d) > most * most;
 }
 
-/* Points of `solid` at the surface of `at`; one of them is free. */
+/* Finds contacts of hull points of `solid` with the surface of `at`; at least one of both solids is free. */
 static void find_at_solid(const BodyWorld *world, const BodyStates *states, int solid, int at, double within,
                           Contacts *contacts)
 {
@@ -142,7 +142,7 @@ static void find_at_solid(const BodyWorld *world, const BodyStates *states, int 
             continue;
         quat_rotate_inverse(to->orientation, in, in);
         contact.gap = solid_distance(&world->solids[at], world->dimensions, in) - hull->radius;
-        if (!(contact.gap < within)) /* nor what is no number: the sentinel goes back from that */
+        if (!(contact.gap < within)) /* rejects NaN as well: the sentinel recovers from NaN */
             continue;
         solid_normal(&world->solids[at], world->dimensions, in, contact.n);
         quat_rotate(to->orientation, contact.n, contact.n);
@@ -155,7 +155,7 @@ static void find_at_solid(const BodyWorld *world, const BodyStates *states, int 
     add(contacts, &nearest);
 }
 
-/* Those within what both may move in dt. */
+/* Finds all contacts within the distance both solids can move in dt. */
 static void find(const BodyWorld *world, const BodyStates *states, double dt, Contacts *contacts)
 {
     contacts->count = 0;
@@ -171,13 +171,13 @@ static void find(const BodyWorld *world, const BodyStates *states, double dt, Co
             if (b == a || far_apart(world, states, a, b, within))
                 continue;
             find_at_solid(world, states, a, b, within, contacts);
-            if (!is_free(world, b)) /* else its turn comes */
+            if (!is_free(world, b)) /* the loop reaches a free b as a */
                 find_at_solid(world, states, b, a, within, contacts);
         }
     }
 }
 
-/* Of the body's matter against the other's. */
+/* Velocity of the body relative to the other solid at the contact, m/s. */
 static void approach(const BodyWorld *world, const BodyStates *states, const Contact *c, double v[3])
 {
     double other[3] = {0};
@@ -204,8 +204,8 @@ static double yield_of(const BodyWorld *world, const BodyStates *states, const C
     return yield;
 }
 
-/* Of what the body would yield if it were free: both are on hinges whose axes the contact can't turn them
-   about, and nothing yields. */
+/* Relative to the yield of a free body. Below: the bodies are on hinges that the contact cannot turn, and
+   impulses have no effect. */
 static const double STIFF = 1e-12;
 
 static void push_apart(const BodyWorld *world, Contact *c, BodyStates *states)
@@ -270,7 +270,7 @@ bool body_overlap(const BodyWorld *world, const BodyStates *states, int body, do
                   BodyOverlap *overlap)
 {
     Contacts contacts;
-    unsigned sides = 0; /* two bits an axis */
+    unsigned sides = 0; /* two bits per axis */
     find(world, states, 0, &contacts);
     *overlap = (BodyOverlap){.depth = least, .fits = true};
     for (const Contact *c = contacts.of; c < contacts.of + contacts.count; c++) {
@@ -297,7 +297,7 @@ static double share_of(const BodyWorld *world, int solid)
     return is_free(world, solid) && !world->bodies[solid].hinged ? 1 / world->bodies[solid].mass.mass : 0;
 }
 
-/* The deepest point of each pair, time after time, since to part one pair may press another. */
+/* Parts the deepest point of each pair, up to PARTINGS times: parting a pair may press the next pair. */
 double body_contacts_part(const BodyWorld *world, BodyStates *states)
 {
     double furthest = 0;

@@ -1,13 +1,12 @@
-/* Where bodies touch walls, other solids and each other.
+/* Contacts of bodies with walls, other solids and each other.
 
-   A contact is a point of a body's hull within what it may come nearer in a step to a wall, or to the signed
-   distance of another solid; or a point of the hull of a solid that does not float, so near to a body's.
-   Blows along its normal keep the point from going deeper than the surface by the end of the step; what comes
-   faster than a fall over a spacing bounces with BODY_BOUNCE of its speed; friction is Coulomb's, with
-   BODY_FRICTION. Both are of no material: wood on wood. Blows are found contact by contact, a fixed number of
-   times in a fixed order (Catto, "Iterative dynamics with temporal coherence", 2005), so that their bits
-   depend on nothing else. What is left of overlaps at the end of a step is moved apart, without velocity; on
-   a hinge it stays. */
+   A contact is a hull point of a body near a wall, or near another solid by its signed distance; or a hull
+   point of a fixed solid near a body. Near: within the possible approach in a step. Impulses along the normal
+   keep the point from going deeper than the surface by the end of the step. Points faster than a fall over a
+   spacing bounce with BODY_BOUNCE of the speed. Friction is Coulomb's, with BODY_FRICTION. Both constants are
+   for wood on wood, whatever the material. Impulses are found contact by contact, a fixed number of times in
+   a fixed order (Catto, "Iterative dynamics with temporal coherence", 2005): the bits depend on nothing else.
+   Overlaps left at the end of a step are moved apart, without velocity; hinged bodies stay. */
 #ifndef SLOSH_BODY_CONTACT_H
 #define SLOSH_BODY_CONTACT_H
 
@@ -17,33 +16,33 @@
 #define BODY_BOUNCE   0.3
 #define BODY_FRICTION 0.3
 
-/* All that may touch, by the def's solids. */
+/* Walls and solids; arrays are indexed as the def's solids. */
 typedef struct BodyWorld {
     int dimensions, count; /* solids */
     const Walls *walls;
     const SolidDef *solids;
-    const Body *bodies;      /* of those that are free; of the others their hulls alone */
-    const BoxState *fixed;   /* poses of those that are not */
-    double gravity, spacing; /* amount, m/s2; m: what is slow enough not to bounce */
+    const Body *bodies;      /* complete for free solids; only the hull for fixed solids */
+    const BoxState *fixed;   /* poses of the fixed solids */
+    double gravity, spacing; /* m/s2; m: both set the least speed with a bounce */
 } BodyWorld;
 
-/* Blows for a step of dt, s. */
+/* Applies the contact impulses of a step of dt, s. */
 void body_contacts_hit(const BodyWorld *world, double dt, BodyStates *states);
 
-/* What a body overlaps with most. */
+/* The deepest overlap of a body. */
 typedef struct BodyOverlap {
     int other;    /* a solid, or BODY_AT_WALL */
     double depth; /* m */
-    bool fits;    /* it does not stick out of the box on two sides */
+    bool fits;    /* false: sticks out of the box on two opposite sides */
 } BodyOverlap;
 
 enum { BODY_AT_WALL = -1 };
 
-/* The deepest overlap of one body by more than `least`, m; false: there is none. */
+/* Finds the deepest overlap of a body by more than `least`, m. Returns false without such an overlap. */
 bool body_overlap(const BodyWorld *world, const BodyStates *states, int body, double least,
                   BodyOverlap *overlap);
 
-/* Moves apart what overlaps; returns the way of what moved furthest, m. */
+/* Moves overlapping solids apart; returns the depth of the deepest overlap moved, m. */
 double body_contacts_part(const BodyWorld *world, BodyStates *states);
 
 #endif

@@ -12,7 +12,7 @@ static void put(BodyHull *hull, double x, double y, double z)
     to[0] = x, to[1] = y, to[2] = z;
 }
 
-/* The corners and EDGE points between any two of them; `depth` 0: a flat box has four. */
+/* The corners, and EDGE points between neighbouring corners; `flat`: a rectangle. */
 static void hull_of_box(BodyHull *hull, const double size[3], bool flat)
 {
     enum { STEPS = EDGE + 1 };

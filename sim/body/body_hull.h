@@ -1,4 +1,4 @@
-/* Where a body may touch something: points of its surface, each a ball of its own radius. */
+/* Hull of a body for contacts: surface points, each with a radius. */
 #ifndef SLOSH_BODY_HULL_H
 #define SLOSH_BODY_HULL_H
 
@@ -9,11 +9,11 @@ enum { BODY_POINTS = 160 };
 typedef struct BodyHull {
     int count;
     double point[BODY_POINTS][3]; /* the solid's frame, m */
-    double radius;                /* of each, m: that of a ball, which is one point; else 0 */
+    double radius; /* of each point, m: the radius of a ball, which is a single point; else 0 */
 } BodyHull;
 
-/* Corners and points of the edges of a box; rims; of a bowl its outside too; of a mesh the vertices that
-   stand out most in many directions. */
+/* Makes the hull. Box: corners and edge points; cylinder: rims; bowl: rim and outside; mesh: outermost
+   vertices in many directions; ball: the centre. */
 void body_hull(const SolidDef *solid, int dimensions, BodyHull *hull);
 
 #endif

@@ -26,7 +26,7 @@ static void moments_of_cylinder(Moments *m, double r, double height)
     m->second[1][1] = m->volume * height * height / 12;
 }
 
-/* The half y < 0 of a ball or disc, times `sign`. */
+/* Adds `sign` times the half y < 0 of a ball or disc. */
 static void add_half_ball(Moments *m, double r, bool flat, double sign)
 {
     Moments whole = {0};
@@ -37,8 +37,8 @@ static void add_half_ball(Moments *m, double r, bool flat, double sign)
         m->second[k][k] += sign * 0.5 * whole.second[k][k];
 }
 
-/* The tetrahedron of the origin and a triangle: its volume has the sign of the side that the triangle shows.
- */
+/* Adds the tetrahedron of the origin and a triangle: positive volume if the normal points away from the
+   origin. */
 static void add_tetrahedron(Moments *m, const double a[3], const double b[3], const double c[3])
 {
     double across[3];
@@ -100,7 +100,7 @@ static void moments_of(const SolidDef *solid, bool flat, Moments *m)
     }
 }
 
-/* Turns the matrix in the plane of two axes so that its member there is 0, and the axes with it. */
+/* Turns the matrix in the plane of axes p and q so that a[p][q] becomes 0, and turns `axes` along. */
 static void turn_away(double a[3][3], int p, int q, double axes[4])
 {
     if (a[p][q] == 0)
@@ -114,13 +114,13 @@ static void turn_away(double a[3][3], int p, int q, double axes[4])
         const double pk = a[p][k], qk = a[q][k];
         a[p][k] = c * pk - s * qk, a[q][k] = s * pk + c * qk;
     }
-    /* The new axes: p' = c p - s q, q' = s p + c q, a turn about the third one. */
+    /* The new axes: p' = c p - s q, q' = s p + c q, a turn about the third axis. */
     double turn[4] = {0, 0, 0, cos(0.5 * angle)};
     turn[3 - p - q] = (q == (p + 1) % 3 ? -1 : 1) * sin(0.5 * angle);
     quat_multiply(axes, turn, axes);
 }
 
-/* Jacobi's turns: a few sweeps bring three axes to the last digit. */
+/* Jacobi rotations: a few sweeps make the matrix diagonal to the last digit. */
 static void to_principal(double a[3][3], double axes[4])
 {
     axes[0] = axes[1] = axes[2] = 0, axes[3] = 1;
@@ -130,9 +130,9 @@ static void to_principal(double a[3][3], double axes[4])
                 turn_away(a, p, q, axes);
 }
 
-/* A disc that moves along its axis takes 8 a^3 / 3 of fluid along (Lamb, "Hydrodynamics", article 102), a
-   plate of the width 2 a in two dimensions pi a^2; half of it. Its area is the greatest face of the block
-   that has the body's inertia. */
+/* A disc of radius a, moving along the axis, carries 8 a^3 / 3 of fluid along (Lamb, "Hydrodynamics", article
+   102), in two dimensions a plate of width 2 a carries pi a^2; `broad` is half of the volume. The disc has
+   the area of the greatest face of the block with the body's inertia. */
 static void extents(const double second[3][3], bool flat, BodyMass *mass)
 {
     double length[3], most = 0;
