@@ -17,7 +17,7 @@
 
 enum { GIB_MOST = 8, LOOK_MS = 20 };
 
-/* A sanitizer's shadow is larger than any memory. */
+/* The shadow memory of a sanitizer is larger than any limit. */
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
 #define SANITIZED 1
 #elif defined __has_feature
@@ -26,7 +26,7 @@ enum { GIB_MOST = 8, LOOK_MS = 20 };
 #endif
 #endif
 
-/* What comes first through the pipe; then vertices, then triangles. */
+/* First record in the pipe; then vertices, then triangles. */
 typedef struct Head {
     bool ok;
     size_t vertex_count, triangle_count;
@@ -48,14 +48,14 @@ static bool put(int to, const void *bytes, size_t size)
     return true;
 }
 
-/* How far the parent waits for it. */
+/* The parent's wait for the child. */
 typedef struct Wait {
     int from;
     double until_ms; /* wall time */
     bool late;
 } Wait;
 
-/* Whether there is something to read, or the end. */
+/* Waits until bytes can be read, or the pipe's end. Returns false if late or interrupted. */
 static bool comes(Wait *wait)
 {
     struct pollfd look = {.fd = wait->from, .events = POLLIN};
@@ -81,7 +81,8 @@ static bool get(Wait *wait, void *bytes, size_t size)
     return true;
 }
 
-/* Signals that the parent takes care of would be left undone here. */
+/* Limits the child's processor time and memory. Restores default signal actions: handlers of the parent do
+   not serve the child. */
 static void confine(double seconds)
 {
     static const int fatal[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGXCPU, SIGTERM, SIGINT, SIGPIPE};
@@ -135,7 +136,8 @@ static bool take(Wait *from, Triangles *triangles, Error *error)
            error_set(error, "the process that reads it ended early");
 }
 
-/* What its end says, where it was ended. */
+/* Waits for the child; kills the child first if late or interrupted. Returns `taken`; sets the error if a
+   signal ended the child. */
 static bool ended_well(pid_t child, const Wait *wait, double seconds, bool taken, Error *error)
 {
     int status = 0;

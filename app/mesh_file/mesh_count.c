@@ -20,7 +20,7 @@ MeshFormat mesh_format(const char *path)
     return dot ? (MeshFormat)format : MESH_UNKNOWN;
 }
 
-/* The next line, without its end; NULL behind the last one. */
+/* Next line, without the line end; NULL after the last line. */
 static const char *next_line(const char **at, const char *end, size_t *length)
 {
     const char *line = *at;
@@ -93,13 +93,13 @@ static uint32_t stl_says(const char *bytes)
     return said;
 }
 
-/* 80 bytes, the count, 50 bytes each. */
+/* 80 bytes, the count, 50 bytes for each triangle. */
 bool mesh_is_binary_stl(const char *bytes, size_t size, size_t whole)
 {
     return size >= 84 && whole == 84 + 50 * (size_t)stl_says(bytes);
 }
 
-/* A text has a line "facet normal ..." each. */
+/* A text has a line "facet normal ..." for each triangle. */
 static double count_stl(const char *bytes, size_t size, size_t whole)
 {
     const char *at = bytes, *line;

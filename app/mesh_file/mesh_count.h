@@ -1,4 +1,4 @@
-/* How many triangles a file of a mesh says that it has, before anybody reads it. */
+/* Number of triangles that a mesh file states, known before a full read. */
 #ifndef SLOSH_MESH_COUNT_H
 #define SLOSH_MESH_COUNT_H
 
@@ -7,19 +7,19 @@
 
 typedef enum MeshFormat { MESH_OBJ, MESH_PLY, MESH_STL, MESH_GLTF, MESH_GLB, MESH_UNKNOWN } MeshFormat;
 
-/* By the ending of a file's name, whatever its case. */
+/* Format by the ending of the file's name, in upper or lower case. */
 MeshFormat mesh_format(const char *path);
 
-/* Of a file of `whole` bytes, of which the first `size` are here: a binary STL and a PLY say it in their
-   heads, lines of an OBJ and a text STL are counted as far as they are here. 0 where nothing says it. Pure.
- */
+/* Number of triangles in a file of `whole` bytes, from the first `size` bytes: heads of a binary STL and a
+   PLY state the number; lines of an OBJ and a text STL are counted within `size`. Returns 0 if unknown.
+   Pure. */
 double mesh_count(MeshFormat format, const char *bytes, size_t size, size_t whole);
 
-/* Whether the head of a PLY, all of whose bytes are here, has its last line; of other formats always. assimp
-   looks for it for ever. Pure. */
+/* True if the head of a PLY, given in full, has the last line; always true for other formats. assimp would
+   search for a missing line forever. Pure. */
 bool mesh_has_head(MeshFormat format, const char *bytes, size_t size);
 
-/* Whether an STL of `whole` bytes is a binary one, whatever words it begins with. */
+/* True if an STL of `whole` bytes is binary, whatever the first words are. */
 bool mesh_is_binary_stl(const char *bytes, size_t size, size_t whole);
 
 #endif

@@ -23,17 +23,17 @@
 
 enum { HEAD_SIZE = 1 << 16, SECONDS_MOST = 30 };
 
-static const double FAR = 8; /* of a mesh's length: three bits of a float */
+static const double FAR = 8; /* relative to the mesh's length: costs three bits of a float */
 
-/* ---- before it is read ---- */
+/* ---- before reading ---- */
 
-/* What a few bytes of it and its size say. */
+/* Checks the file's size, and the number of triangles by the first bytes. */
 static bool head_fits(const char *path, MeshFormat format, Error *error)
 {
     static char head[HEAD_SIZE];
     struct stat about;
     const bool there = stat(path, &about) == 0;
-    if (there && !S_ISREG(about.st_mode)) /* a pipe would be waited for */
+    if (there && !S_ISREG(about.st_mode)) /* opening a pipe would block */
         return error_set(error, "it is no file; name a file that has a mesh");
     FILE *file = there ? fopen(path, "rb") : NULL;
     if (!file)
@@ -48,17 +48,17 @@ static bool head_fits(const char *path, MeshFormat format, Error *error)
                      (double)about.st_size / (1 << 20), MESH_FILE_MIB_MAX);
 }
 
-/* ---- reading it ---- */
+/* ---- reading ---- */
 
 typedef struct Reading {
     const char *path;
     MeshFormat format;
-    size_t mark; /* bytes of a mark of UTF-8 before the text, over which assimp stumbles */
+    size_t mark; /* size of a UTF-8 byte order mark before the text; assimp fails on the mark */
     const struct aiScene *scene;
     MeshBounds bounds;
 } Reading;
 
-/* The bytes behind the mark. */
+/* Reads the bytes after the mark; the caller frees the bytes. */
 static char *bytes_of(const Reading *reading, size_t *size, Error *error)
 {
     char *bytes = read_file(reading->path, (size_t)MESH_FILE_MIB_MAX << 20, "mesh", size, error);
@@ -69,7 +69,8 @@ static char *bytes_of(const Reading *reading, size_t *size, Error *error)
     return bytes;
 }
 
-/* glTF allows no such mark, and assimp's reader of glTF looks for further files beside the path. */
+/* Finds a byte order mark. A mark in glTF is refused: glTF forbids marks, and assimp must read glTF by the
+   path, to find further files beside the path. */
 static bool see_mark(Reading *reading, Error *error)
 {
     char begin[84] = "";
@@ -87,7 +88,7 @@ static bool see_mark(Reading *reading, Error *error)
            error_set(error, "it begins with a byte order mark, which glTF forbids; write it without one");
 }
 
-/* By assimp: from the file, which may name further files, or, where `bytes` is not NULL, from those bytes. */
+/* Imports by assimp: from `bytes`; if NULL, from the file, which may name further files. */
 static bool import(Reading *reading, const char *bytes, size_t size, Error *error)
 {
     const unsigned flags = aiProcess_Triangulate;
@@ -111,7 +112,7 @@ static double longest_side(const MeshBounds *bounds)
     return longest;
 }
 
-/* Where floats lose some bits of the mesh's places. */
+/* True if floats lose some bits of the mesh's positions. */
 static bool is_far(const MeshBounds *bounds)
 {
     double largest = 0;
@@ -120,7 +121,7 @@ static bool is_far(const MeshBounds *bounds)
     return isfinite(largest) && largest > FAR * longest_side(bounds);
 }
 
-/* Text, and doubles, are read once more: moved to where floats lose no bits. */
+/* Reads text and doubles again, moved to 0, where floats lose no bits. */
 static bool read_moved(Reading *reading, Error *error)
 {
     size_t size, moved_size;
@@ -148,7 +149,7 @@ static bool read_first(Reading *reading, Error *error)
     return ok;
 }
 
-/* A mesh far from 0 comes to 0. */
+/* Takes the triangles of the scene; moves a mesh far from 0 to 0. */
 static bool take(const Reading *reading, Triangles *triangles, Error *error)
 {
     const MeshBounds *bounds = &reading->bounds;
@@ -179,7 +180,7 @@ bool mesh_file_read(const char *path, Triangles *triangles, Error *error)
     return ok;
 }
 
-/* ---- those that were read ---- */
+/* ---- kept meshes ---- */
 
 typedef struct Kept {
     struct Kept *next;
@@ -189,7 +190,7 @@ typedef struct Kept {
     MeshState state;
 } Kept;
 
-static pthread_mutex_t keeping = PTHREAD_MUTEX_INITIALIZER; /* a window that waits for one may draw another */
+static pthread_mutex_t keeping = PTHREAD_MUTEX_INITIALIZER; /* a waiting window may load further meshes */
 static Kept *all_kept;
 
 static const Kept *find_kept(uint64_t of, size_t size)
@@ -202,7 +203,7 @@ static const Kept *find_kept(uint64_t of, size_t size)
     return kept;
 }
 
-/* Takes the triangles over. */
+/* Makes and keeps a shape; takes ownership of the triangles. Returns NULL with the error set. */
 static const Kept *keep(Triangles *triangles, uint64_t of, size_t size, Error *error)
 {
     Kept *kept = calloc(1, sizeof *kept);
@@ -223,7 +224,7 @@ static const Kept *keep(Triangles *triangles, uint64_t of, size_t size, Error *e
     return kept;
 }
 
-/* A text of lines is counted before assimp takes many times its size. */
+/* Counts the triangles of a text before assimp takes many times the text's size; hashes the bytes. */
 static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t *size, Error *error)
 {
     char *bytes = read_file(path, (size_t)MESH_FILE_MIB_MAX << 20, "mesh", size, error);
@@ -239,18 +240,19 @@ static bool bytes_fit(const char *path, MeshFormat format, uint64_t *of, size_t 
     return count <= TRIANGLES_MAX || mesh_too_many(count, error);
 }
 
-/* A file that is to be read, of so many bytes with that hash. */
+/* A file to read, with the hash and size of the bytes. */
 typedef struct Job {
     char path[4096];
     MeshFormat format;
     uint64_t of;
     size_t size;
-    const Kept *kept; /* what came of it; NULL: the error */
+    const Kept *kept; /* result; NULL: see error */
     Error error;
     atomic_bool done;
 } Job;
 
-/* A glTF in text names further files: it is known by what it makes. */
+/* Reads a file. A text glTF names further files, so triangles identify the mesh instead of the file's
+   bytes. */
 static const Kept *read_one(const Job *job, Error *error)
 {
     Triangles triangles;
@@ -278,13 +280,13 @@ static void *do_job(void *argument)
     return NULL;
 }
 
-/* ---- what a window does meanwhile ---- */
+/* ---- work of a window meanwhile ---- */
 
 static struct {
-    void (*call)(void *user); /* NULL: nothing */
+    void (*call)(void *user); /* NULL: no calls */
     void *user;
-    pthread_t thread; /* its own */
-    bool waits;       /* it is being called */
+    pthread_t thread; /* thread of the window */
+    bool waits;       /* true while a wait calls `call` */
 } meanwhile;
 
 void mesh_file_meanwhile(void (*call)(void *user), void *user)
@@ -294,7 +296,7 @@ void mesh_file_meanwhile(void (*call)(void *user), void *user)
     meanwhile.thread = pthread_self();
 }
 
-/* Signals are for the thread of the window. */
+/* Starts a thread with all signals blocked: signals are for the thread of the window. */
 static bool start_thread(Job *job, pthread_t *thread)
 {
     sigset_t all, before;
@@ -327,7 +329,7 @@ static const Kept *look_up(const char *path, MeshFormat format, Error *error)
     if (!bytes_fit(path, format, &of, &size, error))
         return NULL;
     const Kept *kept = format == MESH_GLTF ? NULL : find_kept(of, size);
-    Job *job = kept ? NULL : calloc(1, sizeof *job); /* a window may leave it to its thread by longjmp */
+    Job *job = kept ? NULL : calloc(1, sizeof *job); /* a window may leave the job to the thread by longjmp */
     if (!job) {
         if (!kept)
             error_set(error, "no memory to read it");

@@ -6,17 +6,18 @@
 
 enum { MESH_FILE_MIB_MAX = 256 };
 
-/* The mesh of a file, whose distances are at hand. It lives as long as the program: scenes are copied, and
-   worlds made of them, with nobody to own it; a file with the same bytes is kept once. NULL with "what is
-   wrong; what would be right", without the file's name. */
+/* Loads the mesh of a file, with the distance grid. The mesh lives as long as the program: copies of scenes,
+   and worlds, share the mesh, and none is the owner. Files with equal bytes share a mesh. Returns NULL with
+   the error "what is wrong; what would be right", without the file's name. */
 const MeshShape *mesh_file_load(const char *path, MeshState *state, Error *error);
 
-/* From now on, while a mesh is read for this thread, `call` is called again and again: a window goes on
-   meanwhile. What it does may load meshes too, and is not called for those. NULL: nothing. */
+/* From now on, calls `call` again and again while a mesh is read for this thread, so that a window goes on.
+   `call` may load meshes as well, without further calls. NULL: no calls. */
 void mesh_file_meanwhile(void (*call)(void *user), void *user);
 
-/* The triangles as the file has them, of all its parts. False: it is missing, of no known format, too large.
- */
+/* Reads the triangles of all parts of a file, without repair; a mesh far from 0 is moved to 0. The caller
+   frees with triangles_free. Returns false if the file is missing, of unknown format, or too large, or cannot
+   be read. */
 bool mesh_file_read(const char *path, Triangles *triangles, Error *error);
 
 #endif

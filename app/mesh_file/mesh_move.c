@@ -20,7 +20,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* The words of a line; as many as there is room for. */
+/* Splits a line into words, WORDS_MOST at most. */
 static int words_of(const char *line, const char *end, Word word[WORDS_MOST])
 {
     int count = 0;
@@ -43,7 +43,7 @@ static bool is(const Word *word, const char *text)
     return word->length == strlen(text) && memcmp(word->at, text, word->length) == 0;
 }
 
-/* As assimp, which takes a comma for a point. */
+/* Accepts a decimal comma, as assimp does. */
 static bool number(const Word *word, double *value)
 {
     char digits[DIGITS_MOST] = "", *end;
@@ -65,10 +65,10 @@ static const char *line_end(const char *at, const char *end)
 
 /* ---- texts ---- */
 
-/* The words of the three numbers of a place. */
+/* Word indices of the three coordinates of a position. */
 typedef struct Columns {
     int of[3];
-    double times; /* how much of the way the numbers move */
+    double times; /* factor of the shift */
 } Columns;
 
 static bool write_moved(FILE *to, const char *line, const char *end, const Word *word, const Columns *columns,
@@ -95,7 +95,7 @@ static bool write_moved(FILE *to, const char *line, const char *end, const Word 
     return true;
 }
 
-/* Whether the line has a place, and where. A fourth number of an OBJ divides the first three. */
+/* True if the line is a vertex; sets the columns. A fourth number of an OBJ divides the first three. */
 static bool place_in_obj(const char *line, const Word *word, int count, Columns *columns)
 {
     double w;
@@ -135,7 +135,7 @@ static bool move_lines(FILE *to, MeshFormat format, const char *at, const char *
 
 typedef enum Coding { TEXT, LITTLE, BIG, UNKNOWN } Coding;
 
-/* Of the first element, which has to be the vertices. */
+/* The first element of a PLY, required to be the vertices. */
 typedef struct Vertices {
     Coding coding;
     double count;
@@ -244,7 +244,8 @@ static void write_double(char *bytes, bool big, double value)
         bytes[i] = (char)(bits >> 8 * (big ? 7 - i : i));
 }
 
-/* In place; numbers of four bytes have lost their last digits already. */
+/* Moves doubles in a copy of the bytes. Returns NULL for numbers of four bytes: the last digits are lost
+   already. */
 static char *move_doubles(const Vertices *vertices, const char *bytes, size_t size, const double by[3])
 {
     const size_t room = size - (size_t)(vertices->data - bytes);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A mesh's way into the whole: rows of a matrix, the place in the last column. */
+/* Transform from a mesh to the scene: rows of a matrix, the offset in the last column. */
 typedef struct Way {
     double row[3][4];
 } Way;
@@ -73,7 +73,7 @@ static bool mirrors(const Way *way)
 
 /* ---- triangles ---- */
 
-/* Of the points and lines among its faces nothing is taken, nor of what names vertices that are not there. */
+/* True if a face is a triangle of existing vertices. Points, lines and faces with bad indices are skipped. */
 static bool is_triangle(const struct aiMesh *mesh, unsigned f)
 {
     const struct aiFace *face = &mesh->mFaces[f];
@@ -102,7 +102,7 @@ typedef struct Bounded {
     bool alone;
 } Bounded;
 
-/* Where a node moves the only mesh does not matter. */
+/* The offset of the only mesh of a scene does not count. */
 static void bound_mesh(void *context, const struct aiMesh *mesh, const Way *way)
 {
     const Bounded *bounded = context;

@@ -6,16 +6,17 @@
 
 struct aiScene;
 
-/* The block around the scene, by nodes' matrices in double precision. */
+/* Bounding box of the scene, by the nodes' matrices in double precision. */
 typedef struct MeshBounds {
     double low[3], high[3];
-    double largest; /* of the numbers by which triangles lie beside each other */
+    double largest; /* largest coordinate before node offsets; with several meshes, offsets count as well */
 } MeshBounds;
 
 void mesh_scene_bounds(const struct aiScene *scene, MeshBounds *bounds);
 
-/* The triangles of all meshes where nodes put the meshes, less `origin`; triangles of nodes that mirror are
-   turned, as glTF asks. False when there are none, or more than TRIANGLES_MAX, or memory is short. */
+/* Takes the triangles of all meshes, placed by the nodes, less `origin`; turns triangles of mirroring nodes,
+   as glTF asks. The caller frees with triangles_free, also after false. Returns false if there are no
+   triangles or more than TRIANGLES_MAX, or memory is short. */
 bool mesh_scene_take(const struct aiScene *scene, const double origin[3], Triangles *triangles, Error *error);
 
 /* "12,000,000 triangles, more than the ..." */
