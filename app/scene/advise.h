@@ -6,9 +6,9 @@
 #include "app/scene/scene.h"
 #include "app/yaml/tree.h"
 
-/* Adds a line to `notes` for each such setting of a scene that was read and checked. `tree` is the source of
-   the scene, for lines that begin with "file:line:column: ". A NULL tree, for keys changed at run time, gives
-   lines that begin with the key's path. */
+/* Adds a line to `notes` for each such setting of a checked scene. `tree` is the source of the scene, for
+   lines that begin with "file:line:column: ". A NULL tree, for keys changed at run time, gives lines that
+   begin with the key's path. */
 void scene_advise(const Tree *tree, const Scene *scene, Notes *notes);
 
 /* Replaces defaults of the sound speed and the substeps that do not fit the scene, and reports the change.

@@ -84,8 +84,8 @@ static void advise_emitters(const Tree *tree, const WorldDef *def, Notes *notes)
                 }
 }
 
-/* A solid acts only on particles within itself at the end of a step, so fluid carried across a thin solid in
-   one step is missed. The box's walls hold all fluid, as nothing is beyond. */
+/* A solid acts only on particles inside at the end of a step, so fluid carried across a thin solid within a
+   step is missed. The box's walls hold all fluid, since every place beyond a wall is outside. */
 void advise_solids(const Tree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *def = &scene->world;

@@ -20,8 +20,8 @@ typedef struct Reader {
     const char *path, *at, *end;
     const FieldFileKind *kind;
     int line;
-    char between;                  /* cells */
-    int columns, meaning[COLUMNS]; /* of each column: its place in a row */
+    char between;                  /* separator of cells */
+    int columns, meaning[COLUMNS]; /* for each column: index in a row */
     bool has[COLUMNS];
     Row *rows;
     size_t count, room;
@@ -36,7 +36,7 @@ static bool no_memory(const Reader *r)
     return error_set(r->error, "%.300s: no memory for its table; name a smaller one", r->path);
 }
 
-/* Finds the next line with content, without its end; false after the last line. */
+/* Finds the next line with content, without the line end; false after the last line. */
 static bool next_line(Reader *r, const char **line, const char **end)
 {
     while (r->at < r->end) {
@@ -53,7 +53,7 @@ static bool next_line(Reader *r, const char **line, const char **end)
     return false;
 }
 
-/* A semicolon or a tab, where the first line has no comma before. */
+/* Separator of a line: the first semicolon, tab or comma. */
 static char separator_of(const char *line, const char *end)
 {
     for (; line < end; line++)
@@ -62,7 +62,7 @@ static char separator_of(const char *line, const char *end)
     return ',';
 }
 
-/* The end of a cell, behind quotes where the cell is in quotes. */
+/* End of a cell; a quoted cell ends after the quotes. */
 static const char *cell_end(const Reader *r, const char *at, const char *end)
 {
     while (at < end && *at == ' ')
@@ -75,8 +75,8 @@ static const char *cell_end(const Reader *r, const char *at, const char *end)
     return at;
 }
 
-/* The cell at `*at`, without spaces and quotes about it, and *at behind what ends it: NULL behind the last
- * one. */
+/* Reads the cell at `*at`, without surrounding spaces and quotes. Moves *at past the separator; NULL after
+   the last cell. */
 static bool next_cell(const Reader *r, const char **at, const char *end, char cell[CELL_SIZE])
 {
     const char *begin = *at, *stop = cell_end(r, begin, end);
@@ -188,7 +188,7 @@ static bool read_row(Reader *r, const char *at, const char *end)
             return WRONG(r, r->line, "more than %d cell%s; the first line names %d column%s", r->columns,
                          plural((size_t)r->columns), r->columns, plural((size_t)r->columns));
         char *behind, *comma = r->between == ',' ? NULL : strchr(cell, ',');
-        if (comma) /* as numbers have it where cells end with a semicolon */
+        if (comma) /* decimal comma, if commas do not separate cells */
             *comma = '.';
         const double value = strtod(cell, &behind);
         if (behind == cell || *behind || !isfinite(value))

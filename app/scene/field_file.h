@@ -1,8 +1,8 @@
-/* A table of a quantity over places as a file: CSV. Lines that begin with '#' and empty lines do not count;
-   the first one that does names the columns, in any order, each with its unit in parentheses if at all; each
-   other one is a place of a grid and what is there, in any order. Where the first line has a semicolon or a
-   tab in the place of its first comma, so have all, and numbers may have a decimal comma; cells may be in
-   quotes.
+/* A CSV file with a table of a quantity over places. Lines that begin with '#' and empty lines do not count.
+   The first line names the columns, in any order, with optional units in parentheses. Each further line is a
+   place of a grid with the quantity there; the order of lines is free. A semicolon or a tab, instead of the
+   first comma of the first line, separates the cells of all lines; numbers may then have a decimal comma.
+   Cells may be in quotes.
 
      x (m), z (m), height (m)
      -0.5, 0, 0.21
@@ -17,7 +17,7 @@
 
 enum { FIELD_FILE_BYTES_MAX = 64 << 20 };
 
-/* Columns of a kind of table: coordinates among "xyz", and quantities, of which at least one is required. */
+/* Columns of a kind of table: coordinates among "xyz", and quantities, at least one of them required. */
 typedef struct FieldFileKind {
     const char *axes;
     const char *quantity[FIELD_TABLE_COLUMNS], *unit;

@@ -29,7 +29,7 @@ static const char *name_of(const MeshUse *mesh)
     return mesh->file + (length > SHOWN ? length - SHOWN : 0);
 }
 
-/* ---- its unit ---- */
+/* ---- unit of the file ---- */
 
 static double length_of(const MeshUse *mesh)
 {
@@ -73,7 +73,7 @@ bool scene_ask_scale(const Check *check, const MeshUse *mesh)
     return false;
 }
 
-/* ---- what is said of it ---- */
+/* ---- reports ---- */
 
 static void say_size(const Reader *reader, const char *key, const MeshUse *mesh)
 {

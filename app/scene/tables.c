@@ -60,7 +60,7 @@ bool scene_names_table(const char *text)
     return length > 4 && strcmp(text + length - 4, ".csv") == 0;
 }
 
-/* False where the path is too long. */
+/* Returns false if the path is too long. */
 static bool in_folder_of(const char *scene, const char *name, char path[1200])
 {
     const char *slash = *name == '/' ? NULL : strrchr(scene, '/');
@@ -68,7 +68,7 @@ static bool in_folder_of(const char *scene, const char *name, char path[1200])
     return snprintf(path, 1200, "%.*s%s", folder, scene, name) < 1200;
 }
 
-/* Where a scene that is a link leads; false: nowhere else. */
+/* Path beside the target of a linked scene; false: the scene is no link. */
 static bool beside_target(const char *scene, const char *name, char path[1200])
 {
     char target[PATH_MAX];

@@ -26,15 +26,17 @@ void scene_each_file(Tree *tree, FileNamed *named, void *user);
 /* True if the text names a mesh, by the suffix. */
 bool scene_names_mesh(const char *text);
 
-/* The path of a file that a scene names, from the scene's folder, or, where it is not there, from that of
-   what the scene is a link to; of one that a picture carries, else where scenes are looked for. */
+/* Path of a file named by a scene: in the scene's folder; if missing there and the scene is a link, in the
+   folder of the link's target. For a scene in a picture, also in the search path for scenes. Returns false if
+   the path is too long. */
 bool scene_beside_path(const char *scene, const char *name, char path[1200], Error *error);
 
-/* Whether there is something at that path, which scene_beside_path has given; else where was looked. */
+/* True if a file exists at `path`, the result of scene_beside_path; else the error lists the places
+   searched. */
 bool scene_file_is_there(const char *scene, const char *name, const char *path, Error *error);
 
-/* The same for what is read of a recorded run: beside its snapshots, else in the folder that the scene was
-   in, else where scenes are looked for. False with what is missing. */
+/* Path of a file of a recorded run: beside the snapshots, else in the scene's former folder, else in the
+   search path for scenes. Returns false if the file is missing; the error names the places searched. */
 bool scene_recorded_path(const char *snapshots, const char *folder, const char *name, char path[1200],
                          Error *error);
 
