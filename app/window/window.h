@@ -68,7 +68,7 @@ double window_scale(const Window *window);                       /* text scale: 
 double window_refresh(const Window *window); /* display refresh rate, pictures per second */
 const char *window_renderer(const Window *window);
 
-/* Ignores gamepads for which `claimed` returns true: other code reads them. */
+/* Ignores gamepads with `claimed` true: other code reads such gamepads. */
 typedef bool WindowClaimed(void *user, uint16_t vendor, uint16_t product);
 void window_leave_gamepads(Window *window, WindowClaimed *claimed, void *user);
 
