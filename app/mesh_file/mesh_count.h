@@ -10,9 +10,8 @@ typedef enum MeshFormat { MESH_OBJ, MESH_PLY, MESH_STL, MESH_GLTF, MESH_GLB, MES
 /* Format by the ending of the file's name, in upper or lower case. */
 MeshFormat mesh_format(const char *path);
 
-/* Number of triangles in a file of `whole` bytes, from the first `size` bytes: heads of a binary STL and a
-   PLY state the number; lines of an OBJ and a text STL are counted within `size`. Returns 0 if unknown.
-   Pure. */
+/* Number of triangles in a file of `whole` bytes, from the first `size` bytes. Binary STL and PLY state the
+   number in the head. Lines of OBJ and text STL are counted within `size`. Returns 0 if unknown. Pure. */
 double mesh_count(MeshFormat format, const char *bytes, size_t size, size_t whole);
 
 /* True if the head of a PLY, given in full, has the last line; always true for other formats. assimp would

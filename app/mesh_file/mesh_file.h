@@ -11,7 +11,7 @@ enum { MESH_FILE_MIB_MAX = 256 };
    the error "what is wrong; what would be right", without the file's name. */
 const MeshShape *mesh_file_load(const char *path, MeshState *state, Error *error);
 
-/* From now on, calls `call` again and again while a mesh is read for this thread, so that a window goes on.
+/* From now on, calls `call` repeatedly while a mesh is read for this thread, so that a window stays alive.
    `call` may load meshes as well, without further calls. NULL: no calls. */
 void mesh_file_meanwhile(void (*call)(void *user), void *user);
 

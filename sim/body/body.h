@@ -6,9 +6,9 @@
    dynamics", 1997): a sequence of exact turns about the principal axes. The splitting is symplectic and keeps
    the angular momentum to the last digit.
 
-   The force of the fluid (F) and the acceleration depend on each other: a faster body is pushed back by the
-   fluid within the next step, by the mass of fluid carried along. An explicit step diverges if the carried
-   mass exceeds the body's mass, for any time step. So the acceleration by fluid is
+   The force of the fluid (F) and the acceleration depend on each other: within the next step the fluid pushes
+   a faster body back, by the mass of fluid carried along. An explicit step diverges if the carried mass
+   exceeds the body's mass, for any time step. So the acceleration by fluid is
 
        a = (F + M a_before) / (m + M)
 

@@ -54,8 +54,8 @@ static double apart(const Contact *a, const Contact *b)
 }
 
 /* Adds up to OF_PAIR contacts: first the deepest, then in turn the point with the greatest distance from the
-   taken points, less the height above the deepest. Contacts at all ends hold a flat body; on one side alone
-   they would let the body creep. */
+   taken points, less the height above the deepest. A flat body is thus held at all ends; with contacts on a
+   single side the body would creep. */
 static void add(Contacts *contacts, const Nearest *nearest)
 {
     double merit[BODY_POINTS]; /* m */

@@ -1,12 +1,13 @@
 /* Contacts of bodies with walls, other solids and each other.
 
-   A contact is a hull point of a body near a wall, or near another solid by its signed distance; or a hull
-   point of a fixed solid near a body. Near: within the possible approach in a step. Impulses along the normal
-   keep the point from going deeper than the surface by the end of the step. Points faster than a fall over a
-   spacing bounce with BODY_BOUNCE of the speed. Friction is Coulomb's, with BODY_FRICTION. Both constants are
-   for wood on wood, whatever the material. Impulses are found contact by contact, a fixed number of times in
-   a fixed order (Catto, "Iterative dynamics with temporal coherence", 2005): the bits depend on nothing else.
-   Overlaps left at the end of a step are moved apart, without velocity; hinged bodies stay. */
+   A contact is a hull point of a body near a wall, or near another solid by signed distance. A hull point of
+   a fixed solid near a body is a contact as well. Near: within the possible approach in a step. Impulses
+   along the normal keep the point from going deeper than the surface by the end of the step. Points faster
+   than a fall over a spacing bounce with BODY_BOUNCE of the speed. Friction is Coulomb's, with BODY_FRICTION.
+   Both constants are for wood on wood, whatever the material. Impulses are found contact by contact, a fixed
+   number of times in a fixed order (Catto, "Iterative dynamics with temporal coherence", 2005): the bits
+   depend on nothing else. Overlaps left at the end of a step are moved apart, without velocity; hinged bodies
+   stay. */
 #ifndef SLOSH_BODY_CONTACT_H
 #define SLOSH_BODY_CONTACT_H
 

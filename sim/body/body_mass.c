@@ -131,8 +131,8 @@ static void to_principal(double a[3][3], double axes[4])
 }
 
 /* A disc of radius a, moving along the axis, carries 8 a^3 / 3 of fluid along (Lamb, "Hydrodynamics", article
-   102), in two dimensions a plate of width 2 a carries pi a^2; `broad` is half of the volume. The disc has
-   the area of the greatest face of the block with the body's inertia. */
+   102). In two dimensions a plate of width 2 a carries pi a^2. `broad` is half of the carried volume. The
+   disc has the area of the greatest face of the block with the body's inertia. */
 static void extents(const double second[3][3], bool flat, BodyMass *mass)
 {
     double length[3], most = 0;

@@ -17,9 +17,9 @@ typedef struct BodyMass {
 } BodyMass;
 
 /* Computes the mass of a solid with density > 0. Mesh: sums exact integrals over the tetrahedra from the
-   origin to the triangles, by the divergence theorem the integral over the enclosed volume (Mirtich, "Fast
-   and accurate computation of polyhedral mass properties", 1996). Where parts overlap, less the excess of the
-   shape: within some thousandths of the excess. */
+   origin to the triangles; by the divergence theorem the sum is the integral over the enclosed volume. After:
+   Mirtich, "Fast and accurate computation of polyhedral mass properties", 1996. Where parts overlap, less the
+   excess of the shape: within some thousandths of the excess. */
 void body_mass(const SolidDef *solid, int dimensions, BodyMass *mass);
 
 #endif

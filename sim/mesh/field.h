@@ -10,8 +10,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Cubic cells; the value i, j, k belongs to corner + cell (i + 1/2, j + 1/2, k + 1/2) and stands at
-   i + size[0] (j + size[1] k). */
+/* Cubic cells. The value i, j, k belongs to corner + cell (i + 1/2, j + 1/2, k + 1/2), at index i + size[0]
+   (j + size[1] k). */
 typedef struct VolumeGrid {
     int size[3];      /* cells, each at least 1 */
     double corner[3]; /* m: of the first cell */

@@ -1,4 +1,4 @@
-/* The 256 cases come from a rule for each face, the same for both cubes at the face: around a face, a
+/* The 256 cases come from a rule for each face, the same for both cubes at the face. Around a face, a
    separate line cuts off each run of inside corners. Two diagonally opposite inside corners are thus kept
    apart in both cubes. After: C. Montani, R. Scateni, R. Scopigno, "A modified look-up table for implicit
    disambiguation of marching cubes", 1994.
@@ -64,8 +64,7 @@ static void cut_face(int inside, int face, int next[EDGES])
     }
 }
 
-/* True if the fan of triangles from loop[apex] has no diagonal in a face of the cube: the neighbouring cube
-   could have the same diagonal, and four triangles would meet there. */
+/* True if the fan of triangles from loop[apex] has no diagonal in a face of the cube (see above). */
 static bool fan_is_inside(const int loop[], int length, int apex)
 {
     for (int k = 2; k < length - 1; k++)

@@ -13,9 +13,9 @@ typedef struct MeshShape {
     double half[3];      /* half the sides of the bounding box */
     double reach;        /* from the middle to the farthest vertex */
     double volume, area; /* volume: of the union of the parts; area: of the triangles */
-    Moments excess; /* integrals over the triangles less integrals over the union; 0 where no parts overlap */
-    double depth;   /* from the surface to the place deepest inside */
-    uint64_t hash;  /* of the vertices and triangles */
+    Moments excess;      /* integrals over the triangles less integrals over the union; 0 without overlaps */
+    double depth;        /* from the surface to the place deepest inside */
+    uint64_t hash;       /* of the vertices and triangles */
 } MeshShape;
 
 /* Faults of an accepted mesh. Parts overlap if the shape's excess is not 0. */

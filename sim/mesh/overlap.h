@@ -11,8 +11,8 @@ typedef struct Moments {
     double volume, first[3], second[3][3];
 } Moments;
 
-/* Integrates w - 1 where the winding number w is not 0: exactly along x; in y and z by the middles of strips,
-   at least 512 along the longer side. Strips end where parts end. Exact for blocks along the axes, else
+/* Integrates w - 1 where the winding number w is not 0. Exact along x; in y and z by the middles of strips,
+   at least 512 along the longer side; strips end where parts end. Exact for blocks along the axes, else
    within some thousandths of the excess. The same bits for any number of threads. Returns false if memory is
    short. */
 bool overlap_excess(const Triangles *triangles, int threads, Moments *excess);

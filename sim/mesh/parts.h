@@ -21,7 +21,7 @@ void parts_free(Parts *parts); /* zeroed parts are allowed */
 bool parts_turn(Triangles *triangles, const Parts *parts, size_t *turned);
 
 /* Removes triangles with the same corners as earlier triangles: copies, unless edges would lack triangles
-   without the copies; with `walls` also pairs of opposite directions, with the same part of space on both
+   without the copies. `walls`: also removes pairs of opposite directions, with the same part of space on both
    sides. *count: number of triangles removed. Returns false if memory is short. */
 bool parts_merge(Triangles *triangles, const Edges *edges, bool walls, size_t *count);
 
