@@ -38,13 +38,25 @@ size_t world_births_bytes(const World *world)
     return world->births.count * sizeof(Birth);
 }
 
+/* Saves the live keys with the viscosities of `time`. Without a copy of the def, which is large: the
+   sentinel saves several times a second. */
+static void save_live(World *world, double time, double numbers[LIVE_NUMBERS])
+{
+    WorldDef *def = &world->def;
+    double viscosity[FLUIDS_MAX];
+    for (int f = 0; f < def->fluid_count; f++)
+        viscosity[f] = def->fluids[f].viscosity;
+    world_def_at(def, time);
+    live_save(def, numbers);
+    for (int f = 0; f < def->fluid_count; f++)
+        def->fluids[f].viscosity = viscosity[f];
+}
+
 void world_save_numbers(World *world, WorldNumbers *numbers)
 {
-    WorldDef def = world->def;
     WorldInfo info;
     world_sound(world);
     world_info(world, &info);
-    world_def_at(&def, info.time);
     *numbers = (WorldNumbers){
         .version = WORLD_STATE_VERSION,
         .step = (double)world->step,
@@ -62,7 +74,7 @@ void world_save_numbers(World *world, WorldNumbers *numbers)
         .shut = (double)world->shut,
         .pours = world->pours,
     };
-    live_save(&def, numbers->live);
+    save_live(world, info.time, numbers->live);
     if (world->bodies)
         bodies_save(world->bodies, &numbers->bodies);
 }
