@@ -263,6 +263,8 @@ static const Kept *read_one(const Job *job, Error *error)
         return NULL;
     if (job->format == MESH_GLTF) {
         of = hash_add(HASH_NONE, triangles.vertex, triangles.vertex_count * sizeof *triangles.vertex);
+        of = hash_add(of, triangles.triangle, triangles.triangle_count * sizeof *triangles.triangle);
+        of = hash_add(of, &triangles.largest, sizeof triangles.largest);
         size = triangles.triangle_count;
         kept = find_kept(of, size);
     }

@@ -232,6 +232,23 @@ static void nodes_place_and_mirror(void **state)
     assert_non_null(strstr(found.coarse, "it is 5.65e+06 from the origin of its file"));
 }
 
+/* Files of the same places, whose triangles differ, are not the same mesh. */
+static void same_places_are_not_the_same_mesh(void **state)
+{
+    (void)state;
+    MeshState found;
+    write_gltf("outwards.gltf", "{\"mesh\":0}", "0");
+    load("outwards.gltf", &found);
+    assert_false(found.triangles.inside_out);
+    for (int turns = 0; turns < 2; turns++) {
+        for (size_t t = 0; t < ball.triangle_count; t++)
+            triangle_turn(&ball, t);
+        write_gltf("inwards.gltf", "{\"mesh\":0}", "0");
+        load("inwards.gltf", &found);
+        assert_int_equal(found.triangles.inside_out, turns == 0);
+    }
+}
+
 static void marks_are_named(void **state)
 {
     (void)state;
@@ -272,8 +289,11 @@ static int free_ball(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts_lose_nothing),        cmocka_unit_test(doubles_lose_nothing),
-        cmocka_unit_test(floats_say_what_they_lost), cmocka_unit_test(nodes_place_and_mirror),
+        cmocka_unit_test(texts_lose_nothing),
+        cmocka_unit_test(doubles_lose_nothing),
+        cmocka_unit_test(floats_say_what_they_lost),
+        cmocka_unit_test(nodes_place_and_mirror),
+        cmocka_unit_test(same_places_are_not_the_same_mesh),
         cmocka_unit_test(marks_are_named),
     };
     return cmocka_run_group_tests(tests, make_folder, free_ball);
