@@ -53,6 +53,13 @@ static void advise_overlap(const Tree *tree, const SolidDef *solid, int k, const
                other);
 }
 
+/* For a floating solid without a hinge, which the first step moves. */
+static bool starts_in_another(const WorldDef *def, const Bodies *bodies, int k, BodyOverlap *overlap)
+{
+    const double *axis = def->solids[k].hinge_axis;
+    return axis[0] == 0 && axis[1] == 0 && axis[2] == 0 && bodies_overlap(bodies, k, overlap);
+}
+
 static void advise_overlaps(const Tree *tree, const WorldDef *def, Notes *notes)
 {
     Walls walls;
@@ -62,11 +69,12 @@ static void advise_overlaps(const Tree *tree, const WorldDef *def, Notes *notes)
     if (!bodies_create(&bodies, &(BodiesIn){.def = def, .walls = &walls}, &none) || !bodies)
         return;
     for (int k = 0; k < def->solid_count; k++) {
-        BodyOverlap overlap;
-        const double *axis = def->solids[k].hinge_axis;
-        if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0 && bodies_overlap(bodies, k, &overlap) &&
-            !(overlap.other > k && solid_floats(&def->solids[overlap.other]))) /* the other solid reports */
-            advise_overlap(tree, &def->solids[k], k, &overlap, notes);
+        BodyOverlap overlap, its;
+        if (!starts_in_another(def, bodies, k, &overlap))
+            continue;
+        if (overlap.other > k && starts_in_another(def, bodies, overlap.other, &its) && its.other == k)
+            continue; /* the other solid reports */
+        advise_overlap(tree, &def->solids[k], k, &overlap, notes);
     }
     bodies_destroy(bodies);
 }

@@ -97,6 +97,21 @@ solver: {sound_speed: 15}
         code, said = self.slosh('run', 'way.yaml', '-o', 'a.h5part', '--time', '0.05', '--set', 'drains=[{ball: {centre: [-0.4, 0.95, -0.4], radius: 0.04}}]')
         self.assertIn('the drains took nothing: no fluid came to them\n', said)
 
+    def test_a_body_within_another_is_told_in_either_order(self):
+        sizes = ('[0.06, 0.06, 0.06]', '[0.4, 0.4, 0.4]')
+        for first, second in (sizes, sizes[::-1]):
+            self.write('within.yaml', f'''
+box: {{size: [1, 1, 1]}}
+particles: {{spacing: 0.05}}
+fluids:
+  - fill: [{{block: {{min: [-0.5, 0, -0.5], max: [0.5, 0.2, 0.5]}}}}]
+solids:
+  - {{box: {{centre: [0, 0.6, 0], size: {first}}}, density: 500}}
+  - {{box: {{centre: [0, 0.6, 0], size: {second}}}, density: 500}}
+''')
+            code, said = self.slosh('info', 'within.yaml')
+            self.assertEqual((code, said.count('the solid starts 0.17 m deep in solids[')), (0, 1), said)
+
     def test_json_on_a_stream(self):
         few = ['run', 'scene.yaml', '-o', 'a.h5part', '--time', '0', '--quiet', '--json']
         for name in ('-', '/dev/stdout', '/dev/fd/1'):
