@@ -5,6 +5,7 @@
 #include <math.h>
 #include <poll.h>
 #include <stdio.h>
+#include <string.h>
 
 bool simulator_on_gpu(const Simulator *simulator)
 {
@@ -153,6 +154,8 @@ bool simulator_save_cut(Simulator *simulator, const char *path, Error *error)
 {
     if (!lock_soon(simulator))
         return error_set(error, "%s: the session cannot be saved, its simulation has stopped", path);
+    if (simulator->save && strcmp(simulator->save_path, path) == 0) /* two saves would write the same file */
+        simulator->save = simulator->saving = false;
     const bool ok = simulator->recording_lost
                         ? error_set(error, "%s: the session was too long to be kept", path)
                         : recording_write_cut(&simulator->recording, path, error);

@@ -238,8 +238,13 @@ static void end_here(Simulator *simulator)
     simulator->quit = true;
     if (simulator->frame.begun)
         simulator_frame_end(simulator);
-    while (find_work(simulator, simulator->work, &until))
-        do_work(simulator, simulator->work);
+    for (bool found = true; found;) {
+        pthread_mutex_lock(&simulator->lock);
+        found = find_work(simulator, simulator->work, &until);
+        pthread_mutex_unlock(&simulator->lock);
+        if (found)
+            do_work(simulator, simulator->work);
+    }
     simulator->ended = true;
 }
 
