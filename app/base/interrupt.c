@@ -56,7 +56,9 @@ int interrupt_signal(void)
 int interrupt_bell(void)
 {
     if (bell < 0)
-        bell = eventfd(first != 0, EFD_CLOEXEC | EFD_NONBLOCK);
+        bell = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (first && bell >= 0 && write(bell, &(uint64_t){1}, sizeof(uint64_t)) < 0) /* it came before */
+        bell = -1;
     return bell;
 }
 

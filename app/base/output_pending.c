@@ -70,9 +70,15 @@ void output_remove_folder(const char *path)
     rmdir(path);
 }
 
-void output_discard_all(void)
+int output_discard_all(void)
 {
-    for (int i = 0; i < PENDING_MAX; i++)
-        if (pending[i].used && pending[i].owner == getpid() && unlink(pending[i].temp) != 0)
+    int count = 0;
+    for (int i = 0; i < PENDING_MAX; i++) {
+        if (!pending[i].used || pending[i].owner != getpid())
+            continue;
+        count++;
+        if (unlink(pending[i].temp) != 0)
             output_remove_folder(pending[i].temp);
+    }
+    return count;
 }

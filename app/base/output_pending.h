@@ -13,7 +13,8 @@ void output_pending_forget(const char *temp);
 /* Removes a folder and its files, but not its subfolders. May be called from a signal handler. */
 void output_remove_folder(const char *path);
 
-/* Removes the temporary files and folders of all unfinished outputs. May be called from a signal handler. */
-void output_discard_all(void);
+/* Removes the temporary files and folders of all unfinished outputs; returns their number. May be called from
+   a signal handler. */
+int output_discard_all(void);
 
 #endif

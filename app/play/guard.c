@@ -49,7 +49,10 @@ _Noreturn static void end(Guard *guard, bool lost)
     }
     if (lost)
         fprintf(stderr, "the display is gone\n");
-    output_discard_all();
+    if (output_discard_all() > 0) {
+        fprintf(stderr, "a video or a picture that was being written is lost\n");
+        ok = false;
+    }
     _exit(ok ? 0 : EXIT_FAILED);
 }
 

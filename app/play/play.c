@@ -208,9 +208,12 @@ static void jump_back(void *of_session)
 static bool run_while_there(Session *session, Error *error)
 {
     Window *window = session->play.window;
-    const bool again = setjmp(session->back) != 0;
-    window_when_gone(window, again ? NULL : jump_back, session);
-    const bool ok = again ? error_set(error, GONE) : run(session, error);
+    if (setjmp(session->back) != 0) {
+        window_when_gone(window, NULL, NULL);
+        return error_set(error, GONE);
+    }
+    window_when_gone(window, jump_back, session);
+    const bool ok = run(session, error);
     window_when_gone(window, NULL, NULL);
     return ok;
 }

@@ -378,7 +378,7 @@ static void push_solids(const CpuRange *range)
         p->ax[i] += push * p->own[SOLID_SLOPE][i];
         p->ay[i] += push * p->own[SOLID_SLOPE + 1][i];
         p->az[i] += push * p->own[SOLID_SLOPE + 2][i];
-        if (share == 0)
+        if (share <= 0) /* below 0 by rounding */
             continue;
         float a[3] = {p->ax[i], p->ay[i], p->az[i]};
         along_solid(p, i, a);
