@@ -39,8 +39,8 @@ static void on_crash(int number, siginfo_t *info, void *context)
         signal(number, SIG_DFL); /* the same crash again, for a debugger */
         return;
     }
-    if (write(STDERR_FILENO, words, sizeof words - 1) < 0)
-        number = 0;
+    const ssize_t said = write(STDERR_FILENO, words, sizeof words - 1);
+    (void)said;
     output_discard_all();
     _exit(EXIT_FAILED);
 }

@@ -286,7 +286,7 @@ static void sweep(const DistanceGrid *grid, float *deep, int way)
 static bool leave_inner_surfaces(DistanceGrid *grid)
 {
     const size_t count = distance_count(grid);
-    float *deep = malloc(count * sizeof *deep);
+    float *deep = calloc(count + 1, sizeof *deep);
     if (!deep)
         return false;
     const size_t step[3] = {1, (size_t)grid->size[0], (size_t)grid->size[0] * (size_t)grid->size[1]};

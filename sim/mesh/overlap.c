@@ -50,7 +50,7 @@ static void strips_between(Strips *strips, double low, double high, double most)
 /* The ends of each part along the axis; of many parts, of all together. */
 static size_t cuts_of(const Triangles *of, const Parts *parts, int axis, double cut[2 * PARTS_MOST])
 {
-    const size_t count = parts->count <= PARTS_MOST ? parts->count : 1;
+    const size_t count = parts->count > 0 && parts->count <= PARTS_MOST ? parts->count : 1;
     for (size_t p = 0; p < count; p++)
         cut[2 * p] = INFINITY, cut[2 * p + 1] = -INFINITY;
     for (size_t i = 0; i < 3 * of->triangle_count; i++) {
@@ -65,7 +65,7 @@ static size_t cuts_of(const Triangles *of, const Parts *parts, int axis, double 
 
 static void lay(Lines *lines, const Parts *parts)
 {
-    double cut[2][2 * PARTS_MOST], longest = 0;
+    double cut[2][2 * PARTS_MOST] = {{0}}, longest = 0;
     size_t count = 0;
     for (int a = 0; a < 2; a++) {
         count = cuts_of(lines->of, parts, a + 1, cut[a]);

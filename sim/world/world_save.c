@@ -43,7 +43,7 @@ size_t world_births_bytes(const World *world)
 static void save_live(World *world, double time, double numbers[LIVE_NUMBERS])
 {
     WorldDef *def = &world->def;
-    double viscosity[FLUIDS_MAX];
+    double viscosity[FLUIDS_MAX] = {0};
     for (int f = 0; f < def->fluid_count; f++)
         viscosity[f] = def->fluids[f].viscosity;
     world_def_at(def, time);
