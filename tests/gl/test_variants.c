@@ -350,6 +350,9 @@ static void forget(void)
     memset(image_at, 0, sizeof image_at);
 }
 
+/* A def is large, and a frame that holds all variants is more than a stack under the sanitizers. */
+#define NOINLINE __attribute__((noinline))
+
 static WorldDef pool_def(const char *backend)
 {
     WorldDef def = fixture_def(0.8, 0.6, 0.5);
@@ -411,7 +414,7 @@ static void set_name(char name[NAME_SIZE], const char *value)
     snprintf(name, NAME_SIZE, "%s", value);
 }
 
-static void mueller_lives(const char *backend)
+NOINLINE static void mueller_lives(const char *backend)
 {
     const WorldDef base = pool_def(backend);
     LIVE(base, d.reproducible = true, d.fluids[0].viscosity = 0);
@@ -419,7 +422,7 @@ static void mueller_lives(const char *backend)
          d.negative_pressure = true);
 }
 
-static void mueller_has_more_on_compute(void)
+NOINLINE static void mueller_has_more_on_compute(void)
 {
     const WorldDef base = pool_def("compute");
     LIVE(base, d.periodic[0] = true);
@@ -432,7 +435,7 @@ static void mueller_has_more_on_compute(void)
     LIVE(base, add_flow(&d));
 }
 
-static void wcsph_lives(void)
+NOINLINE static void wcsph_lives(void)
 {
     WorldDef base = pool_def("compute");
     set_name(base.method, "wcsph");
@@ -453,7 +456,7 @@ static void wcsph_lives(void)
          wcsph_def(&d)->corrected_gradient = true);
 }
 
-static void implicit_viscosity_lives(void)
+NOINLINE static void implicit_viscosity_lives(void)
 {
     WorldDef base = pool_def("compute");
     base.viscosity_solver = VISCOSITY_IMPLICIT;
@@ -464,7 +467,7 @@ static void implicit_viscosity_lives(void)
 }
 
 /* dfsph, pbf. */
-static void incompressible_lives(const char *method)
+NOINLINE static void incompressible_lives(const char *method)
 {
     WorldDef base = pool_def("compute");
     set_name(base.method, method);
@@ -605,7 +608,7 @@ static void make_vectors(void)
     derived_destroy(&derived);
 }
 
-static void draw_views(const WorldDef *def, bool solids)
+NOINLINE static void draw_views(const WorldDef *def, bool solids)
 {
     static ViewDef views[VIEWS_MAX];
     ViewDef base = view_def_default();
@@ -651,7 +654,7 @@ static void toy_lives(void)
 }
 
 /* Walks on surfaces, of each field that has a shader. */
-static void surfaces_are_walked_on(void)
+NOINLINE static void surfaces_are_walked_on(void)
 {
     static const char *const fields[] = {"sphere",    "torus",       "gyroid", "wave",      "plane",
                                          "trilinear", "catmull_rom", "sph",    "sph_scalar"};
