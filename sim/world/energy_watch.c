@@ -179,13 +179,20 @@ void energy_forget(World *world)
     world->energy = (EnergyMark){0};
 }
 
-/* Surface energy that may come free, J. */
+/* Most energy that tension may set free, J. Cohesion also presses the fluid together, by some 5 sigma /
+   spacing (advise_cohesion), and frees that pressure squared over rho c^2 of a volume. */
 static double surface(const World *world, const EnergySums *sums)
 {
-    double most = 0;
-    for (int f = 0; f < world->def.fluid_count && world->constants.tension_model != TENSION_NONE; f++)
-        most = fmax(most, world->def.fluids[f].surface_tension);
-    return most * sums->bare;
+    const WorldDef *def = &world->def;
+    const double c = step_sound(def);
+    double most = 0, pressed = 0;
+    for (int f = 0; f < def->fluid_count && world->constants.tension_model != TENSION_NONE; f++) {
+        const double pull = 5 * def->fluids[f].surface_tension / (def->spacing * def->fluids[f].density);
+        most = fmax(most, def->fluids[f].surface_tension);
+        pressed = fmax(pressed, c > 0 ? pull * pull / (c * c) : 0);
+    }
+    return most * sums->bare +
+           (world->constants.tension_model == TENSION_COHESION ? pressed * sums->mass : 0);
 }
 
 /* The gain of energy that counts as trouble, J; energy from tension or from a lid is allowed. */
