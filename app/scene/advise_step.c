@@ -153,17 +153,16 @@ void advise_borne(const Tree *tree, const Scene *scene, Notes *notes)
     }
 }
 
-/* Cohesion also compresses the fluid itself, by about 5 sigma / spacing: drops of 552 particles, compressed
-   by 0.4 to 6 %. */
+/* Cohesion pulls within the fluid too: a low speed of sound loses volume. */
 void advise_cohesion(const Tree *tree, const Scene *scene, Notes *notes)
 {
-    static const double pull = 5, much = 0.03, good = 0.01; /* of sigma / spacing; compressions */
+    static const double much = 0.03, good = 0.01; /* compressions */
     const WorldDef *def = &scene->world;
     if (method_find(def->method)->incompressible || def->tension_model != TENSION_COHESION)
         return;
     for (int f = 0; f < def->fluid_count; f++) {
         const FluidDef *fluid = &def->fluids[f];
-        const double c = def->sound_speed, pressure = pull * fluid->surface_tension / def->spacing,
+        const double c = def->sound_speed, pressure = cohesion_pressure(def, f),
                      pressed = pow(1 + 7 * pressure / (fluid->density * c * c), 1.0 / 7) - 1;
         if (pressed > much)
             advise(

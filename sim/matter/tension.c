@@ -44,6 +44,11 @@ double cohesion_scale(int dimensions, double spacing, double h)
     return sum > 0 ? 2 * area / (volume * volume * sum) : 0;
 }
 
+double cohesion_pressure(const WorldDef *def, int fluid)
+{
+    return 5 * def->fluids[fluid].surface_tension / def->spacing;
+}
+
 double colour_scale(int dimensions, double h)
 {
     return dimensions == 3 ? 945 / (32 * M_PI * pow(h, 9)) : 24 / (M_PI * pow(h, 8));

@@ -25,6 +25,10 @@ double cohesion_kernel(double r, double h);
    half the work per area to part the lattice at rest along a lattice plane. */
 double cohesion_scale(int dimensions, double spacing, double h);
 
+/* Pressure, Pa, by which cohesion presses a fluid of the def together: some 5 sigma / spacing, measured on
+   drops of 552 particles at compressions of 0.4 to 6 %. */
+double cohesion_pressure(const WorldDef *def, int fluid);
+
 /* For the model `curvature`, with the normals N = sum (1 - r/h)^3 x_ij of a fluid. The part of a surface per
    particle follows from |N| over the |N| of the lattice's outermost layer. */
 typedef struct CurvatureScale {

@@ -2,6 +2,7 @@
 
 #include "sim/body/bodies.h"
 #include "sim/matter/flow.h"
+#include "sim/matter/tension.h"
 
 #include <math.h>
 
@@ -179,15 +180,15 @@ void energy_forget(World *world)
     world->energy = (EnergyMark){0};
 }
 
-/* Most energy that tension may set free, J. Cohesion also presses the fluid together, by some 5 sigma /
-   spacing (advise_cohesion), and frees that pressure squared over rho c^2 of a volume. */
+/* Most energy that tension may set free, J. Cohesion also presses the fluid together, and frees the square of
+   that pressure over rho c^2, of a volume. */
 static double surface(const World *world, const EnergySums *sums)
 {
     const WorldDef *def = &world->def;
     const double c = step_sound(def);
     double most = 0, pressed = 0;
     for (int f = 0; f < def->fluid_count && world->constants.tension_model != TENSION_NONE; f++) {
-        const double pull = 5 * def->fluids[f].surface_tension / (def->spacing * def->fluids[f].density);
+        const double pull = cohesion_pressure(def, f) / def->fluids[f].density;
         most = fmax(most, def->fluids[f].surface_tension);
         pressed = fmax(pressed, c > 0 ? pull * pull / (c * c) : 0);
     }

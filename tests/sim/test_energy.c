@@ -321,6 +321,28 @@ static void open_worlds_are_watched(void **state)
         }
 }
 
+/* A drop that cohesion presses by some 6 % boils, and gains no energy that the watch may end it for. */
+static void a_drop_that_is_pressed_is_not_accused(void **state)
+{
+    (void)state;
+    fixture_needs_cpu("a bound of cohesion");
+    WorldDef def = fixture_def(0.008, 0.006, 0.008);
+    Fill *fill = &def.fluids[0].fills[def.fluids[0].fill_count++];
+    *fill = (Fill){.kind = FILL_BALL, .centre = {0, 0.003, 0}, .radius = 0.001};
+    memset(def.gravity, 0, sizeof def.gravity);
+    def.spacing = 0.0002;
+    def.sound_speed = 5;
+    def.retries = 3;
+    def.dt = 1e-5;
+    def.tension_model = TENSION_COHESION;
+    def.fluids[0].surface_tension = 0.072;
+    def.fluids[0].viscosity = 0.001;
+    World *world = fixture_world(&def);
+    fixture_step(world, 60);
+    assert_int_equal(trouble_of(world).count, 0);
+    world_destroy(world);
+}
+
 /* A heavy ball that drops into a pond at rest: all that the fluid gets is what the ball has lost. */
 static void a_ball_that_falls_brings_its_energy(void **state)
 {
@@ -447,6 +469,7 @@ int main(void)
         cmocka_unit_test(boiling_is_found_in_a_box_that_moves),
         cmocka_unit_test(jolts_are_counted),
         cmocka_unit_test(open_worlds_are_watched),
+        cmocka_unit_test(a_drop_that_is_pressed_is_not_accused),
         cmocka_unit_test(a_ball_that_falls_brings_its_energy),
         cmocka_unit_test(boiling_is_found_in_open_worlds),
         cmocka_unit_test(gauges_watch_boxes_at_rest),
