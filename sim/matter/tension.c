@@ -10,7 +10,7 @@ const TensionKind tension_kinds[] = {
     [TENSION_COHESION] = {"cohesion", "Akinci 2013: particles of a fluid attract each other; keeps momentum"},
     [TENSION_CURVATURE] = {"curvature",
                            "Morris 2000 at a free surface: curvature from normals, contact angles "
-                           "at walls; momentum nearly kept"},
+                           "at walls; keeps the momentum of each body"},
     [TENSION_CURVATURE + 1] = {0},
 };
 

@@ -89,5 +89,9 @@ const ColumnDef wcsph_columns[] = {
     {"carried", "1/(m s)", OWN(CARRIED), 3, COLUMN_FLOAT, .needed = wcsph_carries},
     {"rest_density", "kg/m3", OWN(REST_DENSITY), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
      .needed = wcsph_layers},
+    {"pull", "N", OWN(PULL), 3, COLUMN_FLOAT, .needed = wcsph_curves},
+    {"drop", "", OWN(DROP), 1, COLUMN_INDEX, .needed = wcsph_curves},
+    {"drop_sum", "", OWN(DROP_SUM), 3, COLUMN_INDEX, .needed = wcsph_curves},
+    {"drop_tally", "", OWN(DROP_TALLY), 1, COLUMN_INDEX, .needed = wcsph_curves},
     {0},
 };

@@ -140,7 +140,7 @@ const Pass wcsph_forces = {
     .reads =
         "position velocity id fluid volume pressure pressure_term viscosity artificial tension kind outward correction "
         "correction_mixed rest_density",
-    .writes = "acceleration uneven full dense",
+    .writes = "acceleration uneven full dense pull",
     .felt = true,
     .mirrors = true,
 };

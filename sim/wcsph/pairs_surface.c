@@ -174,6 +174,9 @@ PAIR_LOOP(wcsph_curvature)
         const f8 crowd = f8_splat(scale->crowd) * whole / greater(n.weight, f8_splat(1e-4F));
         const f8 force = -f8_load(args->tension + i) * curvature *
                          (f8_splat(1) - f8_splat(scale->offset) * curvature) / crowding(crowd);
+        lanes_store(own[PULL], i, begin, end, force * x);
+        lanes_store(own[PULL + 1], i, begin, end, force * y);
+        lanes_store(own[PULL + 2], i, begin, end, force * z);
         lanes_add(args->fx, i, begin, end, force * x);
         lanes_add(args->fy, i, begin, end, force * y);
         lanes_add(args->fz, i, begin, end, force * z);

@@ -45,8 +45,16 @@ extern const Pass wcsph_correct;
 /* Density += dt times its rate by the equation of continuity; then volume and pressure. */
 extern const Pass wcsph_continuity;
 
-/* Normals of the surfaces, for surface tension by curvature. */
+/* Before wcsph_surface: each particle is a body of its own. */
+extern const Pass wcsph_drops;
+
+/* Normals of the surfaces, for surface tension by curvature; then the bodies of connected fluid. */
 extern const Pass wcsph_surface;
+void wcsph_join_few(const CpuRange *range);
+void wcsph_join(const CpuRange *range);
+
+/* After wcsph_forces: takes the mean force of surface tension by curvature off each body. */
+extern const Pass wcsph_balance;
 
 /* Accelerations by pressure, viscosity, walls and solids; sums for shifting. */
 extern const Pass wcsph_forces;

@@ -6,9 +6,10 @@ PAIR_LOOPS(wcsph_normals);
 static void normals_body(const CpuRange *range)
 {
     cpu_pairs(range, &wcsph_normals);
+    wcsph_join_few(range);
 }
 
-static const CpuPass normals = {.loops = {{normals_body, .walks = true}}};
+static const CpuPass normals = {.loops = {{normals_body, .walks = true}, {wcsph_join}}};
 
 const Pass wcsph_surface = {
     .name = "surface",
@@ -16,6 +17,6 @@ const Pass wcsph_surface = {
     .cpu = &normals,
     .shader = "wcsph/surface",
     .reads = "position kind",
-    .writes = "outward",
+    .writes = "outward drop",
     .needed = wcsph_curves,
 };

@@ -119,6 +119,20 @@ static void shift(const Substep *step)
     substep_run(step, &wcsph_shift, step->dt);
 }
 
+/* Normals of the surfaces, and bodies of connected fluid. */
+static void surface(const Substep *step)
+{
+    substep_run(step, &wcsph_drops, step->dt);
+    substep_run(step, &wcsph_surface, step->dt);
+}
+
+static void forces(const Substep *step)
+{
+    substep_run(step, &wcsph_forces, step->dt);
+    if (wcsph_curves(step->constants))
+        substep_run(step, &wcsph_balance, step->dt);
+}
+
 /* Leapfrog as the symmetric composition continuity, drift, kick, drift, continuity (half steps except for
    the kick). Each part is exact while the rest is frozen, so the step is of second order, is reversible
    except for viscosity, and needs a single grid. The rate at the end of a step is also the rate at the
@@ -137,12 +151,12 @@ static void wcsph_substep(const Substep *step)
         substep_run(step, &wcsph_state, 0.5 * step->dt);
     if (wcsph_curves(step->constants))
         STAGE (step->clock, STAGE_FORCE)
-            substep_run(step, &wcsph_surface, step->dt);
+            surface(step);
     if (wcsph_corrects(step->constants))
         STAGE (step->clock, STAGE_DENSITY)
             substep_run(step, &wcsph_correct, 0);
     STAGE (step->clock, STAGE_FORCE)
-        substep_run(step, &wcsph_forces, step->dt);
+        forces(step);
     substep_terms(step);
     STAGE (step->clock, STAGE_INTEGRATE)
         substep_kick(step);
@@ -155,9 +169,9 @@ static void wcsph_substep(const Substep *step)
         continuity(step);
 }
 
-static const Pass *const passes[] = {&wcsph_state,    &wcsph_surface,    &wcsph_correct,
-                                     &wcsph_forces,   &wcsph_carry,      &wcsph_shift,
-                                     &wcsph_gradient, &wcsph_continuity, NULL};
+static const Pass *const passes[] = {
+    &wcsph_state, &wcsph_drops, &wcsph_surface,  &wcsph_correct,    &wcsph_forces, &wcsph_balance,
+    &wcsph_carry, &wcsph_shift, &wcsph_gradient, &wcsph_continuity, NULL};
 static const Pass *const start[] = {&wcsph_correct, &wcsph_gradient, &wcsph_continuity, NULL};
 
 static bool is_radial(const Constants *constants)
@@ -186,12 +200,10 @@ static const ShaderTerm terms[] = {{"KERNEL_WENDLAND_C2", has_wendland_c2},
                                    {"LAYERS", wcsph_layers},
                                    {0}};
 
-/* In vec4; see slope.comp, evenness.glsl, correction.glsl and surface.glsl. */
-static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses},
-                                       {"Unevens", 32, wcsph_returns},
-                                       {"Corrections", 32, wcsph_corrects},
-                                       {"Outwards", 16, wcsph_curves},
-                                       {0}};
+/* See slope.comp, evenness.glsl, correction.glsl, surface.glsl and drops.glsl. */
+static const ShaderBuffer buffers[] = {{"Slopes", 16, wcsph_diffuses},      {"Unevens", 32, wcsph_returns},
+                                       {"Corrections", 32, wcsph_corrects}, {"Outwards", 16, wcsph_curves},
+                                       {"Drops", 32, wcsph_curves},         {0}};
 
 const Method method_wcsph = {
     .name = "wcsph",

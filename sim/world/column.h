@@ -13,8 +13,8 @@
 struct Constants; /* sim/world/constants.h */
 struct WorldDef;  /* sim/matter/world_def.h */
 
-enum { COLUMNS_OWN = 37, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
-enum { COLUMNS_KEPT = 25, COLUMNS_LEFT = 31, COLUMNS_SHOWN = 34 }; /* indices in ParticleColumns.own */
+enum { COLUMNS_OWN = 44, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_KEPT = 32, COLUMNS_LEFT = 38, COLUMNS_SHOWN = 41 }; /* indices in ParticleColumns.own */
 
 /* All possible data of a particle, a column each; NULL if not needed. */
 typedef struct ParticleColumns {

@@ -50,7 +50,7 @@ typedef struct ShaderBuffer {
     bool (*needed)(const struct Constants *constants);
 } ShaderBuffer;
 
-enum { METHOD_BUFFERS_MAX = 4 };
+enum { METHOD_BUFFERS_MAX = 5 };
 
 /* Kernels of a method's density and of the slope in its forces. */
 typedef struct MethodKernels {

@@ -199,13 +199,67 @@ static void the_colour_field_is_one_inside(void **state)
     }
 }
 
+/* Adds an uneven disc of the plane, what of it is above the floor; returns the number of particles. */
+static size_t add_disc(size_t count, double x, double y, double radius)
+{
+    uint32_t seed = 5;
+    for (int i = -10; i < 10; i++)
+        for (int j = -10; j < 10; j++) {
+            const double place[2] = {0.1 * (i + 0.2 + 0.6 * fixture_random(&seed)),
+                                     0.1 * (j + 0.2 + 0.6 * fixture_random(&seed))};
+            if (hypot(place[0], place[1]) > radius || y + place[1] < 0)
+                continue;
+            assert_true(count < COUNT);
+            cloud[3 * count] = (float)(x + place[0]);
+            cloud[3 * count + 1] = (float)(y + place[1]);
+            cloud[3 * count++ + 2] = 0;
+        }
+    return count;
+}
+
+/* The mean velocity of particles from `first` on, m/s. */
+static void mean_velocity(const State *s, size_t first, size_t end, double v[2])
+{
+    for (int k = 0; k < 2; k++) {
+        v[k] = 0;
+        for (size_t i = first; i < end; i++)
+            v[k] += (double)s->velocity[4 * i + k] / (double)(end - first);
+    }
+}
+
+/* Of two drops apart the free one stays where it is, and the one on a floor does not walk; the floor may
+ * push. */
+static void curvature_moves_no_drop(void **state)
+{
+    (void)state;
+    WorldDef def = tense_def(2, TENSION_CURVATURE);
+    strcpy(def.method, "wcsph");
+    def.support = 3;
+    def.dt = 2e-4;
+    def.fluids[0].contact_angle = 60;
+    const size_t middle = add_disc(0, -2, 4, 0.6), count = add_disc(middle, 2, 0, 0.8);
+    def.initial = &(InitialState){count, cloud, NULL, NULL, NULL, NULL, 0};
+    World *world = fixture_world(&def);
+    fixture_step(world, 100);
+    State s = fixture_read(world);
+    double free_drop[2], on_floor[2];
+    mean_velocity(&s, 0, middle, free_drop);
+    mean_velocity(&s, middle, count, on_floor);
+    printf("a free drop at %.2g, %.2g m/s, one on the floor at %.2g, %.2g\n", free_drop[0], free_drop[1],
+           on_floor[0], on_floor[1]);
+    assert_true(hypot(free_drop[0], free_drop[1]) < 1e-7);
+    assert_true(fabs(on_floor[0]) < 1e-7);
+    assert_true(on_floor[1] < -1e-3);
+    fixture_free(&s);
+    world_destroy(world);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models_equal_brute_force),
-        cmocka_unit_test(cohesion_makes_round),
-        cmocka_unit_test(parting_takes_twice_the_tension),
-        cmocka_unit_test(the_colour_field_is_one_inside),
+        cmocka_unit_test(models_equal_brute_force),        cmocka_unit_test(cohesion_makes_round),
+        cmocka_unit_test(parting_takes_twice_the_tension), cmocka_unit_test(the_colour_field_is_one_inside),
+        cmocka_unit_test(curvature_moves_no_drop),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 #ifdef CURVATURE
 #define OUTWARD_ACCESS readonly
 #include "sim/wcsph/surface.glsl"
+#include "sim/wcsph/drops.glsl"
 
 // A unit normal and its weight.
 vec4 front_of(vec3 n)
@@ -54,6 +55,7 @@ vec3 curvature_force(uint i, vec3 x, ivec3 at)
     float curvature = clamp((float(dimensions - 1) * bend_sum - pull * along) / whole, -0.1 * most, most);
     float crowd = max(curvature_crowd * whole / max(front.w, 1e-4), curvature_crowd_least);
     float force = fluid_terms[bend_fluid].tension * curvature * (1.0 - curvature_offset * curvature) / pow(crowd, 0.375);
+    drop_add(i, x, -force * outward[i].xyz, bend_fluid);
     return -force * outward[i].xyz;
 }
 

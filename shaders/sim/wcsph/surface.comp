@@ -1,4 +1,4 @@
-// wcsph with surface tension by curvature: normals of the surfaces; their length is their weight: wcsph_normals of
+// wcsph with surface tension by curvature: bodies of connected fluid, and normals of the surfaces; their length is their weight: wcsph_normals of
 // sim/wcsph/pairs_surface.c. The first walk of a step.
 #define LISTS_FIRST
 #define OUTWARD_ACCESS writeonly
@@ -7,16 +7,25 @@
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"
 #include "sim/wcsph/surface.glsl"
+#include "sim/wcsph/drops.glsl"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 
 uint own_fluid;
 vec3 slopes = vec3(0); // of the particle, or of an image
+uint self, root;
 
 void meet(uint j, vec3 d, float volume)
 {
     if (FLUID_OF(j) == own_fluid)
         slopes += surface_slope(dot(d, d)) * d;
+}
+
+void meet_and_join(uint j, vec3 d, float volume)
+{
+    meet(j, d, volume);
+    if (j < self && FLUID_OF(j) == own_fluid && dot(d, d) < support * support && drop[j] != root)
+        root = drop_join(root, j);
 }
 
 vec3 slopes_of_images(vec3 x, ivec3 at)
@@ -49,7 +58,9 @@ void main()
     vec3 x = position[i].xyz;
     ivec3 at = cell_of(x);
     own_fluid = FLUID_OF(i);
-    WALK_OWN_FLUID(i, x, at, meet)
+    self = i;
+    root = drop_root(i);
+    WALK_OWN_FLUID(i, x, at, meet_and_join)
     vec3 n = slopes; // copied before the images overwrite `slopes`
     n += slopes_of_images(x, at);
     float size = length(n);
