@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static const PbfDef usual = {.tolerance = 0.01, .iterations = 50};
+static const PbfDef usual = {.tolerance = 0.01, .iterations = 100};
 
 /* clang-format off */
 static const Key keys[] = {

@@ -172,8 +172,10 @@ double step_pressure(const WorldDef *def)
     const Method *method = method_find(def->method);
     const double *g = def->gravity, fall = greatest_fall(def),
                  speed = sqrt(sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]) * fall);
-    if (!method->incompressible || method->leaps || speed == 0)
+    if (!method->incompressible || speed == 0)
         return INFINITY;
+    if (method->leaps)
+        return sqrt(STEP_FALL_STANDS * def->spacing * fall) / speed;
     const double still = STEP_PRESSURE_STANDS * def->support * def->spacing / speed,
                  damped = 0.25 * still * boiling_damped(def);
     return still * (damped + sqrt(damped * damped + 1));

@@ -97,13 +97,32 @@ static void friction_and_speed_bind_too(void **state)
     assert_int_equal(def->substeps, 10);
     assert_true(dam(0.01, "method: dfsph")->substeps > 10);
     assert_true(told("which speed stands here") || told("which pressure stands here"));
-    assert_int_equal(dam(0.01, "method: pbf")->substeps, 1); /* any step holds */
+    def = dam(0.01, "method: pbf");
+    assert_true(def->step_mode == STEP_CFL && def->max_dt == 0.016666667 && def->cfl_number == 0.33);
     def = tense("dfsph", 7200);
     const double dfsph_limit = step_tension(def);
     assert_true(def->dt / def->substeps <= dfsph_limit && told("which surface tension stands here"));
-    def = tense("pbf", 7200); /* whose preset's step is a default too */
+    def = tense("pbf", 7200); /* mode cfl keeps the limit */
     assert_true(step_tension(def) < 0.34 * dfsph_limit);
-    assert_true(def->dt / def->substeps <= step_tension(def) && told("which surface tension stands here"));
+    assert_int_equal(def->step_mode, STEP_CFL);
+}
+
+/* A jet of pbf needs steps of a spacing, and calm fluid none; a scene that names a step has that step. */
+static void a_step_of_pbf_follows_the_flow(void **state)
+{
+    (void)state;
+    const WorldDef *def = dam(0.4, "method: pbf");
+    const StepFriction none = {0};
+    StepLimit limit;
+    assert_float_equal(step_cfl(def, &none, 0.1, 9.81, 1, &limit), 1 / 60.0, 1e-6);
+    assert_float_equal(step_cfl(def, &none, 4, 9.81, 1, &limit), def->spacing / 4, 0.02 * def->spacing / 4);
+    def = dam(0.01, "method: pbf"); /* 20 layers of 0.5 mm: a fall of 0.4 of them in a step is a limit too */
+    assert_float_equal(step_cfl(def, &none, 0, 9.81, 1, &limit), sqrt(0.4 * 0.0005 / 9.81), 1e-6);
+    assert_int_equal(limit, STEP_LIMIT_PRESSURE);
+    def = dam(0.4, "method: pbf, step: {dt: 0.0166667}");
+    assert_true(def->step_mode == STEP_FIXED && def->substeps == 1 && notes.count == 0);
+    dam(0.01, "method: pbf, step: {dt: 0.0166667}");
+    assert_true(told("too long for the pressure"));
 }
 
 int main(void)
@@ -113,6 +132,7 @@ int main(void)
         cmocka_unit_test(any_size_has_sound_and_steps_of_its_own),
         cmocka_unit_test(what_is_named_stays),
         cmocka_unit_test(friction_and_speed_bind_too),
+        cmocka_unit_test(a_step_of_pbf_follows_the_flow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

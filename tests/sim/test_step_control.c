@@ -46,7 +46,8 @@ static void each_limit_binds(void **state)
     assert_true(fabs(step_cfl(&def, &friction, 0, 1e6, 1, &limit) - sqrt(0.3 * 0.21e-6)) < 1e-12);
     assert_int_equal(limit, STEP_LIMIT_FORCE);
     strcpy(def.method, "pbf");
-    assert_true(step_cfl(&def, &friction, 0, 0, 1, &limit) == 1);
+    assert_true(fabs(step_cfl(&def, &friction, 0, 0, 1, &limit) - sqrt(0.4 * 0.1 / 9.81)) < 1e-12);
+    assert_int_equal(limit, STEP_LIMIT_PRESSURE);
     for (int i = 0; i < STEP_LIMIT_COUNT; i++)
         assert_non_null(step_limit_name((StepLimit)i));
 }
