@@ -48,6 +48,14 @@ static size_t root_of(ParticleId *label, size_t i)
     }
 }
 
+/* The root of i once all bodies are joined; changes no label. */
+static size_t root_at(const ParticleId *label, size_t i)
+{
+    while (label[i] != i)
+        i = label[i];
+    return i;
+}
+
 /* Joins the bodies of roots that may have changed meanwhile; returns the root. */
 static size_t join(ParticleId *label, size_t a, size_t b)
 {
@@ -139,10 +147,10 @@ static void sum_body(const CpuRange *range)
     const Drops drops = drops_of(cpu);
     const WallsFar far = walls_far(&cpu->constants->walls, cpu->constants->support_radius);
     for (size_t i = range->begin; i < range->end;) {
-        const size_t root = root_of(drops.label, i);
+        const size_t root = root_at(drops.label, i);
         const float scale = sum_scale(cpu->constants, cpu->now.fluid[i]);
         DropPart part = {0};
-        for (; i < range->end && root_of(drops.label, i) == root; i++) {
+        for (; i < range->end && root_at(drops.label, i) == root; i++) {
             for (int k = 0; k < 3; k++)
                 part.sum[k] += steps_of(cpu->now.own[PULL + k][i], scale);
             part.count++;
@@ -161,7 +169,7 @@ static void end_body(const CpuRange *range)
     if (cpu->foreign) /* bodies go over the ranks */
         return;
     for (size_t i = range->begin; i < range->end; i++) {
-        const size_t root = root_of(drops.label, i);
+        const size_t root = root_at(drops.label, i);
         const int fluid = cpu->now.fluid[i];
         const float scale = sum_scale(s, fluid) * s->mass[fluid] * (float)(drops.tally[root] / DROP_ONE);
         for (int k = 0; k < 3; k++)
@@ -178,7 +186,7 @@ const Pass wcsph_drops = {
     .cpu = &begin,
     .shader = "wcsph/drops",
     .reads = "",
-    .writes = "drop",
+    .writes = "drop drop_sum drop_tally",
     .needed = wcsph_curves,
 };
 
@@ -187,7 +195,7 @@ const Pass wcsph_balance = {
     .stage = STAGE_FORCE,
     .cpu = &end,
     .shader = "wcsph/balance",
-    .reads = "position fluid pull drop",
-    .writes = "acceleration",
+    .reads = "position fluid pull drop drop_sum drop_tally",
+    .writes = "acceleration drop_sum drop_tally",
     .needed = wcsph_curves,
 };

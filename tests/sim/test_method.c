@@ -61,7 +61,7 @@ static int columns_named(const Method *method, const char *list)
 
 static int words(const char *list)
 {
-    int count = 1;
+    int count = list[0] != 0;
     for (const char *at = list; (at = strchr(at, ' ')); at++)
         count++;
     return count;
