@@ -1,7 +1,6 @@
 #include "app/ablate/ablate.h"
 
-#include "app/base/interrupt.h"
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/lab/chart_run.h"
 
 #include <math.h>

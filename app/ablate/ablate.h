@@ -7,7 +7,7 @@
 
 #include "app/ablate/instructions.h"
 #include "app/lab/chart_row.h"
-#include "app/term/term.h"
+#include "app/scene/keys.h"
 
 enum { ABLATE_ROUNDS = 3, ABLATE_RUNS = ABLATE_ROUNDS + 1 };
 

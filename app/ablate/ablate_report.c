@@ -1,6 +1,6 @@
 #include "app/ablate/ablate_report.h"
 
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 #include "app/ablate/instructions.h"
 
-#include "app/base/interrupt.h"
-#include "app/base/output_pending.h"
+#include "app/base/output.h"
+#include "app/base/program.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -132,6 +132,6 @@ bool instructions_count(const char *scene, const SceneSettings *settings, const 
     add_two(&line, "--set", "view.kind=none");
     const bool ok = run(&line, error) && read_count(profile, json, per_step, error);
     output_remove_folder(folder);
-    output_pending_forget(folder);
+    output_pending_remove(folder);
     return ok;
 }

@@ -1,11 +1,33 @@
-/* Files that appear complete or not at all: written under a temporary name, then renamed. */
-#ifndef SLOSH_OUTPUT_H
-#define SLOSH_OUTPUT_H
+/* Output files and folders that appear complete or not at all: written under a temporary name, then
+   renamed; and the lock of a file with one writer. */
+#ifndef APP_BASE_OUTPUT_H
+#define APP_BASE_OUTPUT_H
 
-#include "app/base/output_pending.h"
 #include "sim/base/error.h"
 
+#include <limits.h>
 #include <stdbool.h>
+
+/* The absolute path of the file after all links; of a missing file, its future path. Returns false with
+   errno: links in a circle, an unreadable folder, a too long path. */
+bool path_resolve(const char *path, char place[PATH_MAX]);
+
+/* Temporary files and folders of unfinished outputs, for removal by a signal that ends the program. Only
+   output.c adds entries. */
+
+enum { OUTPUT_TEMP_SIZE = 1056 }; /* of a temporary name */
+
+void output_pending_add(const char *temp);
+
+/* Call after renaming or removal. */
+void output_pending_remove(const char *temp);
+
+/* Removes a folder and its files, but not its subfolders. May be called from a signal handler. */
+void output_remove_folder(const char *path);
+
+/* Removes the temporary files and folders of all unfinished outputs; returns their number. May be called from
+   a signal handler. */
+int output_discard_all(void);
 
 /* A file being written. Zero-initialise before use. */
 typedef struct Output {
@@ -28,18 +50,60 @@ bool output_commit(Output *output, Error *error);
    still be committed or discarded. */
 bool output_commit_new(Output *output, bool *there, Error *error);
 
-/* Resolves `path` if it is a link; also for folders (output_folder). Returns false with the reason, for
-   example a too long path. */
-bool output_target(const char *path, char target[1024], Error *error);
-
 /* Removes the temporary file; no effect before begin, after commit or a second time. */
 void output_discard(Output *output);
 
-/* Removes temporary files of the same output left by writers that no longer run. Each begin of an output
-   calls this function. */
-void output_clear_stale(const char *target);
-
 /* True if the path is writable; leaves no file. */
 bool output_check(const char *path, Error *error);
+
+/* Folders that appear complete or not at all: filled under a temporary name, then renamed. */
+
+/* A folder being written. Zero-initialise before use. Its files are named after the folder, NAME-0123.vtp or
+   NAME-0123-part4.vtp in NAME, so that an older export folder is recognised and can be replaced. */
+typedef struct OutputFolder {
+    char path[1024];             /* the requested name */
+    char target[1024];           /* target of the link if `path` is a link, which stays */
+    char temp[OUTPUT_TEMP_SIZE]; /* target.PID.tmp: fill this folder until the commit; empty: none */
+    const char *suffix;          /* ".vtp" */
+} OutputFolder;
+
+/* Creates the temporary folder. Returns false with the reason: no such parent folder, no write permission, a
+   file of that name, or a folder with files other than exports, which stay untouched. */
+bool output_folder_begin(OutputFolder *folder, const char *path, const char *suffix, Error *error);
+
+/* Renames the folder to its final name; an older folder is removed with all its files. On failure the
+   temporary folder is removed and the older folder stays. */
+bool output_folder_commit(OutputFolder *folder, Error *error);
+
+/* Removes the temporary folder; no effect before begin, after commit or a second time. output_discard_all
+   removes the temporary folder too. */
+void output_folder_discard(OutputFolder *folder);
+
+/* Files with one writer at a time: a kernel lock on the file, which ends with the program, even if killed.
+   The lock belongs to the open file (F_OFD_SETLK, Linux 3.15). HDF5, ParaView and h5py lock by flock, which
+   does not see this lock, so other programs may read a file during writing. On NFS both locks are one, and
+   readers there need HDF5_USE_FILE_LOCKING=FALSE. */
+
+typedef enum OutputLockState {
+    OUTPUT_UNLOCKED, /* no such file */
+    OUTPUT_LOCKED,
+    OUTPUT_UNLOCKABLE /* the file cannot be locked: reported once on standard error */
+} OutputLockState;
+
+/* Zero-initialise before use. */
+typedef struct OutputLock {
+    OutputLockState state;
+    int file;
+} OutputLock;
+
+/* Returns false with the reason if a different lock, of any program, holds the file. */
+bool output_lock(OutputLock *lock, const char *path, Error *error);
+
+/* May be called twice. */
+void output_unlock(OutputLock *lock);
+
+/* output_commit over a file locked by `older`, or over no file if `older` found none. Returns false with the
+   reason if another program has begun to write a file of that name. Releases `older`. */
+bool output_lock_commit(OutputLock *older, Output *output, Error *error);
 
 #endif

@@ -1,6 +1,6 @@
 #include "app/beside/beside.h"
 
-#include "app/scene/tables.h"
+#include "app/scene/scene_files.h"
 #include "render/renderer.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/matter/flow.h"
@@ -109,7 +109,7 @@ bool beside_open_file(const char *scene, const ViewDef *view, int entry, Recorde
 {
     char path[1200];
     Notes own = {.count = 0};
-    if (!scene_beside_path(scene, view->file, path, error))
+    if (!scene_relative_path(scene, view->file, path, error))
         return blame(entry, error);
     if (is_elsewhere(path, view->file))
         return error_set(error,

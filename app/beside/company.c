@@ -1,9 +1,9 @@
 #include "app/beside/company.h"
-
 #include "app/beside/beside.h"
+
 #include "app/playback/reel.h"
 #include "app/recording/recording.h"
-#include "app/scene/check.h"
+#include "app/scene/scene.h"
 #include "render/renderer.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"

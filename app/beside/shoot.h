@@ -3,7 +3,7 @@
 #define SLOSH_SHOOT_H
 
 #include "app/beside/lacks.h"
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "app/playback/reel_watch.h"
 #include "app/session/between.h"
 #include "app/session/session.h"

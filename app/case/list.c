@@ -1,6 +1,6 @@
 #include "app/case/case.h"
 
-#include "app/base/suggest.h"
+#include "app/base/program.h"
 #include "app/case/all.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "app/case/reference.h"
 
-#include "app/base/path.h"
+#include "app/scene/scene_files.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "app/case/run.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "sim/base/stage.h"
 
 #include <math.h>

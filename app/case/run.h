@@ -2,8 +2,9 @@
 #ifndef SLOSH_CASE_RUN_H
 #define SLOSH_CASE_RUN_H
 
-#include "app/base/progress.h"
 #include "app/case/case.h"
+
+#include "app/base/program.h"
 #include "app/scene/scene.h"
 
 typedef struct CaseSetup {

@@ -1,12 +1,10 @@
 #include "app/session/args_table.h"
-
-#include "app/base/path.h"
 #include "app/command/export_parts.h"
 #include "app/hand/play_commands.h"
 #include "app/lab/bench_table.h"
 #include "app/manual/manual.h"
-#include "app/recipe/recipe.h"
 #include "app/scene/keys.h"
+#include "app/scene/scene_files.h"
 
 #include <stddef.h>
 
@@ -71,7 +69,7 @@ const CommandRow command_rows[] = {
 const HelpTopic help_topics[] = {
     {"keys", "every key of a scene", scene_keys_print},
     {"window", "what keys, mouse and gamepad do in the window", play_commands_print},
-    {"presets", "settings that go together, for --preset", recipe_print},
+    {"presets", "settings that go together, for --preset", preset_print},
     {"man", NULL, manual_print},
     {"bash", NULL, completion_print_bash},
     {"zsh", NULL, completion_print_zsh},
@@ -171,7 +169,7 @@ const OptionRow option_rows[] = {
     {"--backend", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.backend", .help = "what computes the fluid"},
     {"--method", "NAME", ALL, OPTION_SETTING, AT(settings), .path = "solver.method", .help = "the equations of the solver"},
     {"--view", "NAME", ALL & ~(VALIDATE | CHART | STABILITY | FIT), OPTION_SETTING, AT(settings), .path = "view.kind", .help = "how the fluid is drawn"},
-    {"--preset", "NAME", PLAY | RENDER | RUN | BENCH | INFO, OPTION_SETTING, AT(settings), .path = "preset", .help = "settings that go together, in place of the scene's: of a fluid (NAME:FLUID: of that one of several) or of the solver; --set goes before it", .names = recipe_choice},
+    {"--preset", "NAME", PLAY | RENDER | RUN | BENCH | INFO, OPTION_SETTING, AT(settings), .path = "preset", .help = "settings that go together, in place of the scene's: of a fluid (NAME:FLUID: of that one of several) or of the solver; --set goes before it", .names = preset_name},
     {"--threads", "N", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.threads", .help = "threads of the CPU; 0: one for each processor"},
     {"--simd", "NAME", ALL | REPLAY, OPTION_SETTING, AT(settings), .path = "solver.simd", .help = "SIMD instructions of the CPU solver"},
     {"--gpu", "N", SCENES | RENDER | RUN | BENCH | VALIDATE | CHART | STABILITY | FIT | REPLAY | INFO, OPTION_COUNT, AT(gpu), .max = 15, .help = "which GPU, counted from 0"},

@@ -1,9 +1,8 @@
 #include "app/command/bench_ablate.h"
 
 #include "app/ablate/ablate_report.h"
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/session/headless.h"
 
 #include <stdlib.h>

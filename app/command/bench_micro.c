@@ -1,8 +1,7 @@
 #include "app/command/bench_micro.h"
 
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/lab/micro.h"
 #include "sim/matter/seed.h"
 

@@ -1,8 +1,7 @@
 #include "app/command/bench_points.h"
 
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/lab/points_bench.h"
 
 enum { USUAL_POINTS = 4000000, USUAL_FRAMES = 5 };

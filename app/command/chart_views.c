@@ -1,15 +1,12 @@
 #include "app/command/chart_views.h"
 
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/gallery/shot.h"
 #include "app/gallery/view_plan.h"
 #include "app/lab/chart.h"
 #include "app/lab/run_key.h"
-
 #include "sim/gl/shader_source.h"
 
 #include <math.h>

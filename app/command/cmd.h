@@ -1,9 +1,9 @@
-/* The commands: each returns the exit code of the program (app/base/exit_code.h). Messages go to standard
+/* The commands: each returns the exit code of the program (app/base/program.h). Messages go to standard
  * error. */
 #ifndef SLOSH_CMD_H
 #define SLOSH_CMD_H
 
-#include "app/base/exit_code.h"
+#include "app/base/program.h"
 #include "app/session/args.h"
 
 int cmd_play(const Args *args);

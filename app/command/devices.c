@@ -1,5 +1,5 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/device/device_survey.h"
 #include "app/device/devices_watch.h"

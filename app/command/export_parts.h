@@ -2,7 +2,7 @@
 #ifndef SLOSH_EXPORT_PARTS_H
 #define SLOSH_EXPORT_PARTS_H
 
-#include "app/output/snapshot.h"
+#include "app/files/snapshot.h"
 #include "app/session/args.h"
 
 /* Opens the snapshots of the command line, at least one; reports a gap at the end. Returns false with the

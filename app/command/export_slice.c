@@ -1,13 +1,10 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
-#include "app/base/suggest.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
-#include "app/export/series.h"
-#include "app/export/slice_table.h"
-#include "app/output/snapshot_arrays.h"
-#include "app/output/snapshot_sift.h"
+#include "app/files/export.h"
+#include "app/files/snapshot.h"
 #include "app/session/headless.h"
 #include "render/plane/plane_kernel.h"
 
@@ -28,7 +25,7 @@ typedef struct SliceExport {
     SnapshotReader *reader;
     SnapshotScene scene;
     SnapshotFlaws flaws;
-    SliceWanted wanted;
+    SliceTableDef wanted;
     size_t index; /* of the snapshot */
     SliceForm form;
     SliceMaker maker;
@@ -137,14 +134,14 @@ bool export_has_scalar(const Args *args, SnapshotReader *reader, size_t index, S
 {
     char list[800] = "";
     SnapshotStep step;
-    if (!snapshot_read_shown(reader, index, &step, error))
+    if (!snapshot_read_for_display(reader, index, &step, error))
         return false;
     const unsigned has = snapshot_attributes(&step);
     snapshot_step_free(&step);
-    if ((step_attributes(scalar) & ~has) == 0)
+    if ((snapshot_scalar_attributes(scalar) & ~has) == 0)
         return true;
     for (int s = 0; s < SCALAR_COUNT; s++)
-        if ((step_attributes((Scalar)s) & ~has) == 0)
+        if ((snapshot_scalar_attributes((Scalar)s) & ~has) == 0)
             snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "",
                      scalar_name((Scalar)s));
     return error_set(error, "%s: Step#%zu has no %s; take --scalar %s", args->scenes[0], index,
@@ -155,7 +152,7 @@ static bool understand(SliceExport *export, Error *error)
 {
     const Args *args = export->args;
     export->wanted =
-        (SliceWanted){.normal = {0, 0, 1}, .samples = {args->width, args->height}, .raw = args->raw};
+        (SliceTableDef){.normal = {0, 0, 1}, .samples = {args->width, args->height}, .raw = args->raw};
     while (export->form <= SLICE_PVD && !ends_in(args->output, forms[export->form]))
         export->form++;
     if (export->form > SLICE_PVD)
@@ -164,7 +161,7 @@ static bool understand(SliceExport *export, Error *error)
     if (export->form == SLICE_PVD && args->time_given)
         return error_set(error, "--time makes no sense for all snapshots, %s; name a FILE.vti or a FILE.csv",
                          args->output);
-    return refuse_others(args, error) && slice_wanted_read(&export->wanted, args->slice, error) &&
+    return refuse_others(args, error) && slice_table_def_read(&export->wanted, args->slice, error) &&
            export_scalar(args->scalar ? args->scalar : "pressure", &export->wanted.scalar, error) &&
            export_open(args, &export->reader, error) &&
            snapshot_read_scene(export->reader, &export->scene, error) && choose_kernel(export, error) &&
@@ -192,10 +189,11 @@ static bool make_table(SliceExport *export, size_t index, Error *error)
 {
     SnapshotStep step;
     slice_table_free(&export->table);
-    if (!snapshot_read_shown(export->reader, index, &step, error))
+    if (!snapshot_read_for_display(export->reader, index, &step, error))
         return false;
     const bool made =
-        (snapshot_sift(&export->flaws, index, &step) || error_set(error, "out of memory for a snapshot")) &&
+        (snapshot_validate(&export->flaws, index, &step) ||
+         error_set(error, "out of memory for a snapshot")) &&
         slice_table_make(&export->maker, &export->wanted, &export->scene, &step, &export->table, error);
     snapshot_step_free(&step);
     return made;
@@ -231,15 +229,15 @@ static bool write_one(SliceExport *export, Error *error)
 
 static bool write_all(SliceExport *export, Error *error)
 {
-    const SeriesJob job = {.path = export->args->output,
-                           .extension = forms[SLICE_VTI],
-                           .count = snapshot_count_steps(export->reader),
-                           .write = write_slice,
-                           .user = export};
+    const ExportSeries job = {.path = export->args->output,
+                              .extension = forms[SLICE_VTI],
+                              .count = snapshot_count_steps(export->reader),
+                              .write = write_slice,
+                              .user = export};
     Progress progress;
     size_t written = 0;
     progress_begin(&progress, stderr, "export", export->args->quiet);
-    const bool done = series_write(&job, &progress, &written, error);
+    const bool done = export_series_write(&job, &progress, &written, error);
     progress_end(&progress);
     export->interrupted = done && written < job.count;
     return done;
@@ -250,7 +248,7 @@ static bool write_all(SliceExport *export, Error *error)
 static void warn(const SliceExport *export)
 {
     const Args *args = export->args;
-    const SliceWanted *wanted = &export->wanted;
+    const SliceTableDef *wanted = &export->wanted;
     const SliceTable *table = &export->table;
     const double across =
         hypot(table->plane.size[0] / wanted->samples[0], table->plane.size[1] / wanted->samples[1]);
@@ -270,7 +268,7 @@ static void warn(const SliceExport *export)
 static void report(const SliceExport *export)
 {
     const Args *args = export->args;
-    const SliceWanted *wanted = &export->wanted;
+    const SliceTableDef *wanted = &export->wanted;
     const ScalarRow *scalar = &scalar_list[wanted->scalar];
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->table.time, args->output);
@@ -295,7 +293,7 @@ static bool write_json(const SliceExport *export, Error *error)
 {
     const Args *args = export->args;
     const SliceTable *table = &export->table;
-    const SliceWanted *wanted = &export->wanted;
+    const SliceTableDef *wanted = &export->wanted;
     if (!args->json)
         return true;
     json_t *json = json_pack(

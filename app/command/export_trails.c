@@ -1,13 +1,12 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
-#include "app/export/vtp.h"
-#include "app/output/step_buffers.h"
+#include "app/files/export_formats.h"
+#include "app/files/pathlines.h"
+#include "app/files/snapshot.h"
 #include "app/session/headless.h"
-#include "app/trace/trace.h"
 #include "sim/base/stage.h"
 
 #include <errno.h>
@@ -22,10 +21,10 @@ typedef struct TrailExport {
     SnapshotReader *reader;
     SnapshotFlaws flaws;
     SnapshotScene scene;
-    TraceDef def;
+    PathlinesDef def;
     Scalar scalar;
     size_t first, last; /* of the snapshots */
-    Trace trace;
+    Pathlines trace;
     size_t steps;     /* count of steps with points */
     double time;      /* of the last step, s */
     bool interrupted; /* by a signal, before the last step */
@@ -76,7 +75,7 @@ static bool choose_first(TrailExport *export, Error *error)
 /* Lines need particle ids. */
 static bool has_ids(const TrailExport *export, const SnapshotStep *step, size_t index, Error *error)
 {
-    return !snapshot_step_lacks(step, "id") ||
+    return !snapshot_step_misses(step, "id") ||
            error_set(error, "%s: Step#%zu has no ids, and nobody knows which particle went where",
                      export->args->scenes[0], index);
 }
@@ -85,7 +84,7 @@ static bool has_ids(const TrailExport *export, const SnapshotStep *step, size_t 
 static bool check_ids(const TrailExport *export, Error *error)
 {
     SnapshotStep step;
-    if (!snapshot_read_shown(export->reader, export->last, &step, error))
+    if (!snapshot_read_for_display(export->reader, export->last, &step, error))
         return false;
     const bool has = has_ids(export, &step, export->last, error);
     snapshot_step_free(&step);
@@ -95,7 +94,7 @@ static bool check_ids(const TrailExport *export, Error *error)
 static bool understand(TrailExport *export, Error *error)
 {
     const Args *args = export->args;
-    return refuse_others(args, error) && trace_def_read(&export->def, args->trails, error) &&
+    return refuse_others(args, error) && pathlines_def_read(&export->def, args->trails, error) &&
            export_scalar(args->scalar ? args->scalar : "speed", &export->scalar, error) &&
            export_open(args, &export->reader, error) &&
            snapshot_read_scene(export->reader, &export->scene, error) &&
@@ -109,14 +108,14 @@ static bool understand(TrailExport *export, Error *error)
 /* True if a step must be read although it adds no points: lines may begin at a place or across a plane. */
 static bool is_read(const TrailExport *export, bool column)
 {
-    return column || trace_def_has_plane(&export->def) || trace_def_has_region(&export->def);
+    return column || pathlines_def_has_plane(&export->def) || pathlines_def_has_region(&export->def);
 }
 
 /* Checks a step, which may lack columns of the last step. */
 static bool check_step(const TrailExport *export, const SnapshotStep *step, size_t index, Error *error)
 {
     return has_ids(export, step, index, error) &&
-           ((step_attributes(export->scalar) & ~snapshot_attributes(step)) == 0 ||
+           ((snapshot_scalar_attributes(export->scalar) & ~snapshot_attributes(step)) == 0 ||
             error_set(error, "%s: Step#%zu has no %s", export->args->scenes[0], index,
                       scalar_name(export->scalar)));
 }
@@ -127,15 +126,15 @@ static bool take_step(TrailExport *export, size_t index, Error *error)
     double time;
     if (!snapshot_read_time(export->reader, index, &time, error))
         return false;
-    const bool column = index == export->last || trace_is_column(&export->trace, time);
+    const bool column = index == export->last || pathlines_step_has_points(&export->trace, time);
     if (!is_read(export, column))
         return true;
-    if (!snapshot_read_shown(export->reader, index, &step, error))
+    if (!snapshot_read_for_display(export->reader, index, &step, error))
         return false;
-    const bool taken =
-        check_step(export, &step, index, error) &&
-        (snapshot_sift(&export->flaws, index, &step) || error_set(error, "out of memory for a snapshot")) &&
-        trace_step(&export->trace, &step, column, error);
+    const bool taken = check_step(export, &step, index, error) &&
+                       (snapshot_validate(&export->flaws, index, &step) ||
+                        error_set(error, "out of memory for a snapshot")) &&
+                       pathlines_step(&export->trace, &step, column, error);
     snapshot_step_free(&step);
     export->steps += column;
     export->time = time;
@@ -159,10 +158,10 @@ static bool take_steps(TrailExport *export, Error *error)
 
 /* ---- the file ---- */
 
-static bool write_lines(const TrailExport *export, const char *name, const TraceRows *order,
-                        const TraceRows *offset, Error *error)
+static bool write_lines(const TrailExport *export, const char *name, const PathlineRows *order,
+                        const PathlineRows *offset, Error *error)
 {
-    const Trace *trace = &export->trace;
+    const Pathlines *trace = &export->trace;
     const VtpLines lines = {.time = export->time,
                             .points = trace->line.count,
                             .lines = trace->id.count,
@@ -185,11 +184,11 @@ static bool write_lines(const TrailExport *export, const char *name, const Trace
 
 static bool sort_and_write(const TrailExport *export, const char *name, Error *error)
 {
-    TraceRows order = {0}, offset = {0};
-    const bool written = trace_lines(&export->trace, &order, &offset, error) &&
+    PathlineRows order = {0}, offset = {0};
+    const bool written = pathlines_sort(&export->trace, &order, &offset, error) &&
                          write_lines(export, name, &order, &offset, error);
-    trace_rows_free(&order);
-    trace_rows_free(&offset);
+    pathline_rows_free(&order);
+    pathline_rows_free(&offset);
     return written;
 }
 
@@ -198,8 +197,8 @@ static bool make(TrailExport *export, Error *error)
     Output output = {0};
     if (!output_begin(&output, export->args->output, error))
         return false;
-    trace_begin(&export->trace, &export->def, &export->scene, export->args->frame, export->scalar,
-                export->args->output);
+    pathlines_begin(&export->trace, &export->def, &export->scene, export->args->frame, export->scalar,
+                    export->args->output);
     if (take_steps(export, error) && sort_and_write(export, output.temp, error))
         return output_commit(&output, error);
     output_discard(&output);
@@ -211,7 +210,7 @@ static bool make(TrailExport *export, Error *error)
 static void report(const TrailExport *export)
 {
     const Args *args = export->args;
-    const Trace *trace = &export->trace;
+    const Pathlines *trace = &export->trace;
     const ScalarRow *scalar = &scalar_list[export->scalar];
     if (export->interrupted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", export->time, args->output);
@@ -221,8 +220,8 @@ static void report(const TrailExport *export)
     else if (trace->id.count == 0)
         fprintf(stderr, "%s: warning: none of %zu particles %s: there are no trails\n", args->output,
                 trace->ends_count,
-                trace_def_has_plane(&export->def) ? "crosses that plane"
-                                                  : "is in that region when it is seen first");
+                pathlines_def_has_plane(&export->def) ? "crosses that plane"
+                                                      : "is in that region when it is seen first");
     if (args->quiet)
         return;
     fprintf(stderr,
@@ -235,7 +234,7 @@ static void report(const TrailExport *export)
 static bool write_json(const TrailExport *export, double wall_seconds, Error *error)
 {
     const Args *args = export->args;
-    const Trace *trace = &export->trace;
+    const Pathlines *trace = &export->trace;
     if (!args->json)
         return true;
     json_t *json = json_pack(
@@ -265,7 +264,7 @@ static bool run(TrailExport *export, Error *error)
     if (made)
         report(export);
     const bool done = made && write_json(export, (wall_ms() - began_ms) / 1000, error);
-    trace_free(&export->trace);
+    pathlines_free(&export->trace);
     headless_destroy(context);
     return done;
 }

@@ -1,15 +1,14 @@
 #define _GNU_SOURCE /* FNM_EXTMATCH */
 #include "app/command/file_clash.h"
 
-#include "app/base/file_place.h"
-#include "app/base/json_file.h"
-#include "app/base/path.h"
+#include "app/base/file.h"
+#include "app/base/output.h"
 #include "app/device/mapping.h"
-#include "app/export/export.h"
+#include "app/files/export.h"
+#include "app/files/pictures.h"
 #include "app/fit/fit_plan.h"
-#include "app/output/pictures.h"
 #include "app/recording/recording.h"
-#include "app/scene/tables.h"
+#include "app/scene/scene_files.h"
 #include "app/session/args_table.h"
 
 #include <fnmatch.h>
@@ -40,7 +39,7 @@ typedef struct Files {
 static void add(Files *files, Use use, const char *word, const char *name, const char *pattern)
 {
     File *file = &files->file[files->count];
-    if (!name || files->count == FILES_MAX || !file_place(name, file->place))
+    if (!name || files->count == FILES_MAX || !path_resolve(name, file->place))
         return;
     file->use = use;
     file->word = word;

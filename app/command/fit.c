@@ -1,6 +1,6 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/fit/fit_report.h"
 #include "app/fit/fit_scene.h"

@@ -1,15 +1,12 @@
-#include "app/base/driver_trouble.h"
-#include "app/base/json_file.h"
-#include "app/base/path.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
-#include "app/export/export.h"
+#include "app/files/export.h"
 #include "app/metric/metric_list.h"
-#include "app/recipe/recipe.h"
-#include "app/scene/json.h"
 #include "app/scene/keys.h"
-#include "app/scene/preset.h"
+#include "app/scene/save.h"
+#include "app/scene/scene_files.h"
 #include "app/session/headless.h"
-#include "app/setting/save.h"
 #include "render/frame/view.h"
 #include "sim/kernel/kernel.h"
 #include "sim/matter/seed.h"
@@ -116,7 +113,7 @@ _Noreturn static void try_driver(const WorldDef *small, int gpu)
 static bool driver_holds(const WorldDef *small, int gpu, Error *error)
 {
     int status = 0;
-    driver_trouble_begin();
+    driver_error_install();
     fflush(NULL);
     const pid_t child = fork();
     if (child == 0)
@@ -147,10 +144,10 @@ static void put_methods(Info *info)
 {
     put_named(info, "methods", "methods", world_methods());
     begin_list(info, "presets, by --preset", "recipes");
-    for (const Recipe *recipe = recipe_list; recipe->name; recipe++)
+    for (const Preset *recipe = preset_list; recipe->name; recipe++)
         put_row(info, recipe->name, recipe->help);
     begin_list(info, "presets of the solver, solver.preset", "presets");
-    for (const Preset *preset = preset_list; preset->name; preset++)
+    for (const SolverPreset *preset = solver_preset_list; preset->name; preset++)
         put_row(info, preset->name, preset->help);
     begin_list(info, "density kernels", "density_kernels");
     for (const Kernel *kernel = density_kernels; kernel->name; kernel++)
@@ -227,7 +224,7 @@ static void put_scene(Info *info, const Scene *scene, const Notes *notes)
     if (info->quiet)
         return;
     printf("%s: %zu particle%s\n", scene->path, count, plural(count));
-    preset_print(scene, stdout);
+    solver_preset_print(scene, stdout);
     print_friction(&scene->world);
     scene_print(scene, stdout);
 }
@@ -256,13 +253,13 @@ static bool save(const Args *args, const Scene *scene, Error *error)
 {
     char words[512];
     size_t size;
-    Saved saved = {.lost = false};
+    SceneSaved saved = {.lost = false};
     char *text = scene_file_read(scene->path, &size, error);
     if (!text)
         return false;
-    const Save what = {.scene = scene, .path = scene->path, .text = text, .size = size};
-    const bool ok = save_scene(&what, args->save, &saved, error);
-    saved_words(&saved, words, sizeof words);
+    const SceneSource what = {.scene = scene, .path = scene->path, .text = text, .size = size};
+    const bool ok = scene_save(&what, args->save, &saved, error);
+    scene_saved_words(&saved, words, sizeof words);
     if (ok && !args->quiet)
         fprintf(stderr, "%s\n", words);
     setting_list_free(&saved.changed);

@@ -1,4 +1,4 @@
-#include "app/base/standard_streams.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/command/file_clash.h"
 #include "app/session/args_table.h"

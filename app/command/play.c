@@ -1,5 +1,5 @@
 #include "app/play/play.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
 #include "app/command/cmd.h"
 #include "app/device/devices.h"

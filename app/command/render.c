@@ -1,17 +1,15 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
-#include "app/base/path.h"
-#include "app/base/progress.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/beside/panel_title.h"
 #include "app/beside/shoot.h"
 #include "app/command/cmd.h"
+#include "app/files/pictures.h"
 #include "app/film/render_file.h"
 #include "app/film/render_plan.h"
 #include "app/film/render_report.h"
-#include "app/output/pictures.h"
 #include "app/playback/recorded.h"
 #include "app/recording/recording.h"
-#include "app/setting/carry.h"
+#include "app/scene/scene_files.h"
 #include "sim/base/stage.h"
 
 #include <math.h>
@@ -35,7 +33,7 @@ typedef struct Render {
     Schedule schedule;
     Progress progress;
     RenderFigures figures;
-    Carried carried; /* in each PNG file */
+    EmbeddedScene carried; /* in each PNG file */
     ImageText text;
 } Render;
 
@@ -238,7 +236,7 @@ static bool take_pictures(Render *render, Error *error)
 static void warn_of_older(const Pictures *pictures, size_t taken)
 {
     char frame[1088];
-    if (taken > 0 && pictures_has_older(pictures, frame))
+    if (taken > 0 && pictures_find_stale(pictures, frame))
         fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", frame);
 }
 
@@ -281,7 +279,7 @@ static void tell_times(const Render *render)
 }
 
 /* Makes the scene to embed, as given, unless the scene forbids embedding. */
-static bool make_carried(const Args *args, Scene *scene, Carried *out, Error *error)
+static bool make_carried(const Args *args, Scene *scene, EmbeddedScene *out, Error *error)
 {
     SceneSettings settings = args->settings;
     size_t size = 0;
@@ -290,8 +288,8 @@ static bool make_carried(const Args *args, Scene *scene, Carried *out, Error *er
     char *text = scene->view.carries_scene ? scene_file_read(scene->path, &size, error) : NULL;
     if (!text)
         return !scene->view.carries_scene;
-    const Save save = {.scene = scene, .path = scene->path, .text = text, .size = size};
-    const bool ok = carry_make(&save, out, error);
+    const SceneSource save = {.scene = scene, .path = scene->path, .text = text, .size = size};
+    const bool ok = embedded_scene_make(&save, out, error);
     free(text);
     return ok;
 }
@@ -300,15 +298,15 @@ static bool make_carried(const Args *args, Scene *scene, Carried *out, Error *er
 static void carry(Render *render, PicturesKind kind)
 {
     Scene *scene = kind == PICTURES_VIDEO ? NULL : calloc(1, sizeof *scene);
-    Carried *carried = &render->carried;
+    EmbeddedScene *carried = &render->carried;
     Error error = {{0}};
     if (!scene)
         return;
     if (!make_carried(render->args, scene, carried, &error))
         fprintf(stderr, "%s; the pictures carry no scene\n", error.message);
-    render->text = carry_text(carried, 0);
+    render->text = embedded_scene_text(carried, 0);
     if (carried->scene)
-        pictures_carry(render->pictures, &render->text);
+        pictures_embed(render->pictures, &render->text);
     if (carried->scene && render->args->sweep_count > 0)
         fprintf(stderr, "--compare: pictures carry the scene without what it compares\n");
     free(scene);
@@ -325,7 +323,7 @@ static int shoot_all(Render *render, PicturesKind kind, Error *error)
         taken = take_pictures(render, error);
         progress_end(&render->progress);
     }
-    const size_t count = taken ? render->figures.pictures : 0, staying = pictures_staying(render->pictures);
+    const size_t count = taken ? render->figures.pictures : 0, staying = pictures_kept(render->pictures);
     warn_of_older(render->pictures, count);
     lacks_print(&render->shoot.lacks, render->args->output, stderr);
     if (!taken)
@@ -403,7 +401,7 @@ int cmd_render(const Args *args)
     for (int i = PANELS_MAX; i-- > 0;)
         session_close(&render->sessions[i]);
     render_plan_close(&render->plan);
-    carry_free(&render->carried);
+    embedded_scene_free(&render->carried);
     free(render);
     return code;
 }

@@ -1,6 +1,5 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
-#include "app/base/progress.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/session/recording_play.h"
 #include "app/session/snapshot_series.h"
@@ -128,7 +127,7 @@ static int run(Replay *replay, Error *error)
     if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
     if (args->output) {
-        Snapshot *file = snapshot_create(args->output, &replay->session.scene, error);
+        SnapshotWriter *file = snapshot_create(args->output, &replay->session.scene, error);
         if (!file)
             return fail_run(args, EXIT_FAILED, error);
         replay->series = (SnapshotSeries){.file = file, .every = args->every};

@@ -1,11 +1,10 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
+#include "app/files/forces_log.h"
 #include "app/lab/probe_chart.h"
 #include "app/metric/compression.h"
-#include "app/output/forces_log.h"
 #include "app/session/session.h"
 #include "app/session/snapshot_series.h"
 
@@ -13,7 +12,7 @@
 #include <unistd.h>
 
 /* After trouble that smaller steps did not cure, keeps the world's last good state, for inspection. */
-static void keep_last(const Session *session, Snapshot *file)
+static void keep_last(const Session *session, SnapshotWriter *file)
 {
     Error none = {{0}};
     if (session->scene.world.retries > 0 && session->info.time > snapshot_time(file))
@@ -65,7 +64,7 @@ static bool add_snapshot(SnapshotSeries *series, const Session *session, Look *l
 
 /* Runs from the first state to the last, with a snapshot of the first state at or after each multiple of
    --every. A signal ends the run early, with a complete file. */
-static bool simulate(Session *session, const Args *args, Snapshot *file, Look *look, Progress *progress,
+static bool simulate(Session *session, const Args *args, SnapshotWriter *file, Look *look, Progress *progress,
                      Error *error)
 {
     SnapshotSeries series = {.file = file, .every = args->every};
@@ -95,7 +94,7 @@ static int complain(int code, const Error *error)
     return code;
 }
 
-static int finish(const Session *session, const Args *args, const Snapshot *file, const Look *look,
+static int finish(const Session *session, const Args *args, const SnapshotWriter *file, const Look *look,
                   Error *error)
 {
     const CompressionFigures pressed = compression_figures(&look->compression);
@@ -114,7 +113,7 @@ static int finish(const Session *session, const Args *args, const Snapshot *file
     return summary.stopped ? EXIT_INTERRUPTED : code;
 }
 
-static int fail(const Session *session, const Args *args, const Snapshot *file, const Look *look,
+static int fail(const Session *session, const Args *args, const SnapshotWriter *file, const Look *look,
                 const Error *error)
 {
     Error why;
@@ -128,14 +127,14 @@ static int fail(const Session *session, const Args *args, const Snapshot *file, 
 }
 
 /* --resume: opens the file to continue, and loads the world's state from its end. */
-static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *error)
+static SnapshotWriter *resume(Session *session, const Args *args, bool *busy, Error *error)
 {
     WorldState state = {.count = 0};
     Scene *scene = &session->scene; /* a file with accelerations needs them in all steps */
     if (snapshot_file_has(args->output, SCALAR_ACCELERATION_X) &&
         !(scene->world.acceleration = world_keep_acceleration(session->world, error)))
         return NULL;
-    Snapshot *file =
+    SnapshotWriter *file =
         snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, busy, error);
     Error why = {{0}};
     if (file && !world_load(session->world, &state, &why)) {
@@ -151,10 +150,10 @@ static Snapshot *resume(Session *session, const Args *args, bool *busy, Error *e
     return file;
 }
 
-static Snapshot *begin(const Session *session, const Args *args, Error *error)
+static SnapshotWriter *begin(const Session *session, const Args *args, Error *error)
 {
-    Snapshot *file = snapshot_create(args->output, &session->scene, error);
-    if (!file || snapshot_note_hand(file, hand_replay_mark(session->hand), error))
+    SnapshotWriter *file = snapshot_create(args->output, &session->scene, error);
+    if (!file || snapshot_note_motion_source(file, hand_replay_mark(session->hand), error))
         return file;
     snapshot_close(file);
     return NULL;
@@ -173,7 +172,7 @@ static int run(Session *session, const Args *args, Error *error)
 {
     Progress progress;
     Look look = {.step_seconds = 0};
-    Snapshot *file;
+    SnapshotWriter *file;
     bool busy = false;
     const bool resumed = args->resume && access(args->output, F_OK) == 0;
     const bool feels = args->forces || (args->probes && probe_list_feels(&session->scene.probes));

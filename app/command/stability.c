@@ -1,6 +1,6 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
+#include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/lab/chart.h"
 #include "app/stability/stable_map.h"

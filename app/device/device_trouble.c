@@ -1,6 +1,6 @@
 #include "app/device/device_trouble.h"
 
-#include "app/base/place.h"
+#include "app/base/program.h"
 
 #include <dirent.h>
 #include <stdio.h>
@@ -21,12 +21,12 @@ static bool read_by_udev(const char *rule)
 bool device_rules_command(char command[DEVICE_COMMAND_SIZE])
 {
     static const char again[] = "sudo udevadm trigger --subsystem-match=hidraw";
-    char rule[PLACE_SIZE];
-    if (place_sources())
+    char rule[PROGRAM_PATH_SIZE];
+    if (program_sources())
         snprintf(command, DEVICE_COMMAND_SIZE,
-                 strchr(place_sources(), ' ') ? "'%s/tools/setup' --devices" : "%s/tools/setup --devices",
-                 place_sources());
-    else if (!place_rule(rule))
+                 strchr(program_sources(), ' ') ? "'%s/tools/setup' --devices" : "%s/tools/setup --devices",
+                 program_sources());
+    else if (!program_udev_rule(rule))
         return false;
     else if (read_by_udev(rule))
         snprintf(command, DEVICE_COMMAND_SIZE, "%s", again);

@@ -1,6 +1,6 @@
 #include "app/device/devices_watch.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "app/device/device_show.h"
 #include "app/device/device_trouble.h"
 #include "sim/base/stage.h"

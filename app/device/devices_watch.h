@@ -30,7 +30,7 @@ typedef struct Watch {
     WatchedDevice devices[WATCH_DEVICES_MAX];
 } Watch;
 
-/* Runs until a signal (app/base/interrupt.h), the end of the recording, a failure of `record`, or a failed
+/* Runs until a signal (app/base/program.h), the end of the recording, a failure of `record`, or a failed
    write to `out`. Returns false with the reason if it could not begin. */
 bool devices_watch(Watch *watch, Error *error);
 

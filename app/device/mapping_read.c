@@ -1,11 +1,9 @@
 /* Reads a mapping file. */
-#include "app/base/place.h"
-#include "app/base/read_file.h"
-#include "app/base/suggest.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/device/device_table.h"
 #include "app/device/mapping_keys.h"
-#include "app/yaml/value.h"
-#include "app/yaml/yaml.h"
+#include "app/scene/yaml/yaml.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +12,7 @@
 enum { FILE_BYTES_MAX = 1 << 20, NAMES_MAX = MAPPING_BUTTONS_MAX + 4, SHOWN_SIZE = 96 };
 
 typedef struct Reading {
-    const Tree *tree;
+    const YamlTree *tree;
     Error *error;
 } Reading;
 
@@ -30,7 +28,7 @@ static void names_add(Names *names, const char *name)
         names->names[names->count++] = name;
 }
 
-static bool unknown(const Reading *reading, const Node *child, const Names *names)
+static bool unknown(const Reading *reading, const YamlNode *child, const Names *names)
 {
     Suggestion near = suggest_for(child->key);
     char known[512] = "";
@@ -46,16 +44,16 @@ static bool unknown(const Reading *reading, const Node *child, const Names *name
                           child->key, known);
 }
 
-static bool is_mapping(const Reading *reading, const Node *node, const char *shown, const char *example)
+static bool is_mapping(const Reading *reading, const YamlNode *node, const char *shown, const char *example)
 {
     return node->kind == NODE_MAPPING ||
            tree_error(reading->tree, node, reading->error, "%s must be a mapping such as %s", shown, example);
 }
 
 /* Checks that all keys are in the list. */
-static bool check_names(const Reading *reading, const Node *mapping, const Names *names)
+static bool check_names(const Reading *reading, const YamlNode *mapping, const Names *names)
 {
-    for (const Node *child = mapping->first; child; child = child->next) {
+    for (const YamlNode *child = mapping->first; child; child = child->next) {
         bool known = false;
         for (int i = 0; i < names->count && !known; i++)
             known = strcmp(names->names[i], child->key) == 0;
@@ -66,11 +64,11 @@ static bool check_names(const Reading *reading, const Node *mapping, const Names
 }
 
 /* Reads the values of the present rows. */
-static bool read_rows(const Reading *reading, const Node *mapping, const Key *rows, const char *shown,
+static bool read_rows(const Reading *reading, const YamlNode *mapping, const Key *rows, const char *shown,
                       void *base)
 {
     for (const Key *row = rows; row->path; row++) {
-        const Node *child = node_child(mapping, row->path);
+        const YamlNode *child = node_child(mapping, row->path);
         char path[SHOWN_SIZE];
         snprintf(path, sizeof path, "%.60s.%.20s", shown, row->path);
         if (child && !value_read(reading->tree, row, child, path, base, reading->error))
@@ -79,7 +77,7 @@ static bool read_rows(const Reading *reading, const Node *mapping, const Key *ro
     return true;
 }
 
-static bool read_whole(const Reading *reading, const Node *node, const Key *rows, const char *shown,
+static bool read_whole(const Reading *reading, const YamlNode *node, const Key *rows, const char *shown,
                        const char *example, void *base)
 {
     Names names = {0};
@@ -89,7 +87,7 @@ static bool read_whole(const Reading *reading, const Node *node, const Key *rows
            read_rows(reading, node, rows, shown, base);
 }
 
-static bool read_axes(const Reading *reading, const Node *node, const char *shown, DeviceMap *map)
+static bool read_axes(const Reading *reading, const YamlNode *node, const char *shown, DeviceMap *map)
 {
     Names names = {0};
     for (int i = 0; i < MAPPING_AXES; i++)
@@ -97,7 +95,7 @@ static bool read_axes(const Reading *reading, const Node *node, const char *show
     if (!is_mapping(reading, node, shown, "{x: {to: move_x}}") || !check_names(reading, node, &names))
         return false;
     for (int i = 0; i < MAPPING_AXES; i++) {
-        const Node *child = node_child(node, names.names[i]);
+        const YamlNode *child = node_child(node, names.names[i]);
         char path[SHOWN_SIZE];
         snprintf(path, sizeof path, "%.60s.%s", shown, names.names[i]);
         if (child &&
@@ -107,7 +105,7 @@ static bool read_axes(const Reading *reading, const Node *node, const char *show
     return true;
 }
 
-static bool read_command(const Reading *reading, const Node *node, const char *shown, int *command)
+static bool read_command(const Reading *reading, const YamlNode *node, const char *shown, int *command)
 {
     const char *word = node->kind == NODE_SCALAR && node->text ? node->text : "";
     if (!*word)
@@ -134,14 +132,14 @@ static bool read_command(const Reading *reading, const Node *node, const char *s
                       near.best ? "'? " : "");
 }
 
-static bool read_buttons(const Reading *reading, const Node *node, const char *shown, DeviceMap *map)
+static bool read_buttons(const Reading *reading, const YamlNode *node, const char *shown, DeviceMap *map)
 {
     Names names = {0};
     for (int i = 0; i < map->button_count; i++)
         names_add(&names, map->buttons[i].name);
     if (!is_mapping(reading, node, shown, "{left: box-home}") || !check_names(reading, node, &names))
         return false;
-    for (const Node *child = node->first; child; child = child->next) {
+    for (const YamlNode *child = node->first; child; child = child->next) {
         char path[SHOWN_SIZE];
         snprintf(path, sizeof path, "%.60s.%.20s", shown, child->key);
         if (!read_command(reading, child, path, &device_map_button(map, child->key)->command))
@@ -150,7 +148,7 @@ static bool read_buttons(const Reading *reading, const Node *node, const char *s
     return true;
 }
 
-static bool read_device(const Reading *reading, const Node *node, DeviceMap *map)
+static bool read_device(const Reading *reading, const YamlNode *node, DeviceMap *map)
 {
     Names names = {0};
     char path[SHOWN_SIZE];
@@ -163,8 +161,8 @@ static bool read_device(const Reading *reading, const Node *node, DeviceMap *map
     if (!is_mapping(reading, node, node->key, "{gain: 1, axes: {...}}") ||
         !check_names(reading, node, &names) || !read_rows(reading, node, mapping_device_keys, node->key, map))
         return false;
-    const Node *axes = node_child(node, "axes"), *buttons = node_child(node, "buttons"),
-               *pose = node_child(node, "pose");
+    const YamlNode *axes = node_child(node, "axes"), *buttons = node_child(node, "buttons"),
+                   *pose = node_child(node, "pose");
     snprintf(path, sizeof path, "%.40s.axes", node->key);
     if (axes && !read_axes(reading, axes, path, map))
         return false;
@@ -185,7 +183,7 @@ static bool is_product(const char *key, unsigned *vendor, unsigned *product)
 }
 
 /* Reads a product's entry, starting with its family's values. */
-static bool read_own(const Reading *reading, const Node *node, unsigned vendor, unsigned product,
+static bool read_own(const Reading *reading, const YamlNode *node, unsigned vendor, unsigned product,
                      Mapping *mapping)
 {
     const DeviceRow *row = device_row((uint16_t)vendor, (uint16_t)product);
@@ -205,18 +203,18 @@ static bool read_own(const Reading *reading, const Node *node, unsigned vendor, 
     return read_device(reading, node, &own->map);
 }
 
-static bool read_root(const Reading *reading, const Node *root, Mapping *mapping)
+static bool read_root(const Reading *reading, const YamlNode *root, Mapping *mapping)
 {
     Names names = {0};
     unsigned vendor, product;
     for (int f = 0; f < DEVICE_FAMILY_COUNT; f++)
         names_add(&names, device_family_word((DeviceFamily)f));
     for (int f = 0; f < DEVICE_FAMILY_COUNT; f++) {
-        const Node *child = node_child(root, names.names[f]);
+        const YamlNode *child = node_child(root, names.names[f]);
         if (child && !read_device(reading, child, &mapping->family[f]))
             return false;
     }
-    for (const Node *child = root->first; child; child = child->next) {
+    for (const YamlNode *child = root->first; child; child = child->next) {
         bool family = false;
         for (int f = 0; f < DEVICE_FAMILY_COUNT; f++)
             family = family || strcmp(names.names[f], child->key) == 0;
@@ -232,12 +230,12 @@ static bool read_root(const Reading *reading, const Node *root, Mapping *mapping
     return true;
 }
 
-static bool read_text(Tree *tree, const char *bytes, size_t size, Mapping *mapping, Error *error)
+static bool read_text(YamlTree *tree, const char *bytes, size_t size, Mapping *mapping, Error *error)
 {
     static const char right[] = "write `dualsense:` or another family at the left margin; `slosh devices "
                                 "--write-mapping FILE` writes one to begin with";
     const Reading reading = {tree, error};
-    Node *root = NULL;
+    YamlNode *root = NULL;
     if (!yaml_read(tree, NULL, bytes, size, &root, error))
         return false;
     if (!root)
@@ -249,7 +247,7 @@ static bool read_text(Tree *tree, const char *bytes, size_t size, Mapping *mappi
 
 bool mapping_parse(const char *path, const char *bytes, size_t size, Mapping *mapping, Error *error)
 {
-    Tree tree = {.path = path};
+    YamlTree tree = {.path = path};
     Mapping read;
     mapping_default(&read);
     const bool ok = read_text(&tree, bytes, size, &read, error);
@@ -261,8 +259,8 @@ bool mapping_parse(const char *path, const char *bytes, size_t size, Mapping *ma
 
 bool mapping_user_path(char path[1024])
 {
-    char folder[PLACE_SIZE];
-    return place_own(folder) && snprintf(path, 1024, "%s/mapping.yaml", folder) < 1024;
+    char folder[PROGRAM_PATH_SIZE];
+    return program_user_folder(folder) && snprintf(path, 1024, "%s/mapping.yaml", folder) < 1024;
 }
 
 static bool read_mapping(const char *path, Mapping *mapping, Error *error)

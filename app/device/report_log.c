@@ -1,6 +1,6 @@
 #include "app/device/report_log.h"
 
-#include "app/base/read_file.h"
+#include "app/base/file.h"
 #include "app/recording/recording_reader.h"
 
 #include <stdlib.h>

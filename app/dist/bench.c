@@ -1,8 +1,7 @@
 /* Measures the time of a step's parts per rank, for the model of cost. */
 #include "app/lab/bench.h"
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/dist/cmd.h"
 #include "app/dist/stand.h"
 #include "sim/dist/ranks.h"

@@ -4,7 +4,7 @@
 #define SLOSH_DIST_FORCES_H
 
 #include "app/dist/stand.h"
-#include "app/output/forces_log.h"
+#include "app/files/forces_log.h"
 #include "app/session/probe_series.h"
 
 /* Starts summing forces in the world, also for force probes. */

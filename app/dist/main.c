@@ -1,6 +1,5 @@
 /* slosh-dist: slosh run on MPI ranks. */
-#include "app/base/exit_code.h"
-#include "app/base/standard_streams.h"
+#include "app/base/program.h"
 #include "app/dist/cmd.h"
 #include "app/dist/options.h"
 #include "sim/dist/ranks.h"

@@ -1,5 +1,5 @@
 /* The model of cost, fitted to files of slosh-dist bench. */
-#include "app/base/exit_code.h"
+#include "app/base/program.h"
 #include "app/dist/cmd.h"
 #include "app/dist/sample.h"
 

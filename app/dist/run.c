@@ -1,8 +1,6 @@
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/base/output.h"
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/dist/cmd.h"
 #include "app/dist/forces.h"
 #include "app/dist/probes.h"
@@ -21,11 +19,11 @@
 typedef struct DistRun {
     const Args *args;
     Stand stand;
-    Snapshot *file;      /* written by all ranks */
-    double next;         /* number of the next snapshot */
-    double step_seconds; /* wall time of the steps, without writing */
-    ForcesLog forces;    /* of --forces, on the first rank */
-    DistProbes probes;   /* of --probes */
+    SnapshotWriter *file; /* written by all ranks */
+    double next;          /* number of the next snapshot */
+    double step_seconds;  /* wall time of the steps, without writing */
+    ForcesLog forces;     /* of --forces, on the first rank */
+    DistProbes probes;    /* of --probes */
 } DistRun;
 
 /* Refuses options of slosh run missing here. */
@@ -132,7 +130,7 @@ static bool resume(DistRun *run, Error *error)
 {
     WorldState state = {.count = 0};
     Session *session = &run->stand.session;
-    run->file = snapshot_resume_shared(run->args->output, &session->scene, dist_share(), &state, error);
+    run->file = snapshot_resume_parallel(run->args->output, &session->scene, dist_share(), &state, error);
     if (!run->file)
         return false;
     ranks_spread(&state, &session->scene.world);
@@ -167,7 +165,7 @@ static bool begin_file(DistRun *run, bool goes_on, Error *error)
 {
     if (goes_on)
         return resume(run, error);
-    run->file = snapshot_create_shared(run->args->output, &run->stand.session.scene, dist_share(), error);
+    run->file = snapshot_create_parallel(run->args->output, &run->stand.session.scene, dist_share(), error);
     return run->file != NULL;
 }
 

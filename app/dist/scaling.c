@@ -1,6 +1,6 @@
 /* Strong and weak scaling from runs of slosh-dist bench: a table, JSON and a chart. */
-#include "app/base/exit_code.h"
-#include "app/base/json_file.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/dist/cmd.h"
 #include "app/dist/sample.h"
 #include "app/dist/scaling_chart.h"

@@ -53,15 +53,15 @@ static size_t before(size_t count, size_t *all)
     return rank == 0 ? 0 : sum;
 }
 
-const SnapshotShare *dist_share(void)
+const SnapshotParallel *dist_share(void)
 {
-    static SnapshotShare share = {.access = access_together,
-                                  .transfer = transfer_together,
-                                  .agree = dist_agree,
-                                  .end = end_all,
-                                  .tell = tell,
-                                  .held = ranks_owned,
-                                  .before = before};
+    static SnapshotParallel share = {.access = access_together,
+                                     .transfer = transfer_together,
+                                     .agree = dist_agree,
+                                     .end = end_all,
+                                     .tell = tell,
+                                     .held = ranks_owned,
+                                     .before = before};
     int rank;
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     share.first = rank == 0;

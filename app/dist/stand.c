@@ -1,9 +1,7 @@
 #define _GNU_SOURCE /* sched_getaffinity */
 #include "app/dist/stand.h"
 
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/physical.h"
+#include "app/base/program.h"
 #include "app/dist/memory.h"
 #include "sim/dist/ranks.h"
 
@@ -80,8 +78,8 @@ int stand_open(Stand *stand, const Args *args, const char *command, Error *error
 {
     Notes notes;
     SceneSettings settings = args->settings;
-    const double physical = physical_bytes();
-    physical_leave();
+    const double physical = memory_bytes();
+    memory_ignore_limit();
     if (!scene_load(args->scenes[0], &settings, &stand->session.scene, &notes, error))
         return EXIT_USAGE;
     WorldDef def = stand->session.scene.world;

@@ -1,14 +1,12 @@
 #include "app/film/render_file.h"
 
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
-#include "app/base/progress.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/beside/beside.h"
 #include "app/beside/lacks.h"
 #include "app/beside/panel_title.h"
+#include "app/files/pictures.h"
 #include "app/film/render_report.h"
-#include "app/output/pictures.h"
 #include "app/playback/reel_watch.h"
 #include "app/session/headless.h"
 #include "app/session/studio.h"
@@ -351,7 +349,7 @@ static void report(const FileRender *render)
     lacks_print(&render->lacks, args->output, stderr);
     if (render->taken < render->wanted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", render->time, args->output);
-    if (pictures_has_older(render->pictures, older))
+    if (pictures_find_stale(render->pictures, older))
         fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", older);
     if (!args->quiet)
         fprintf(stderr, "%s: %zu picture%s up to t = %.4g s, %zu particle%s, from %s\n", args->output,
@@ -383,7 +381,7 @@ static int show(FileRender *render, Error *error)
     } else {
         print_flaws(render);
         fail(render, error);
-        render_tell_staying(render->args, pictures_staying(render->pictures));
+        render_tell_staying(render->args, pictures_kept(render->pictures));
         pictures_discard(render->pictures);
     }
     return code;

@@ -1,7 +1,7 @@
 #include "app/film/render_plan.h"
 
 #include "app/beside/beside.h"
-#include "app/scene/check.h"
+#include "app/scene/scene.h"
 #include "app/session/sweep.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
@@ -158,7 +158,7 @@ static bool share(RenderPlan *plan, int panel, int first, Error *error)
     plan->file_of[panel] = file;
     if (file >= 0)
         return recorded_has(&plan->files[file], view, error);
-    if (!scene_view_accelerates(view))
+    if (!scene_view_reads_acceleration(view))
         return true;
     WorldDef *def = &plan->scene_of[world]->world;
     def->acceleration = true;

@@ -1,6 +1,6 @@
 #include "app/film/render_report.h"
 
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "sim/base/stage.h"
 
 #include <math.h>

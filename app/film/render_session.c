@@ -1,11 +1,10 @@
-#include "app/base/interrupt.h"
-#include "app/base/json_file.h"
-#include "app/base/progress.h"
+#include "app/base/file.h"
+#include "app/base/program.h"
 #include "app/beside/beside.h"
 #include "app/beside/shoot.h"
+#include "app/files/pictures.h"
 #include "app/film/render_file.h"
 #include "app/film/render_report.h"
-#include "app/output/pictures.h"
 #include "app/session/args.h"
 #include "app/session/recording_play.h"
 
@@ -193,7 +192,7 @@ static int finish(Film *film, Error *error)
     Pictures *pictures = film->pictures;
     char older[1088];
     lacks_print(&film->shoot.lacks, args->output, stderr);
-    if (pictures_has_older(pictures, older))
+    if (pictures_find_stale(pictures, older))
         fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", older);
     film->pictures = NULL;
     if (!pictures_finish(pictures, error))
@@ -219,7 +218,7 @@ static int shoot_film(Film *film, Error *error)
     if (done)
         return finish(film, error);
     fail(film, EXIT_FAILED, error);
-    render_tell_staying(args, pictures_staying(film->pictures));
+    render_tell_staying(args, pictures_kept(film->pictures));
     return EXIT_FAILED;
 }
 

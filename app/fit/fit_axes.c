@@ -1,8 +1,7 @@
 #include "app/fit/fit_axes.h"
 
-#include "app/scene/advise.h"
 #include "app/scene/keys.h"
-#include "app/scene/preset.h"
+#include "app/scene/scene.h"
 #include "sim/world/method.h"
 
 #include <math.h>
@@ -182,7 +181,7 @@ static void find_presets(FitAxes *axes)
     axes->preset[(*found)++] = NULL;
     if (chart_set_value(axes->subject.settings, "solver.preset"))
         return;
-    for (const Preset *preset = preset_list; preset->name && *found < FIT_PRESETS; preset++)
+    for (const SolverPreset *preset = solver_preset_list; preset->name && *found < FIT_PRESETS; preset++)
         if (strcmp(preset->name, axes->scene->preset) != 0)
             axes->preset[(*found)++] = preset->name;
 }
@@ -208,7 +207,7 @@ static void find_effects(FitAxes *axes)
         scene.purpose = SCENE_FOR_CHART;
         for (int t = 0; t < FIT_TERMS; t++) {
             notes.count = 0;
-            scene_unused(&scene, terms[t].path, &notes);
+            scene_advise_key(&scene, terms[t].path, &notes);
             axes->effect[m][t] =
                 read && notes.count == 0 && (!terms[t].inviscid || has_inviscid(&scene.world));
         }

@@ -1,6 +1,6 @@
 #include "app/fit/fit_report.h"
 
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/lab/bench.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "app/fit/fit_runs.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "app/lab/bench.h"
 #include "app/lab/run_key.h"
 

@@ -1,15 +1,12 @@
 #include "app/fit/fit_scene.h"
 
 #include "app/base/output.h"
-#include "app/base/path.h"
 #include "app/fit/fit_seal.h"
 #include "app/lab/bench.h"
-#include "app/scene/advise.h"
 #include "app/scene/keys.h"
-#include "app/scene/preset.h"
-#include "app/scene/tables.h"
-#include "app/yaml/print.h"
-#include "app/yaml/yaml.h"
+#include "app/scene/scene.h"
+#include "app/scene/scene_files.h"
+#include "app/scene/yaml/yaml.h"
 
 #include <errno.h>
 #include <math.h>
@@ -66,19 +63,19 @@ static bool has_effect(const Scene *scene, const char *path)
 {
     static Notes notes;
     notes.count = 0;
-    scene_unused(scene, path, &notes);
+    scene_advise_key(scene, path, &notes);
     return notes.count == 0;
 }
 
 /* Returns the scene's old value for the key of "path=value", as a comment. NULL if the value is unchanged
    and nothing must be set. Another preset may fill in a different value where the scene names none, so the
    key is set then. */
-static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const char *setting)
+static const char *was(YamlTree *tree, const FitPlan *plan, bool other_preset, const char *setting)
 {
     char path[128], now[128];
     const char *value = strchr(setting, '=') + 1;
     snprintf(path, sizeof path, "%.*s", (int)(value - 1 - setting), setting);
-    const Node *node = tree_at(tree, path);
+    const YamlNode *node = tree_at(tree, path);
     const Key *key = scene_key_find(path);
     if (key)
         key_value_text(key, &plan->scene, now, sizeof now);
@@ -87,7 +84,9 @@ static const char *was(Tree *tree, const FitPlan *plan, bool other_preset, const
         return node || !other_preset ? NULL : "as it was";
     if (!node && !has_effect(&plan->scene, path))
         return "had no effect before";
-    const char *from = node ? "" : preset_gave(&plan->scene, path) ? ", from the preset" : ", by default";
+    const char *from = node                                       ? ""
+                       : solver_preset_filled(&plan->scene, path) ? ", from the preset"
+                                                                  : ", by default";
     const size_t size = sizeof "was " + strlen(before) + strlen(from);
     char *text = tree_alloc(tree, size);
     if (text)
@@ -106,7 +105,7 @@ static bool comes_again(const SceneSettings *settings, int i)
 }
 
 /* Applies the settings of the case, then of the command line, then the chosen settings. */
-static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJob *job, Tree *tree,
+static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJob *job, YamlTree *tree,
                   Error *error)
 {
     const Case *of = plan->subject.of;
@@ -128,9 +127,9 @@ static bool apply(const FitPlan *plan, const ChartSettings *chosen, const ChartJ
 }
 
 /* Removes keys of the mapping with an effect in `own` but none in `chosen`. */
-static void drop_unused(Node *mapping, const char *above, const Scene *own, const Scene *chosen)
+static void drop_unused(YamlNode *mapping, const char *above, const Scene *own, const Scene *chosen)
 {
-    Node **at = &mapping->first;
+    YamlNode **at = &mapping->first;
     while (mapping->kind == NODE_MAPPING && *at) {
         char path[128];
         snprintf(path, sizeof path, "%.60s.%.60s", above, (*at)->key);
@@ -142,8 +141,8 @@ static void drop_unused(Node *mapping, const char *above, const Scene *own, cons
     }
 }
 
-/* A FileMoved callback: replaces the node's file name. */
-static void name_whole(void *user, Node *node, const char *path, const char *whole)
+/* A SceneFileMoved callback: replaces the node's file name. */
+static void name_whole(void *user, YamlNode *node, const char *path, const char *whole)
 {
     (void)path;
     const size_t size = strlen(whole) + 1;
@@ -219,7 +218,7 @@ static void print_head(const FitPlan *plan, FILE *file)
 
 /* ---- the file ---- */
 
-static char *print_body(const Tree *tree)
+static char *print_body(const YamlTree *tree)
 {
     char *text = NULL;
     size_t size;
@@ -233,7 +232,7 @@ static char *print_body(const Tree *tree)
     return NULL;
 }
 
-static char *print_text(const FitPlan *plan, const Tree *tree)
+static char *print_text(const FitPlan *plan, const YamlTree *tree)
 {
     char *head = NULL, *body = print_body(tree), *text = NULL;
     size_t size;
@@ -264,7 +263,7 @@ static bool write_text(const FitPlan *plan, const char *text, Error *error)
     return false;
 }
 
-static bool write_chosen(const FitPlan *plan, Tree *tree, Error *error)
+static bool write_chosen(const FitPlan *plan, YamlTree *tree, Error *error)
 {
     static Scene scene;
     static ChartRow row;
@@ -275,7 +274,7 @@ static bool write_chosen(const FitPlan *plan, Tree *tree, Error *error)
         !apply(plan, &settings, &job.job, tree, error) ||
         !chart_prepare(&plan->subject, &job.job, &scene, &row, NULL, error))
         return false;
-    Node *solver = (Node *)tree_at(tree, "solver");
+    YamlNode *solver = (YamlNode *)tree_at(tree, "solver");
     if (solver)
         drop_unused(solver, "solver", &plan->scene, &scene);
     scene_move_files(tree, plan->output, name_whole, tree);
@@ -289,7 +288,7 @@ bool fit_scene_write(const FitPlan *plan, Error *error)
 {
     char path[SCENE_PATH_SIZE];
     size_t size;
-    Tree tree;
+    YamlTree tree;
     const char *name = plan->subject.of ? plan->subject.of->scene : plan->subject.scene;
     char *bytes = scene_path_find(name, path, error) ? scene_file_read(path, &size, error) : NULL;
     if (!bytes)

@@ -1,7 +1,6 @@
 /* Reports of `slosh chart --views`: a table, JSON. */
+#include "app/base/file.h"
 #include "app/gallery/view_row.h"
-
-#include "app/base/json_file.h"
 
 #include <math.h>
 

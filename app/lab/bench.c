@@ -1,6 +1,6 @@
 #include "app/lab/bench.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "app/held/hand_replay.h"
 #include "app/outcome/outcome_watch.h"
 

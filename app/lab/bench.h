@@ -2,7 +2,7 @@
 #ifndef SLOSH_BENCH_H
 #define SLOSH_BENCH_H
 
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/outcome/outcome.h"
 #include "app/scene/scene.h"
 #include "app/session/studio.h"

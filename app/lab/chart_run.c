@@ -1,6 +1,6 @@
 #include "app/lab/chart_run.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "app/lab/case_watch.h"
 #include "app/lab/run_key.h"
 #include "app/outcome/outcome_watch.h"

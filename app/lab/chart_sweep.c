@@ -1,6 +1,6 @@
 #include "app/lab/chart_sweep.h"
 
-#include "app/scene/advise.h"
+#include "app/scene/scene.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -76,7 +76,7 @@ bool chart_sweeps_effect(ChartSweeps *sweeps, int key, const Scene *scene, char 
 {
     static Notes notes;
     notes.count = 0;
-    scene_unused(scene, sweeps->key[key], &notes);
+    scene_advise_key(scene, sweeps->key[key], &notes);
     snprintf(why, NOTE_SIZE, "%s", notes.count > 0 ? notes.line[0] : "");
     sweeps->effective[key] |= notes.count == 0;
     return notes.count == 0;

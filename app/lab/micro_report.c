@@ -1,4 +1,4 @@
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/lab/bench.h"
 #include "app/lab/micro.h"
 

@@ -1,6 +1,6 @@
 #include "app/lab/points_bench.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "sim/base/parallel.h"
 #include "sim/base/stage.h"
 #include "sim/surface/analytic.h"

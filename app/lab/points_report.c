@@ -1,4 +1,4 @@
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/lab/points_bench.h"
 
 #include <jansson.h>

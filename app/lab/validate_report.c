@@ -1,6 +1,6 @@
 #include "app/lab/validate_report.h"
 
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/lab/chart.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
-#include "app/base/path.h"
 #include "app/manual/manual.h"
+
 #include "app/scene/keys.h"
+#include "app/scene/scene_files.h"
 #include "app/session/args_table.h"
 
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "app/meter/report.h"
 
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 #include "app/lab/bench.h"
 #include "app/session/solved.h"
 #include "sim/world/world.h"

@@ -1,6 +1,6 @@
 /* Settings needing a restart of the scene: number of particles, and presets. */
 #include "app/panel/panel_parts.h"
-#include "app/recipe/recipe.h"
+#include "app/scene/keys.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -37,14 +37,14 @@ static void draw_fluids(Ui *ui, const Scene *scene, int *fluid)
         ui_choice(ui, &field, fluid, names);
 }
 
-static void draw_recipe(Ui *ui, const Recipe *recipe, int fluid, PanelEvents *events)
+static void draw_recipe(Ui *ui, const Preset *recipe, int fluid, PanelEvents *events)
 {
     char id[64], help[400];
     snprintf(id, sizeof id, "again.%s", recipe->name);
     snprintf(help, sizeof help, "%s\n%s", recipe->help, recipe->source);
     if (!ui_button(ui, &(UiField){id, recipe->name, help}, false))
         return;
-    if (recipe->kind == RECIPE_FLUID)
+    if (recipe->kind == PRESET_FLUID)
         snprintf(events->again, sizeof events->again, "preset=%s:%d", recipe->name, fluid);
     else
         snprintf(events->again, sizeof events->again, "preset=%s", recipe->name);
@@ -56,7 +56,7 @@ void panel_again(Ui *ui, const PanelData *data, int *fluid, PanelEvents *events)
         return;
     draw_particles(ui, data, events);
     draw_fluids(ui, data->scene, fluid);
-    for (const Recipe *recipe = recipe_list; recipe->name; recipe++)
+    for (const Preset *recipe = preset_list; recipe->name; recipe++)
         draw_recipe(ui, recipe, *fluid, events);
     ui_gap(ui);
 }

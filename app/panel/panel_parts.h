@@ -52,7 +52,7 @@ void panel_view(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *
 void panel_colors(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 void panel_scene(Ui *ui, const PanelData *data, const Scene *start, PanelEvents *events);
 
-/* terms.c: a switch for each term of the scene's model at the start (app/term/term.h). */
+/* terms.c: a switch for each term of the scene's model at the start (app/scene/keys.h). */
 void panel_terms(Ui *ui, const Scene *scene, const Scene *start, PanelEvents *events);
 
 /* key.c: the widget of a live key, and its events. `base` and `start`: base addresses of the key's offset;

@@ -1,6 +1,6 @@
 /* A switch for each term of the scene's model. */
 #include "app/panel/panel_parts.h"
-#include "app/term/term.h"
+#include "app/scene/keys.h"
 
 #include <stdio.h>
 #include <string.h>

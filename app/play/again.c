@@ -1,11 +1,9 @@
 #include "app/play/again.h"
 
-#include "app/base/path.h"
-#include "app/output/file_name.h"
-#include "app/recipe/recipe.h"
+#include "app/files/pictures.h"
 #include "app/scene/keys.h"
-#include "app/setting/save.h"
-#include "app/setting/settle.h"
+#include "app/scene/save.h"
+#include "app/scene/scene_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,13 +39,13 @@ bool again_look(const Model *model, Again *out, Error *error)
     SceneSettings settings = model->open.recording.settings;
     size_t size;
     const char *text = again_text(&model->open, &size);
-    out->mine = (Differ){.world = false};
+    out->mine = (SceneDifference){.world = false};
     if (!parse(model, text, size, &settings, &out->filed, error))
         return false;
     out->now = model->open.scene;
-    settle_world(&out->now.world, model->shut);
+    world_def_apply_moves(&out->now.world, model->shut);
     settle_views(&out->filed, &out->now);
-    scene_differ(&out->filed, &out->now, &out->mine);
+    scene_difference(&out->filed, &out->now, &out->mine);
     return true;
 }
 
@@ -59,7 +57,7 @@ static bool keep_session(Model *model, Error *error)
         return model_keep_session(model, error);
     if (!model->status.unsaved)
         return true;
-    file_name_new(path, "recording");
+    dated_file_name(path, "recording");
     return model_save_now(model, path, error);
 }
 
@@ -98,7 +96,7 @@ static void give_way(SettingList *list, const SettingList *more)
     SettingList gone = {.count = 0};
     for (int i = 0; i < more->count; i++)
         for (int k = 0; k < list->count && strncmp(more->set[i], PRESET, strlen(PRESET)) == 0; k++)
-            if (recipe_concerns(more->set[i] + strlen(PRESET), list->set[k]))
+            if (preset_sets(more->set[i] + strlen(PRESET), list->set[k]))
                 setting_list_add(&gone, list->set[k]);
     setting_list_remove(list, &gone);
     setting_list_free(&gone);
@@ -136,10 +134,11 @@ static bool save(Model *model, Again *again, Error *error)
     const char *text = again_text(&model->open, &size);
     if (!again_look(model, again, error))
         return false;
-    Saved saved = {.lost = false};
-    const Save what = {.scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
-    const bool ok = save_scene(&what, NULL, &saved, error);
-    saved_words(&saved, words, sizeof words);
+    SceneSaved saved = {.lost = false};
+    const SceneSource what = {
+        .scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
+    const bool ok = scene_save(&what, NULL, &saved, error);
+    scene_saved_words(&saved, words, sizeof words);
     if (ok)
         notice_tell(model->notice, "%s", words);
     setting_list_free(&saved.changed);
@@ -157,7 +156,7 @@ void again_save(Model *model)
     free(again);
 }
 
-bool again_carry(const Model *model, Carried *out, Error *error)
+bool again_carry(const Model *model, EmbeddedScene *out, Error *error)
 {
     size_t size;
     const char *text = again_text(&model->open, &size);
@@ -167,8 +166,9 @@ bool again_carry(const Model *model, Carried *out, Error *error)
         return false;
     }
     bool ok = again_look(model, again, error);
-    const Save what = {.scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
-    ok = ok && carry_make(&what, out, error);
+    const SceneSource what = {
+        .scene = &again->now, .path = model->open.recording.path, .text = text, .size = size};
+    ok = ok && embedded_scene_make(&what, out, error);
     setting_list_free(&again->mine.settings);
     free(again);
     return ok;
@@ -181,10 +181,10 @@ typedef struct Renewal {
     Again again;
     char *text;
     size_t size;
-    Scene fresh;    /* the present file with the command line */
-    Differ changed; /* changes of the file */
-    Scene wanted;   /* with the window's changes on top */
-    Differ due;     /* changes from the running scene to `wanted` */
+    Scene fresh;             /* the present file with the command line */
+    SceneDifference changed; /* changes of the file */
+    Scene wanted;            /* with the window's changes on top */
+    SceneDifference due;     /* changes from the running scene to `wanted` */
     SettingList settings;
     Error dropped; /* the reason for dropping the window's changes; "": kept */
 } Renewal;
@@ -232,10 +232,10 @@ static bool read_file(const Model *model, Renewal *renewal, Error *error)
     renewal->text = scene_file_read(recording->path, &renewal->size, error);
     if (!renewal->text || !parse(model, renewal->text, renewal->size, &settings, &renewal->fresh, error))
         return false;
-    scene_differ(&renewal->again.filed, &renewal->fresh, &renewal->changed);
+    scene_difference(&renewal->again.filed, &renewal->fresh, &renewal->changed);
     if (!find_wanted(model, renewal, error))
         return false;
-    scene_differ(&renewal->again.now, &renewal->wanted, &renewal->due);
+    scene_difference(&renewal->again.now, &renewal->wanted, &renewal->due);
     return true;
 }
 
@@ -260,7 +260,7 @@ static bool is_of_scene(const char *setting)
 
 static const Key *key_of(const char *setting)
 {
-    char path[DIFFER_PATH_SIZE];
+    char path[DIFFERENCE_PATH_SIZE];
     snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
     return scene_key_find(path);
 }
@@ -349,9 +349,9 @@ static bool says_solids(const SettingList *settings)
 
 static void tell(const Renewal *renewal, bool others, char words[320])
 {
-    const Differ *changed = &renewal->changed;
+    const SceneDifference *changed = &renewal->changed;
     char of[190] = "";
-    differ_words(&changed->settings, of, sizeof of);
+    setting_list_words(&changed->settings, of, sizeof of);
     snprintf(words, 320, "%s", of);
     if (!*words && others)
         snprintf(words, 320, "a file that it names");
@@ -376,7 +376,7 @@ AgainResult again_read(Model *model, bool others, char words[320], Error *error)
         result = AGAIN_LATER;
     } else if (read_file(model, renewal, error)) {
         tell(renewal, others, words);
-        const Differ *changed = &renewal->changed;
+        const SceneDifference *changed = &renewal->changed;
         if (!others && changed->settings.count == 0) /* ignores changes by hand */
             result = keep_text(model, renewal);
         else if (others || !is_live(renewal))

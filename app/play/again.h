@@ -3,15 +3,15 @@
 #ifndef SLOSH_PLAY_AGAIN_H
 #define SLOSH_PLAY_AGAIN_H
 
+#include "app/files/pictures.h"
 #include "app/play/model.h"
-#include "app/setting/carry.h"
-#include "app/setting/differ.h"
+#include "app/scene/save.h"
 
 /* The scene of the file and the command line, the present scene, and the settings that turn the first into
    the second. Returns false if the file's text is no longer valid, which callers cannot mend. */
 typedef struct Again {
     Scene filed, now;
-    Differ mine; /* free with setting_list_free */
+    SceneDifference mine; /* free with setting_list_free */
 } Again;
 bool again_look(const Model *model, Again *out, Error *error);
 
@@ -25,8 +25,8 @@ bool again_open(Model *model, const SettingList *more, size_t particles, Error *
 /* Saves the scene with its present settings as a new file in the present folder; reports the result. */
 void again_save(Model *model);
 
-/* Makes the same text for embedding in a picture; free with carry_free. */
-bool again_carry(const Model *model, Carried *out, Error *error);
+/* Makes the same text for embedding in a picture; free with embedded_scene_free. */
+bool again_carry(const Model *model, EmbeddedScene *out, Error *error);
 
 typedef enum AgainResult {
     AGAIN_FAILED, /* unreadable; no changes */

@@ -152,15 +152,15 @@ static void take_files(Play *play)
 {
     const Picture *picture = &play->picture;
     const Model *model = &play->model;
-    Carried carried = {.scene = NULL};
+    EmbeddedScene carried = {.scene = NULL};
     Error error = {{0}};
     if (play->files.shoot && model->open.source->simulates && model->open.scene.view.carries_scene &&
         !again_carry(model, &carried, &error))
         notice_error(&play->notice, error.message);
-    const ImageText text = carry_text(&carried, model->particles.time);
+    const ImageText text = embedded_scene_text(&carried, model->particles.time);
     files_take(&play->files, picture->panels, picture->width, picture->height, carried.scene ? &text : NULL,
                &play->notice);
-    carry_free(&carried);
+    embedded_scene_free(&carried);
 }
 
 /* Presents the last drawn fluid with its overlay. */

@@ -1,6 +1,6 @@
 #include "app/play/figures.h"
 
-#include "app/scene/json.h"
+#include "app/scene/keys.h"
 #include "sim/base/scalar.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"

@@ -1,8 +1,7 @@
 #include "app/play/files.h"
 
 #include "app/base/output.h"
-#include "app/output/file_name.h"
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "sim/base/stage.h"
 
 #include <stdio.h>
@@ -23,7 +22,7 @@ static void take_screenshot(Files *files, const Panels *panels, int width, int h
     Output output = {.temp = ""};
     Error error = {{0}};
     char path[1024];
-    file_name_new(path, "png");
+    dated_file_name(path, "png");
     files->shoot = false;
     if (read_picture(panels, width, height, &image, &error) && output_begin(&output, path, &error) &&
         image_write(&image, text, output.temp, &error) && output_commit(&output, &error))
@@ -63,7 +62,7 @@ void files_video(Files *files, int width, int height, Notice *notice)
         return;
     }
     *files = (Files){.shoot = files->shoot, .width = width, .height = height};
-    file_name_new(files->path, "mp4");
+    dated_file_name(files->path, "mp4");
     files->video = video_create(files->path, width, height, MOVIE_FPS, &error);
     if (files->video)
         notice_tell(notice, "%s: recording until you ask again", files->path);

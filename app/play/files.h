@@ -2,8 +2,7 @@
 #ifndef SLOSH_PLAY_FILES_H
 #define SLOSH_PLAY_FILES_H
 
-#include "app/output/image.h"
-#include "app/output/video.h"
+#include "app/files/pictures.h"
 #include "app/play/notice.h"
 #include "render/panels.h"
 

@@ -1,10 +1,9 @@
 #define _GNU_SOURCE /* POLLRDHUP */
 #include "app/play/guard.h"
 
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
-#include "app/base/output_pending.h"
-#include "app/output/file_name.h"
+#include "app/base/output.h"
+#include "app/base/program.h"
+#include "app/files/pictures.h"
 
 #include <poll.h>
 #include <pthread.h>
@@ -31,7 +30,7 @@ bool guard_path(const char *record, bool unsaved, char path[1024])
     if (record)
         snprintf(path, 1024, "%s", record);
     else if (unsaved && interrupt_signal() != SIGINT)
-        file_name_new(path, "recording");
+        dated_file_name(path, "recording");
     else
         return false;
     return true;
@@ -61,7 +60,7 @@ static void *look_after(void *of_guard)
     Guard *guard = of_guard;
     struct pollfd on[] = {{.fd = guard->stop, .events = POLLIN},
                           {.fd = guard->connection, .events = POLLRDHUP},
-                          {.fd = interrupt_bell(), .events = POLLIN}};
+                          {.fd = interrupt_descriptor(), .events = POLLIN}};
     while (poll(on, 3, -1) <= 0)
         continue;
     const bool lost = on[1].revents != 0;

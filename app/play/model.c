@@ -1,9 +1,9 @@
 #include "app/play/model.h"
 
-#include "app/base/interrupt.h"
-#include "app/output/file_name.h"
+#include "app/base/program.h"
+#include "app/files/pictures.h"
 #include "app/play/guard.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
 #include "sim/matter/flow.h"
@@ -255,7 +255,7 @@ bool model_save_now(Model *model, const char *path, Error *error)
 bool model_keep_session(Model *model, Error *error)
 {
     char path[1024];
-    file_name_new(path, "recording");
+    dated_file_name(path, "recording");
     model->kept = !model->open.source->simulates || !model->record || model->status.step == 0 ||
                   model_save_now(model, path, error);
     return model->kept;
@@ -449,7 +449,7 @@ void model_let_go(Model *model)
 void model_save(Model *model)
 {
     char path[1024];
-    file_name_new(path, "recording");
+    dated_file_name(path, "recording");
     if (!simulator_save(model->open.simulator, path))
         notice_error(model->notice, "the session before is still being saved; try again in a moment");
 }
@@ -599,7 +599,7 @@ bool model_resize(Model *model, const double size[3])
 /* True if the scene's own states need accelerations; runs beside are asked for theirs. */
 static bool follow_view(Model *model, const ViewDef *view)
 {
-    if (!scene_view_accelerates(view))
+    if (!scene_view_reads_acceleration(view))
         return false;
     company_want(model->open.company, view);
     return scene_shows(&model->open.scene, view);

@@ -1,14 +1,12 @@
 #define _DEFAULT_SOURCE /* on_exit */
 #include "app/play/play.h"
 
-#include "app/base/driver_trouble.h"
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "app/device/devices.h"
-#include "app/mesh_file/mesh_file.h"
 #include "app/play/figures.h"
 #include "app/play/guard.h"
 #include "app/play/parts.h"
+#include "app/scene/import/import.h"
 #include "sim/base/stage.h"
 #include "sim/gl/debug.h"
 
@@ -51,7 +49,7 @@ static bool make_post(Session *session, Error *error)
 static bool make_window(Session *session, Error *error)
 {
     Play *play = &session->play;
-    driver_trouble_begin();
+    driver_error_install();
     play->window = window_create("slosh", session->setup->width, session->setup->height, error);
     if (!play->window)
         return false;
@@ -166,7 +164,7 @@ static void stay_awake(void *of_session)
     }
     events_take_moves(play);
     open->source->status(open, &play->model.status); /* model_listen would also change the scene */
-    if (interrupt_asked())
+    if (interrupt_progress_requested())
         tell_figures(session);
     pause_or_draw(play);
 }
@@ -176,7 +174,7 @@ static const char GONE[] = "the display is gone";
 static bool run(Session *session, Error *error)
 {
     Play *play = &session->play;
-    mesh_file_meanwhile(stay_awake, session);
+    mesh_file_on_wait(stay_awake, session);
     while (!play->quit && !interrupted()) {
         if (window_gone(play->window))
             return error_set(error, GONE);
@@ -191,7 +189,7 @@ static bool run(Session *session, Error *error)
         if (!picture_follow_size(&play->picture, play->window, error))
             return false;
         play->picture.dirty |= notice_changed(&play->notice) | overlay_follow(&play->overlay);
-        if (interrupt_asked())
+        if (interrupt_progress_requested())
             tell_figures(session);
         if (!play->quit)
             pause_or_draw(play);
@@ -235,7 +233,7 @@ static bool finish(Session *session, Error *error)
     Play *play = &session->play;
     if (play->files.shoot && !window_gone(play->window)) /* requested in the last moment */
         draw_picture(play);
-    mesh_file_meanwhile(NULL, NULL);
+    mesh_file_on_wait(NULL, NULL);
     window_hide(play->window);
     const bool saved = save_session(session, error);
     guard_destroy(play->model.guard);
@@ -309,7 +307,7 @@ int play(const PlaySetup *setup, PlayFigures *figures)
     session->play.shake_seconds = setup->shake_seconds;
     input_begin(&session->play.input);
     interrupt_install();
-    interrupt_hear_ask();
+    interrupt_enable_progress_request();
     snprintf(figures->scene, sizeof figures->scene, "%s", setup->scene);
     const bool ok = play_session(session, figures);
     if (close_all(session))

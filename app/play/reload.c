@@ -1,8 +1,6 @@
-#include "app/play/parts.h"
-
-#include "app/base/picture_text.h"
 #include "app/play/again.h"
-#include "app/scene/tables.h"
+#include "app/play/parts.h"
+#include "app/scene/scene_files.h"
 #include "sim/base/stage.h"
 
 #include <stdio.h>

@@ -1,9 +1,8 @@
 #include "app/play/scene.h"
 
-#include "app/base/path.h"
-#include "app/base/picture_text.h"
 #include "app/beside/beside.h"
-#include "app/scene/advise.h"
+#include "app/scene/scene.h"
+#include "app/scene/scene_files.h"
 #include "app/session/recording_play.h"
 
 #include <dirent.h>
@@ -122,7 +121,7 @@ static void advise_unused(PlayScene *open, const char *setting)
 {
     char path[128];
     snprintf(path, sizeof path, "%.*s", (int)strcspn(setting, "="), setting);
-    scene_unused(&open->scene, path, &open->notes);
+    scene_advise_key(&open->scene, path, &open->notes);
     open->notes.lasting = open->notes.count;
 }
 

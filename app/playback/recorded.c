@@ -1,6 +1,6 @@
 #include "app/playback/recorded.h"
 
-#include "app/output/snapshot_arrays.h"
+#include "app/files/snapshot.h"
 #include "app/playback/recorded_scene.h"
 #include "sim/gl/particle_buffers.h"
 
@@ -21,20 +21,20 @@ static void tell_lacks(const char *path, const SnapshotStep *step, Notes *notes)
 {
     char words[256] = "";
 #define X(name, source)                                                                                      \
-    if (snapshot_step_lacks(step, name))                                                                     \
+    if (snapshot_step_misses(step, name))                                                                    \
         snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", *words ? ", " : "", name);
     SNAPSHOT_SOURCES(X)
 #undef X
     if (*words)
         notes_add(notes, "%.160s: has no %s; what follows from that cannot be shown%s", path, words,
-                  snapshot_step_lacks(step, "density") ? ", and particles have the volume of fluid at rest"
-                                                       : "");
+                  snapshot_step_misses(step, "density") ? ", and particles have the volume of fluid at rest"
+                                                        : "");
 }
 
 static bool look_at_first(Recorded *recorded, Notes *notes, Error *error)
 {
     SnapshotStep step;
-    if (!snapshot_read_shown(recorded->reader, 0, &step, error))
+    if (!snapshot_read_for_display(recorded->reader, 0, &step, error))
         return false;
     recorded->attributes = snapshot_attributes(&step);
     recorded->first = step.time;
@@ -110,7 +110,7 @@ static bool understand(Recorded *recorded, const SceneSettings *settings, Notes 
 
 bool recorded_open(const char *path, const SceneSettings *settings, Recorded *out, Notes *notes, Error *error)
 {
-    *out = (Recorded){.reader = snapshot_open_shown(path, error)};
+    *out = (Recorded){.reader = snapshot_open_for_display(path, error)};
     if (!out->reader)
         return false;
     snprintf(out->path, sizeof out->path, "%s", path);
@@ -128,7 +128,7 @@ void recorded_close(Recorded *recorded)
 
 bool recorded_follow(Recorded *recorded, Error *error)
 {
-    return snapshot_follow(recorded->reader, error) && count(recorded, error);
+    return snapshot_refresh(recorded->reader, error) && count(recorded, error);
 }
 
 /* ---- times ---- */
@@ -198,7 +198,7 @@ static bool take(Recorded *recorded, size_t index, unsigned attributes, Snapshot
 {
     if (!is_like_first(recorded, step, index, error))
         return false;
-    if (!snapshot_sift(&recorded->flaws, index, step) ||
+    if (!snapshot_validate(&recorded->flaws, index, step) ||
         !still_reserve(out, step->count, attributes & recorded->attributes))
         return error_set(error, "%s: out of memory for %zu particles", recorded->path, step->count);
     describe(recorded, step, &out->state);
@@ -209,7 +209,7 @@ static bool take(Recorded *recorded, size_t index, unsigned attributes, Snapshot
 bool recorded_read(Recorded *recorded, size_t index, unsigned attributes, Still *out, Error *error)
 {
     SnapshotStep step;
-    if (!snapshot_read_shown(recorded->reader, index, &step, error))
+    if (!snapshot_read_for_display(recorded->reader, index, &step, error))
         return false;
     const bool taken = take(recorded, index, attributes, &step, out, error);
     snapshot_step_free(&step);

@@ -5,7 +5,7 @@
 #ifndef SLOSH_RECORDED_H
 #define SLOSH_RECORDED_H
 
-#include "app/output/snapshot_sift.h"
+#include "app/files/snapshot.h"
 #include "app/scene/scene.h"
 #include "app/session/between.h"
 
@@ -50,7 +50,7 @@ bool recorded_find_after(Recorded *recorded, double time, size_t *index, Error *
    come from densities (snapshot_volume); without fluid numbers all particles belong to the first fluid. */
 bool recorded_read(Recorded *recorded, size_t index, unsigned attributes, Still *out, Error *error);
 
-/* Checks if the file has grown, and updates `steps` and `last`. Returns false as snapshot_follow. */
+/* Checks if the file has grown, and updates `steps` and `last`. Returns false as snapshot_refresh. */
 bool recorded_follow(Recorded *recorded, Error *error);
 
 #endif

@@ -1,9 +1,8 @@
 #include "app/playback/recorded_scene.h"
 
-#include "app/output/snapshot_file.h"
+#include "app/files/snapshot_hdf5.h"
 #include "app/scene/keys.h"
-#include "app/yaml/print.h"
-#include "app/yaml/yaml.h"
+#include "app/scene/yaml/yaml.h"
 #include "sim/base/color.h"
 
 #include <stdarg.h>
@@ -86,7 +85,7 @@ static bool is_default_color(const Key *key, const char *value)
 }
 
 /* Adds one line, "key = value unit". */
-static void add_line(Tree *tree, char *line, Strange *strange)
+static void add_line(YamlTree *tree, char *line, Strange *strange)
 {
     enum { SETTING_SIZE = 4096 };
     char *equals = strstr(line, " = "), setting[SETTING_SIZE];
@@ -102,7 +101,7 @@ static void add_line(Tree *tree, char *line, Strange *strange)
         add_strange(strange, line);
 }
 
-static void add_lines(Tree *tree, char *settings, Strange *strange)
+static void add_lines(YamlTree *tree, char *settings, Strange *strange)
 {
     char *rest = settings;
     for (char *line = strtok_r(settings, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest))
@@ -111,7 +110,7 @@ static void add_lines(Tree *tree, char *settings, Strange *strange)
 
 /* ---- attributes of the file ---- */
 
-__attribute__((format(printf, 3, 4))) static bool set(Tree *tree, Error *error, const char *format, ...)
+__attribute__((format(printf, 3, 4))) static bool set(YamlTree *tree, Error *error, const char *format, ...)
 {
     char setting[256];
     va_list arguments;
@@ -122,7 +121,7 @@ __attribute__((format(printf, 3, 4))) static bool set(Tree *tree, Error *error, 
 }
 
 /* Adds the numbers required by every scene; a box of two numbers makes a two-dimensional scene. */
-static bool add_numbers(Tree *tree, const SnapshotScene *numbers, Error *error)
+static bool add_numbers(YamlTree *tree, const SnapshotScene *numbers, Error *error)
 {
     const double *box = numbers->box_size;
     bool ok = numbers->dimensions == 2
@@ -136,7 +135,7 @@ static bool add_numbers(Tree *tree, const SnapshotScene *numbers, Error *error)
 }
 
 /* Adds a fill per fluid, required by every scene, if the file has no settings. */
-static bool add_fills(Tree *tree, const SnapshotScene *numbers, Error *error)
+static bool add_fills(YamlTree *tree, const SnapshotScene *numbers, Error *error)
 {
     const double *box = numbers->box_size;
     bool ok = true;
@@ -152,7 +151,7 @@ static char *print_yaml(const char *path, char *settings, const SnapshotScene *n
                         Error *error)
 {
     static const char empty[] = "box:\n";
-    Tree tree;
+    YamlTree tree;
     char *text = NULL;
     size_t size = 0;
     bool ok = tree_read(&tree, path, empty, strlen(empty), error);

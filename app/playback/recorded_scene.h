@@ -2,7 +2,7 @@
 #ifndef SLOSH_RECORDED_SCENE_H
 #define SLOSH_RECORDED_SCENE_H
 
-#include "app/output/snapshot.h"
+#include "app/files/snapshot.h"
 #include "app/scene/scene.h"
 
 /* Builds the scene from the root's attributes: lengths and fluids with all bits, the rest from the file's

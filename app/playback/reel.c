@@ -1,6 +1,6 @@
 #include "app/playback/reel.h"
 
-#include "app/base/hdf5_error.h"
+#include "app/files/snapshot_hdf5.h"
 #include "sim/base/stage.h"
 
 #include <math.h>
@@ -308,7 +308,7 @@ static void *work(void *user)
 {
     Reel *reel = user;
     bool more = false; /* true: more steps to read ahead */
-    hdf5_listen();
+    hdf5_note_errors();
     for (;;) {
         pthread_mutex_lock(&reel->mutex);
         if (!more)

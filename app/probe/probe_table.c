@@ -1,6 +1,6 @@
 #include "app/probe/probe_table.h"
 
-#include "app/base/json_file.h"
+#include "app/base/file.h"
 
 #include <errno.h>
 #include <fcntl.h>

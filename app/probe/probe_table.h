@@ -5,8 +5,9 @@
 #ifndef SLOSH_PROBE_TABLE_H
 #define SLOSH_PROBE_TABLE_H
 
-#include "app/base/output_lock.h"
 #include "app/probe/probe.h"
+
+#include "app/base/output.h"
 #include "app/probe/probe_window.h"
 
 #include <jansson.h>

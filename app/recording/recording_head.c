@@ -1,6 +1,5 @@
 #include "app/recording/recording_reader.h"
-
-#include "app/base/path.h"
+#include "app/scene/scene_files.h"
 
 #include <stdio.h>
 #include <stdlib.h>

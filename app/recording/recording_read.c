@@ -1,5 +1,6 @@
-#include "app/base/read_file.h"
 #include "app/recording/recording.h"
+
+#include "app/base/file.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 #include "app/recording/sim_command.h"
 
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "sim/world/world_state.h"
 
 #include <stdio.h>

@@ -1,14 +1,347 @@
-#include "app/scene/check_parts.h"
-
+#include "app/base/program.h"
+#include "app/scene/scene_private.h"
+#include "render/frame/overlay.h"
+#include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/gl/particle_buffers.h"
+#include "sim/matter/boundary.h"
+#include "sim/matter/fill.h"
+#include "sim/matter/flow.h"
+#include "sim/matter/seed.h"
+#include "sim/matter/solid_step.h"
 #include "sim/world/column.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static bool check_range(const Check *check, const char *view, const char *key, bool automatic,
+char scene_axis_name(int k)
+{
+    return "xyz"[k];
+}
+
+bool scene_between_walls(const SceneCheck *check, const char *path, int k, double low, double high)
+{
+    const double size = check->scene->world.box_size[k];
+    const double wall_low = k == 1 ? 0 : -0.5 * size, wall_high = wall_low + size, slack = 1e-9 * size;
+    if (low >= wall_low - slack && high <= wall_high + slack)
+        return true;
+    return FAIL(check, path,
+                "the fluid is outside the box: it reaches from %g to %g m in %c; the box from %g to %g m",
+                low, high, scene_axis_name(k), wall_low, wall_high);
+}
+
+bool scene_check_axis(const SceneCheck *check, const char *path, const double axis[3])
+{
+    return hypot(hypot(axis[0], axis[1]), axis[2]) >= 1e-9 ||
+           FAIL(check, path, "the axis has no direction; write one such as [1, 0, 0]");
+}
+
+bool scene_check_plane(const SceneCheck *check, const char *path, const double v[3])
+{
+    return check->scene->world.dimensions == 3 || v[2] == 0 ||
+           FAIL(check, path, "the third number must be 0, or left out, in a 2D scene, not %g", v[2]);
+}
+
+double scene_clamp_to_box(const SceneCheck *check, int k, double x)
+{
+    const double size = check->scene->world.box_size[k], low = k == 1 ? 0 : -0.5 * size;
+    return fmin(fmax(x, low), low + size);
+}
+
+double scene_outside_box(const SceneCheck *check, const double x[3])
+{
+    double d2 = 0;
+    for (int k = 0; k < check->scene->world.dimensions; k++)
+        d2 += pow(x[k] - scene_clamp_to_box(check, k, x[k]), 2);
+    return sqrt(d2);
+}
+
+bool scene_check_motion(const SceneCheck *check, const char *list, int m, const Motion *motion)
+{
+    char path[96];
+    snprintf(path, sizeof path, "%s[%d].%s.axis", list, m, motion_name(motion->kind));
+    if (!scene_check_axis(check, path, motion->axis))
+        return false;
+    if (check->scene->world.dimensions == 2 && !motion_in_plane(motion))
+        return FAIL(check, path,
+                    "the motion leaves the plane of a 2D scene; shake along x and y, turn about [0, 0, 1]");
+    return true;
+}
+
+/* Checks periodic sides: wide enough, no turns of the box, no solids across. */
+static bool scene_check_periodic(const SceneCheck *check)
+{
+    const WorldDef *world = &check->scene->world;
+    bool any = false;
+    char path[64];
+    for (int k = 0; k < 3; k++) {
+        const double size = world->box_size[k], low = k == 1 ? 0 : -0.5 * size;
+        if (!world->periodic[k])
+            continue;
+        any = true;
+        if (k >= world->dimensions)
+            return FAIL(check, "box.periodic", "a 2D scene has no sides in z; name x, y or both");
+        if (!(size >= 2 * world->support * world->spacing))
+            return FAIL(
+                check, "box.periodic",
+                "along %c the box is %g m wide, less than two support radii (%g m); use a smaller spacing",
+                scene_axis_name(k), size, 2 * world->support * world->spacing);
+        for (int i = 0; i < world->solid_count; i++) {
+            snprintf(path, sizeof path, "solids[%d]", i);
+            if (!solid_between(&world->solids[i], world->dimensions, k, low, low + size))
+                return FAIL(check, path,
+                            "the solid reaches over a periodic side in %c, or may come there; keep it inside",
+                            scene_axis_name(k));
+        }
+    }
+    for (int m = 0; any && m < world->motion_count; m++) {
+        snprintf(path, sizeof path, "motion[%d]", m);
+        if (!motion_translates(&world->motions[m]))
+            return FAIL(check, path, "a box with periodic sides does not turn; shake or accelerate it");
+    }
+    return true;
+}
+
+static bool scene_check_lid(const SceneCheck *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const double *v = world->lid;
+    if (v[0] == 0 && v[1] == 0 && v[2] == 0)
+        return true;
+    if (world->wall_slip != SLIP_NONE)
+        return FAIL(check, "box.lid", "the lid drags no fluid that glides along it; add slip: none");
+    if (v[1] != 0)
+        return FAIL(check, "box.lid", "the lid moves in its plane; its velocity in y must be 0, not %g",
+                    v[1]);
+    if (world->periodic[1])
+        return FAIL(check, "box.lid", "a box that is periodic in y has no lid; leave one of them out");
+    return scene_check_plane(check, "box.lid", v);
+}
+
+/* Checks counts of particles and cells against the machine's memory. */
+
+enum { BYTES_A_PARTICLE = 300, BYTES_A_CELL = 8 };
+
+double scene_fluid_volume(const Scene *scene)
+{
+    double volume = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
+            volume += fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions);
+    return volume;
+}
+
+/* Count of lattice points visited by counting: the points of the block around each fill. */
+static double points_walked(const WorldDef *world, double spacing)
+{
+    double sum = 0;
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].fill_count; i++) {
+            const Fill *fill = &world->fluids[f].fills[i];
+            double points = 1, low[3], high[3];
+            fill_bounds(fill, low, high);
+            for (int k = 0; k < world->dimensions; k++)
+                points *= (high[k] - low[k]) / spacing + 2;
+            sum += points;
+        }
+    return sum;
+}
+
+static bool too_many(const SceneCheck *check, double particles)
+{
+    return FAIL(
+        check, "particles.spacing",
+        "about %.3g particles are more than this machine can hold (at most %.3g); use a larger spacing than "
+        "%g m",
+        particles, fmin(0x1p31 - 1, memory_bytes() / BYTES_A_PARTICLE), check->scene->world.spacing);
+}
+
+bool scene_fits_memory(double particles)
+{
+    return particles < 0x1p31 && particles * BYTES_A_PARTICLE < memory_bytes();
+}
+
+/* Checks the count of cells of side h, which cover the whole box, filled or not. */
+static bool check_cells(const SceneCheck *check)
+{
+    const WorldDef *world = &check->scene->world;
+    const double h = world->support * world->spacing;
+    double cells = 1;
+    for (int k = 0; k < world->dimensions; k++)
+        cells *= world->box_size[k] / h + 3;
+    if (cells < 0x1p31 && cells * BYTES_A_CELL < memory_bytes())
+        return true;
+    return FAIL(
+        check, "particles.spacing",
+        "the box holds %.3g cells of %g m, more than this machine can; use a larger spacing or a smaller box",
+        cells, h);
+}
+
+bool scene_check_bounds(const YamlTree *tree, const Scene *scene, double spacing, Error *error)
+{
+    const SceneCheck check = {tree, scene, error};
+    double most = 0;
+    for (int f = 0; f < scene->world.fluid_count; f++)
+        for (int i = 0; i < scene->world.fluids[f].fill_count; i++)
+            most = fmax(most, fill_volume(&scene->world.fluids[f].fills[i], scene->world.dimensions));
+    most /= pow(spacing, scene->world.dimensions);
+    if (!scene_fits_memory(0.5 * most)) /* half: rounding to the lattice can lose at most half of many */
+        return too_many(&check, scene_fluid_volume(scene) / (spacing * spacing * spacing));
+    if (points_walked(&scene->world, spacing) > 0x1p30) /* for example a wide fill thinner than a spacing */
+        return too_many(&check, points_walked(&scene->world, spacing));
+    return true;
+}
+
+/* Checks memory for boundary particles, stored with the `fluid` particles. */
+static bool check_boundary(const SceneCheck *check, size_t fluid)
+{
+    const WorldDef *world = &check->scene->world;
+    double sum = 0;
+    for (int k = 0; k < world->solid_count; k++)
+        sum += boundary_estimate(&world->solids[k], world->dimensions, world->spacing,
+                                 world->support * world->spacing);
+    if (sum <= 0 || scene_fits_memory(sum + (double)flow_capacity(world, fluid)))
+        return true;
+    FAIL(
+        check, "solids",
+        "the solids' surfaces need about %.3g particles of their own, more than this machine can hold; use a "
+        "larger spacing or smaller solids",
+        sum);
+    return scene_check_scale(check, NULL);
+}
+
+/* Whether the solid holds a lattice of 3 x 3 x 3 places from corner to corner. */
+static bool holds_block(const WorldDef *world, const SolidDef *solid, const double low[3],
+                        const double high[3])
+{
+    SolidPose pose;
+    solid_pose_at(solid, 0, &pose);
+    for (int n = 0; n < 27; n++) {
+        const int at[3] = {n % 3, n / 3 % 3, n / 9};
+        float x[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = (float)(low[k] + 0.5 * at[k] * (high[k] - low[k]));
+        if (solid_clearance(solid, &pose, world->dimensions, x, 0) >= 0)
+            return false;
+    }
+    return true;
+}
+
+/* The solid around all of a fluid's fills; -1: none. */
+static int covering(const WorldDef *world, const FluidDef *fluid)
+{
+    for (int k = 0; k < world->solid_count; k++) {
+        bool all = true;
+        for (int i = 0; i < fluid->fill_count && all; i++) {
+            double low[3], high[3];
+            fill_bounds(&fluid->fills[i], low, high);
+            all = holds_block(world, &world->solids[k], low, high);
+        }
+        if (all)
+            return k;
+    }
+    return -1;
+}
+
+static bool no_particles(const SceneCheck *check, int f)
+{
+    const WorldDef *world = &check->scene->world;
+    const FluidDef *fluid = &world->fluids[f];
+    const int k = covering(world, fluid);
+    char path[64];
+    snprintf(path, sizeof path, "fluids[%d].fill", f);
+    if (k >= 0)
+        FAIL(check, path,
+             "the fluid '%s' has no particles: its fills lie within solids[%d]; move one of them",
+             fluid->name, k);
+    else
+        FAIL(
+            check, path,
+            "the fluid '%s' has no particles: its fills hold no point of the lattice of spacing %g m that is "
+            "free; use a smaller spacing or larger fills",
+            fluid->name, world->spacing);
+    return scene_check_scale(check, NULL);
+}
+
+/* Checks a view; `path` is the view's place in the scene, for its keys, which begin with "view". */
+static bool check_view_size(const SceneCheck *check, const char *path, const ViewDef *view)
+{
+    const ViewKind *kind = view_find(view->kind);
+    const Subject subject = {view, &check->scene->world};
+    const char *key = "view.kind";
+    char at[128];
+    Error error;
+    const bool drawn = !kind || !kind->check || kind->check(&subject, &key, &error);
+    if (drawn && overlays_check(&subject, &key, &error))
+        return true;
+    snprintf(at, sizeof at, "%s%s", path, key + strlen("view"));
+    return FAIL(check, at, "%s", error.message);
+}
+
+static bool check_view_sizes(const SceneCheck *check)
+{
+    for (int i = 0; i < check->scene->view_count; i++) {
+        char path[32];
+        snprintf(path, sizeof path, "views[%d]", i);
+        if (!check_view_size(check, path, &check->scene->views[i]))
+            return false;
+    }
+    return check_view_size(check, "view", &check->scene->view);
+}
+
+/* A formula without a value would leave fluid out in silence. */
+static bool check_heights(const SceneCheck *check)
+{
+    const WorldDef *world = &check->scene->world;
+    for (int f = 0; f < world->fluid_count; f++)
+        for (int i = 0; i < world->fluids[f].fill_count; i++) {
+            const Fill *fill = &world->fluids[f].fills[i];
+            char path[64];
+            double at[2];
+            snprintf(path, sizeof path, "fluids[%d].fill[%d].below", f, i);
+            if (formula_given(fill->below) && seed_lacks_height(world, fill, at))
+                return FAIL(check, path, "the height \"%s\" has no value at x %g, z %g m; write one that has",
+                            fill->below, at[0], at[1]);
+        }
+    return true;
+}
+
+bool scene_check_count(const YamlTree *tree, const Scene *scene, Error *error)
+{
+    const SceneCheck check = {tree, scene, error};
+    const double spacing = scene->world.spacing;
+    if (!scene_check_widths(&check) || !scene_check_periodic(&check) || !check_boundary(&check, 0) ||
+        !check_view_sizes(&check))
+        return false;
+    if (!scene_check_bounds(tree, scene, spacing, error) || !check_cells(&check))
+        return false;
+    size_t all = 0, counts[FLUIDS_MAX];
+    if (!check_heights(&check))
+        return false;
+    seed_counts(&scene->world, counts);
+    for (int f = 0; f < scene->world.fluid_count; f++) {
+        all += counts[f];
+        if (!scene_fits_memory((double)all))
+            return too_many(&check, (double)all);
+        if (counts[f] == 0 && scene->world.fluids[f].fill_count > 0)
+            return no_particles(&check, f);
+    }
+    if (!check_boundary(&check, all))
+        return false;
+    if (!flow_emits(&scene->world))
+        return true;
+    if (!scene_fits_memory(scene->world.most))
+        return FAIL(&check, "particles.most", "%d particles are more than this machine can hold; use fewer",
+                    scene->world.most);
+    return all <= (size_t)scene->world.most ||
+           FAIL(
+               &check, "particles.most",
+               "the fills alone hold %zu particle%s, more than the %d that emitters may fill up to; raise it",
+               all, plural(all), scene->world.most);
+}
+
+static bool check_range(const SceneCheck *check, const char *view, const char *key, bool automatic,
                         const double range[2])
 {
     char path[64];
@@ -41,7 +374,7 @@ static const char *key_of(const ViewDef *view, Scalar scalar)
                                                                                 : "glyphs.vector";
 }
 
-static bool check_scalars(const Check *check, const char *view, const ViewDef *def)
+static bool check_scalars(const SceneCheck *check, const char *view, const ViewDef *def)
 {
     const WorldDef *world = &check->scene->world;
     const Scalar lacks = missing_scalar(def, world);
@@ -57,7 +390,7 @@ static bool check_scalars(const Check *check, const char *view, const ViewDef *d
                 scalar_name(lacks), world->method, *has ? has : "nothing of its own");
 }
 
-static bool check_view(const Check *check, const char *path, const ViewDef *view)
+static bool check_view(const SceneCheck *check, const char *path, const ViewDef *view)
 {
     char camera[64];
     snprintf(camera, sizeof camera, "%s.camera", path);
@@ -73,7 +406,7 @@ static bool check_view(const Check *check, const char *path, const ViewDef *view
 }
 
 /* Checks the keys for the source of states, allowed only in entries of `views`. */
-static bool check_source(const Check *check, const char *path, const ViewDef *view)
+static bool check_source(const SceneCheck *check, const char *path, const ViewDef *view)
 {
     char key[64];
     snprintf(key, sizeof key, "%s.set", path);
@@ -87,7 +420,7 @@ static bool check_source(const Check *check, const char *path, const ViewDef *vi
     return true;
 }
 
-static bool check_sources(const Check *check)
+static bool check_sources(const SceneCheck *check)
 {
     const Scene *scene = check->scene;
     static const char *const keys[] = {"view.file", "view.set"};
@@ -109,7 +442,7 @@ static bool check_sources(const Check *check)
 }
 
 /* Checks the camera's keyframes in order. */
-static bool check_path(const Check *check, const char *path, const ViewDef *view)
+static bool check_path(const SceneCheck *check, const char *path, const ViewDef *view)
 {
     for (int i = 0; i < view->camera_path_count; i++) {
         char key[64];
@@ -125,7 +458,7 @@ static bool check_path(const Check *check, const char *path, const ViewDef *view
     return true;
 }
 
-static bool check_views(const Check *check)
+static bool check_views(const SceneCheck *check)
 {
     if (!check_sources(check))
         return false;
@@ -139,7 +472,7 @@ static bool check_views(const Check *check)
     return check_path(check, "view", &check->scene->view) && check_view(check, "view", &check->scene->view);
 }
 
-static bool check_spacing(const Check *check)
+static bool check_spacing(const SceneCheck *check)
 {
     const WorldDef *world = &check->scene->world;
     double width = INFINITY;
@@ -152,9 +485,9 @@ static bool check_spacing(const Check *check)
     return true;
 }
 
-bool scene_check(const Tree *tree, const Scene *scene, Error *error)
+bool scene_check(const YamlTree *tree, const Scene *scene, Error *error)
 {
-    const Check check = {tree, scene, error};
+    const SceneCheck check = {tree, scene, error};
     for (int f = 0; f < scene->world.fluid_count; f++)
         if (!scene_check_fluid(&check, f))
             return false;

@@ -1,12 +1,21 @@
-/* The table of all keys of a scene (sim/base/key.h): the rows of all owners in sequence. The loader, `--set`,
-   `slosh info`, the panel and `slosh help keys` use this table. */
-#ifndef SLOSH_SCENE_KEYS_H
-#define SLOSH_SCENE_KEYS_H
+/* The table of all keys of a scene; settings as text, for people and as JSON; terms; presets.
+
+   Two presets are groups of settings. SolverPreset, `solver.preset` of a scene: fills in keys that scene
+   and command line leave open. Preset, `--preset NAME` of the command line: replaces settings of the
+   scene. */
+#ifndef APP_SCENE_KEYS_H
+#define APP_SCENE_KEYS_H
 
 #include "app/scene/scene.h"
+
+#include "app/scene/yaml/yaml.h"
 #include "sim/base/key.h"
 
+#include <jansson.h>
 #include <stdio.h>
+
+/* The rows (sim/base/key.h) of all owners in sequence. The loader, `--set`, `slosh info`, the panel and
+   `slosh help keys` use this table. */
 
 const Key *scene_keys(int *count);
 
@@ -14,27 +23,10 @@ const Key *scene_keys(int *count);
    of "view.kind", which elements of `views` share. NULL if unknown. */
 const Key *scene_key_find(const char *path);
 
-/* The part of the row's path below `parent` if the row is a direct member ("size" in "box"), otherwise
-   NULL. */
-const char *key_name_in(const Key *key, const char *parent);
-
 /* The list with the row as a member of its elements, if the list is outermost: "fluids" for "fluids[].color".
    NULL: none. */
 const Key *key_list(const Key *key);
 
-/* A list whose elements have the keys of a mapping instead of rows of their own; each element starts as a
-   copy of the mapping. */
-typedef struct KeyLike {
-    const char *list, *mapping;
-    size_t at; /* offset of the mapping's struct in a Scene, which lies before the list */
-} KeyLike;
-
-/* NULL: elements have rows of their own, or the key is no list. */
-const KeyLike *key_like(const Key *list);
-
-/* The list of a path such as "views[1].kind", whose elements have the keys of a mapping; NULL: other
-   paths. */
-const Key *key_list_like(const char *path);
 int key_list_count(const Key *list, const Scene *scene);
 size_t key_list_at(const Key *list,
                    int index); /* base in a Scene of the offsets of an element's rows, bytes */
@@ -48,7 +40,7 @@ const KeyOwner *key_owner(const Key *key);
 bool key_owner_used(const KeyOwner *owner, const Scene *scene, bool said);
 
 /* "solver.step.mode: cfl" */
-void key_owner_need(const KeyOwner *owner, char *text, size_t size);
+void key_owner_condition(const KeyOwner *owner, char *text, size_t size);
 
 /* "cfl: greatest step" */
 void key_help_text(const Key *key, char *text, size_t size);
@@ -59,23 +51,6 @@ void scene_default(Scene *scene);
 /* The table as Markdown: `slosh help keys`. */
 void scene_keys_print(FILE *file);
 
-/* Keys of the picture that name a scalar, each with the key of the scalar's range. */
-enum { KEY_SCALARS = 3 };
-typedef struct KeyScalar {
-    const char *by, *range;
-} KeyScalar;
-extern const KeyScalar key_scalars[KEY_SCALARS];
-
-/* Makes the key's range automatic. `base`: the Scene, or the base of an element of `views` (key_list_at). */
-void key_range_free(const KeyScalar *scalar, void *base);
-
-/* Name of the scalar of the range if the picture names `scalar`: for `auto` the speed, as the fluids' own
-   colours have no range. */
-const char *key_ranged(const char *scalar);
-
-/* Makes the range automatic if `before`, a base of the same kind, has a different scalar. */
-void key_range_follow(const KeyScalar *scalar, const void *before, void *base);
-
 /* Prints "path = value unit" for every setting of the resolved scene. */
 void scene_print(const Scene *scene, FILE *file);
 
@@ -85,5 +60,80 @@ char *scene_print_text(const Scene *scene);
 /* Writes the value at `base` + the key's offset as people write it, without its unit; "" if the key holds no
    value. */
 void key_value_text(const Key *key, const void *base, char *text, size_t size);
+
+/* The terms of a scene's model that could be switched off. A term is a row of the table of keys with an `off`
+   value (sim/base/key.h). */
+
+enum { TERMS_MAX = 24, TERM_SIZE = 64 };
+
+typedef struct SceneTerm {
+    const Key *key;
+    char path[TERM_SIZE];  /* with indices: "fluids[1].viscosity" */
+    char value[TERM_SIZE]; /* the scene's value without unit, cut to fit */
+} SceneTerm;
+
+/* Finds the scene's terms: terms of the present solver with a value other than off. Returns their count. A
+   row for list elements gives a term per element. At most TERMS_MAX terms are found. */
+int scene_terms(const Scene *scene, SceneTerm terms[TERMS_MAX]);
+
+/* {"fluids[0].viscosity": {"value": 0.5, "unit": "Pa s"}, ...}: each line of scene_print. Numbers and lists
+   keep their type, other values are text; unitless values have no unit. The caller owns the result; NULL if
+   memory is short. */
+json_t *scene_json(const Scene *scene);
+
+/* ---- presets ---- */
+
+enum { SOLVER_PRESET_SETTINGS_MAX = 20, SOLVER_PRESET_SEVERAL_FLUIDS = 1 };
+
+typedef struct SolverPresetSetting {
+    const char *path, *value;
+    const char *method; /* the row's only method; NULL: all methods */
+    int scenes; /* 2, 3: only scenes of such dimensions; SOLVER_PRESET_SEVERAL_FLUIDS: two or more fluids; 0:
+                   all scenes */
+    const char *unless; /* a related key: a scene that names this key does not get the row; or NULL */
+} SolverPresetSetting;
+
+typedef struct SolverPreset {
+    const char *name, *help;
+    SolverPresetSetting
+        settings[SOLVER_PRESET_SETTINGS_MAX]; /* ended by a NULL path; a later row overrides an earlier row */
+} SolverPreset;
+
+/* Ended by a NULL name; the first is the default. */
+extern const SolverPreset solver_preset_list[];
+
+/* True if the key's value came from the scene's preset. */
+bool solver_preset_filled(const Scene *scene, const char *path);
+
+/* Prints a line per key of the scene's preset: the value, or the scene's own setting. */
+void solver_preset_print(const Scene *scene, FILE *file);
+
+typedef enum PresetKind {
+    PRESET_FLUID,   /* properties of a fluid of the scene */
+    PRESET_QUESTION /* a question to the solver */
+} PresetKind;
+
+enum { PRESET_SETTINGS_MAX = 8, PRESET_DROPS_MAX = 16 };
+
+typedef struct Preset {
+    const char *name;
+    PresetKind kind;
+    const char *help;
+    const char *source;                   /* of the numbers */
+    const char *set[PRESET_SETTINGS_MAX]; /* "path=value"; "fluid.KEY=..." is for the chosen fluid */
+    const char *drops[PRESET_DROPS_MAX];  /* keys removed from the scene, so that defaults apply */
+} Preset;
+
+/* Ended by a NULL name. */
+extern const Preset preset_list[];
+
+/* True if the preset "NAME:NUMBER" sets or drops the key of "path=value". */
+bool preset_sets(const char *name, const char *setting);
+
+/* Prints the list as a Markdown table. */
+void preset_print(FILE *file);
+
+/* Name number `index` of "water|oil|...", for the help; NULL after the last. */
+const char *preset_name(int index);
 
 #endif

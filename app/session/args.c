@@ -1,7 +1,7 @@
 #include "app/session/args.h"
 
-#include "app/base/path.h"
-#include "app/base/suggest.h"
+#include "app/base/program.h"
+#include "app/scene/scene_files.h"
 #include "app/session/args_table.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #ifndef SLOSH_ARGS_H
 #define SLOSH_ARGS_H
 
-#include "app/output/snapshot_frame.h"
+#include "app/files/snapshot.h"
 #include "app/scene/scene.h"
 #include "sim/base/error.h"
 

@@ -1,6 +1,6 @@
 #include "app/session/headless.h"
 
-#include "app/base/driver_trouble.h"
+#include "app/base/program.h"
 #include "sim/gl/debug.h"
 
 #include <epoxy/egl.h>
@@ -94,7 +94,7 @@ static Headless *open_surfaceless(void)
 
 Headless *headless_create(int gpu, Error *error)
 {
-    driver_trouble_begin();
+    driver_error_install();
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_base")) {
         error_set(error, "EGL cannot make a context without a display here; install Mesa (libegl-mesa0 and "
                          "libgl1-mesa-dri) or a driver with EGL_EXT_platform_base");

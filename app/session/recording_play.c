@@ -1,6 +1,6 @@
 #include "app/session/recording_play.h"
-#include "app/base/exit_code.h"
-#include "app/base/interrupt.h"
+
+#include "app/base/program.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 #ifndef SLOSH_SESSION_H
 #define SLOSH_SESSION_H
 
-#include "app/base/exit_code.h"
+#include "app/base/program.h"
 #include "app/held/hand_replay.h"
 #include "app/metric/compression.h"
 #include "app/outcome/fluid_watch.h"
@@ -42,7 +42,7 @@ typedef struct Session {
 /* Opens the session: loads the command line's only scene and the recording of --device, and reports the
    effect of --particles on dt on standard error. Makes the world, and a context if the backend needs one;
    draws nothing and creates no file. With --resume the world starts from its file even where tables give the
-   start (app/scene/tables.h), as tables may be gone. Returns 0 or the exit code: EXIT_USAGE for a wrong
+   start (app/scene/scene_files.h), as tables may be gone. Returns 0 or the exit code: EXIT_USAGE for a wrong
    command line or scene, EXIT_FAILED for a failing GPU. */
 int session_open(Session *session, const Args *args, Error *error);
 

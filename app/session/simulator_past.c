@@ -1,7 +1,8 @@
 /* Travel in time: keeps the past and goes to earlier places. Behind the newest state time follows the
    recording, until the user acts. */
-#include "app/scene/live.h"
 #include "app/session/session.h"
+
+#include "app/scene/scene.h"
 #include "app/session/simulator_state.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Picks the due work and its thread: the solver's own thread, or the window's thread on request. */
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "app/session/simulator_state.h"
 
 #include <math.h>

@@ -20,7 +20,7 @@ bool snapshot_series_add(SnapshotSeries *series, const Session *session, Error *
     return true;
 }
 
-void snapshot_series_left(const Snapshot *file, const char *path)
+void snapshot_series_left(const SnapshotWriter *file, const char *path)
 {
     if (file && snapshot_steps(file) > 0)
         fprintf(stderr, "%s: holds the %zu whole snapshot%s before that\n", path, snapshot_steps(file),

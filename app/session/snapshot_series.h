@@ -2,13 +2,14 @@
 #ifndef SLOSH_SNAPSHOT_SERIES_H
 #define SLOSH_SNAPSHOT_SERIES_H
 
-#include "app/output/snapshot.h"
 #include "app/session/session.h"
 
+#include "app/files/snapshot.h"
+
 typedef struct SnapshotSeries {
-    Snapshot *file; /* not owned; NULL: no snapshots */
-    double every;   /* s, more than 0 */
-    double next;    /* next due multiple of `every` */
+    SnapshotWriter *file; /* not owned; NULL: no snapshots */
+    double every;         /* s, more than 0 */
+    double next;          /* next due multiple of `every` */
 } SnapshotSeries;
 
 /* Appends the present state if it is the first at or after the due multiple of `every`. Returns false with
@@ -16,7 +17,7 @@ typedef struct SnapshotSeries {
 bool snapshot_series_add(SnapshotSeries *series, const Session *session, Error *error);
 
 /* After a failure: reports the whole snapshots in `path` on standard error. NULL is allowed. */
-void snapshot_series_left(const Snapshot *file, const char *path);
+void snapshot_series_left(const SnapshotWriter *file, const char *path);
 
 /* True if `path` is a valid name for snapshots, FILE.h5part: ParaView finds the format by this suffix. */
 bool snapshot_series_name(const char *path, Error *error);

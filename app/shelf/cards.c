@@ -1,6 +1,6 @@
 #include "app/shelf/cards.h"
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "app/shelf/thumbnail.h"
 #include "sim/base/stage.h"
 

@@ -1,6 +1,6 @@
 #include "app/shelf/scene_list.h"
 
-#include "app/yaml/yaml.h"
+#include "app/scene/yaml/yaml.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -42,14 +42,14 @@ static void read_words(SceneRow *row)
     Error none;
     size_t size;
     char *text = scene_file_read(row->path, &size, &none);
-    Tree tree = {.path = row->path};
+    YamlTree tree = {.path = row->path};
     snprintf(row->title, sizeof row->title, "%s", row->name);
     text_tame(row->title);
     *row->idea = 0;
     if (!text)
         return;
     scene_idea(text, size, row->idea);
-    const Node *title =
+    const YamlNode *title =
         tree_read(&tree, row->path, text, size, &none) ? node_child(tree.root, "title") : NULL;
     if (title && title->kind == NODE_SCALAR && title->text)
         snprintf(row->title, sizeof row->title, "%s", title->text);

@@ -2,7 +2,7 @@
 #ifndef SLOSH_SCENE_LIST_H
 #define SLOSH_SCENE_LIST_H
 
-#include "app/base/path.h"
+#include "app/scene/scene_files.h"
 #include "sim/base/error.h"
 
 typedef struct SceneRow {

@@ -1,7 +1,7 @@
 #include "app/shelf/thumbnail.h"
 
-#include "app/base/path.h"
 #include "app/beside/shoot.h"
+#include "app/scene/scene_files.h"
 #include "sim/matter/seed.h"
 #include "sim/world/world.h"
 

@@ -2,7 +2,7 @@
 #ifndef SLOSH_THUMBNAIL_H
 #define SLOSH_THUMBNAIL_H
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "app/session/headless.h"
 #include "sim/base/error.h"
 

@@ -1,6 +1,6 @@
 #include "app/stability/stable_axis.h"
 
-#include "app/base/suggest.h"
+#include "app/base/program.h"
 #include "app/scene/keys.h"
 #include "app/stability/stable_limits.h"
 #include "sim/matter/viscosity.h"

@@ -2,7 +2,7 @@
 
 #include "app/lab/chart.h"
 #include "app/lab/chart_sweep.h"
-#include "app/scene/advise.h"
+#include "app/scene/scene.h"
 #include "app/stability/stable_limits.h"
 #include "app/stability/stable_search.h"
 #include "sim/matter/fall.h"
@@ -174,7 +174,7 @@ static bool find_effect(StablePlan *plan, int a, Error *error)
         if (!stable_scene(plan, cell, NULL, &scene, error))
             return false;
         notes.count = 0;
-        scene_unused(&scene, axis->key, &notes);
+        scene_advise_key(&scene, axis->key, &notes);
         series->effect[a] = notes.count == 0;
         any |= series->effect[a];
         if (notes.count > 0)

@@ -1,7 +1,6 @@
 #include "app/stability/stable_run.h"
 
-#include "app/base/interrupt.h"
-#include "app/base/progress.h"
+#include "app/base/program.h"
 #include "app/lab/run_key.h"
 #include "app/session/headless.h"
 #include "app/stability/stable_trial.h"

@@ -1,6 +1,6 @@
 #include "app/stability/stable_trial.h"
 
-#include "app/base/interrupt.h"
+#include "app/base/program.h"
 #include "app/outcome/outcome_watch.h"
 
 typedef struct Trial {

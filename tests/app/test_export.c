@@ -1,10 +1,8 @@
 /* Formats of other programs: what stands in the bytes, and the world's frame by hand. */
 #include "tests/app/output_fixture.h"
 
-#include "app/export/export.h"
-#include "app/export/export_index.h"
-#include "app/export/ply.h"
-#include "app/export/vtp.h"
+#include "app/files/export.h"
+#include "app/files/export_formats.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -1,10 +1,9 @@
 /* What is told of a scene that is no error. */
-#include "app/base/notes.h"
-#include "app/scene/advise.h"
+#include "app/scene/scene.h"
 
 #include "app/play/scene.h"
 #include "app/scene/keys.h"
-#include "app/yaml/yaml.h"
+#include "app/scene/yaml/yaml.h"
 #include "sim/gl/backends.h"
 #include "sim/world/world.h"
 #include "tests/scene/scene_text.h"
@@ -39,7 +38,7 @@ static void a_line_has_its_place(void **state)
     static const char text[] = "solver:\n  sound_speed: 3\n";
     Notes notes = {.count = 0};
     Error error = {{0}};
-    Tree tree;
+    YamlTree tree;
     assert_true(tree_read(&tree, "s.yaml", text, strlen(text), &error));
     assert_true(tree_set(&tree, "gravity=[0, -1, 0]", NULL, &error));
     advise(&tree, "solver.sound_speed", &notes, "%d is low", 3);

@@ -1,9 +1,8 @@
 /* Files that appear whole or not at all. */
 #include "tests/app/output_fixture.h"
 
-#include "app/base/interrupt.h"
 #include "app/base/output.h"
-#include "app/base/output_folder.h"
+#include "app/base/program.h"
 
 #include <signal.h>
 #include <sys/wait.h>

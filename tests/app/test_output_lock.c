@@ -2,7 +2,7 @@
 /* One writer a file, whatever the names and whatever the file system can. */
 #include "tests/app/output_fixture.h"
 
-#include "app/base/output_lock.h"
+#include "app/base/output.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -125,7 +125,7 @@ static void where_there_are_no_locks_that_is_said_once(void **state)
         Error error = {{0}};
         no_locks = reasons[i];
         begin(&one, &lock, &older, "a");
-        assert_int_equal(older.state, OUTPUT_UNGUARDED);
+        assert_int_equal(older.state, OUTPUT_UNLOCKABLE);
         write_text(one.temp, "one");
         assert_true(output_lock_commit(&older, &one, &error));
         assert_text("a", "one");

@@ -7,7 +7,7 @@
 #include "app/hand/play_commands.h"
 #include "app/panel/panel.h"
 #include "app/scene/keys.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "render/frame/view.h"
 #include "render/pbsr/pbsr_def.h"
 

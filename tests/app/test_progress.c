@@ -2,7 +2,7 @@
 #define _GNU_SOURCE
 #include "tests/app/output_fixture.h"
 
-#include "app/base/progress.h"
+#include "app/base/program.h"
 
 #include <poll.h>
 #include <pty.h>

@@ -1,8 +1,8 @@
 /* Recordings: what is written comes back to the bit; what is wrong is named with its line. */
 #include "tests/app/output_fixture.h"
 
-#include "app/base/path.h"
 #include "app/recording/recording.h"
+#include "app/scene/scene_files.h"
 
 #include <errno.h>
 #include <float.h>

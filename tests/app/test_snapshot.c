@@ -1,7 +1,7 @@
 /* Snapshot files: what is written is read, and only whole steps are. */
 #include "tests/app/output_fixture.h"
 
-#include "app/output/snapshot.h"
+#include "app/files/snapshot.h"
 #include "sim/mueller/mueller.h"
 #include "sim/world/world.h"
 
@@ -93,7 +93,7 @@ static void what_is_written_is_read(void **state)
     Scene scene = small_scene();
     Error error = {{0}};
     SnapshotStep step[STEPS];
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     assert_non_null(file);
     for (int k = 0; k < STEPS; k++) {
         step[k] = some_step(counts[k], 0.25 * k);
@@ -130,7 +130,7 @@ static void a_world_is_written_as_it_is(void **state)
     Error error = {{0}};
     WorldInfo info;
     World *world = world_create(&scene.world, &error);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     assert_non_null(world);
     assert_non_null(file);
     assert_true(snapshot_append(file, world, &error));
@@ -188,7 +188,7 @@ static void volumes_are_those_of_the_solver(void **state)
         snprintf(scene.world.method, NAME_SIZE, "%s", cases[k][0]);
         snprintf(mueller_def(&scene.world)->density_kernel, NAME_SIZE, "%s", cases[k][1]);
         World *world = world_create(&scene.world, &error);
-        Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+        SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
         assert_true(world && file);
         for (int i = 0; i < 5; i++)
             assert_true(world_step(world, NULL, &error));
@@ -226,7 +226,7 @@ static void colors_are_as_in_the_scene_file(void **state)
     Error error = {{0}};
     double colors[FLUIDS_MAX][3];
     SnapshotStep step = some_step(3, 0);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     assert_true(snapshot_append_step(file, &step, &error));
     snapshot_close(file);
     SnapshotReader *reader = snapshot_open("a.h5part", &error);
@@ -252,7 +252,7 @@ static void an_old_file_stays_until_the_first_step(void **state)
     Error error = {{0}};
     SnapshotStep step = some_step(3, 0);
     write_text("a.h5part", "old");
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     assert_non_null(file);
     assert_text("a.h5part", "old");
     snapshot_close(file);
@@ -274,7 +274,7 @@ static void an_incomplete_last_step_is_dropped(void **state)
     Scene scene = small_scene();
     Error error = {{0}};
     SnapshotStep step = some_step(3, 0);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     for (int k = 0; k < 3; k++)
         assert_true(snapshot_append_step(file, &step, &error));
     snapshot_close(file);
@@ -295,7 +295,7 @@ static void a_killed_program_leaves_whole_steps(void **state)
     if (child == 0) {
         Scene scene = small_scene();
         SnapshotStep step = some_step(100, 0);
-        Snapshot *file = snapshot_create("a.h5part", &scene, NULL);
+        SnapshotWriter *file = snapshot_create("a.h5part", &scene, NULL);
         for (int k = 0; k < 4; k++)
             if (!snapshot_append_step(file, &step, NULL))
                 _exit(1);
@@ -319,7 +319,7 @@ static int steps_within(rlim_t bytes, const char *path)
         int steps = 0;
         signal(SIGXFSZ, SIG_IGN);
         setrlimit(RLIMIT_FSIZE, &(struct rlimit){bytes, bytes});
-        Snapshot *file = snapshot_create(path, &scene, &error);
+        SnapshotWriter *file = snapshot_create(path, &scene, &error);
         while (file && steps < 100 && snapshot_append_step(file, &step, &error))
             steps++;
         if (!strstr(error.message, "cannot be written: File too large") ||
@@ -353,7 +353,7 @@ static void the_reserve_is_enough(void **state)
     Error error = {{0}};
     struct stat before, after;
     SnapshotStep step = some_step(1, 0);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     assert_true(snapshot_append_step(file, &step, &error));
     for (int k = 0; k < 40; k++) {
         assert_int_equal(stat("a.h5part", &before), 0);

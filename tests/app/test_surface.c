@@ -1,6 +1,6 @@
 /* Surfaces of particles placed by hand: closed, of the fluid's volume, at the level, with the particles'
  * fields. */
-#include "app/export/surface.h"
+#include "app/files/surface.h"
 #include "sim/kernel/lattice.h"
 #include "sim/mesh/field.h"
 #include "tests/closed_mesh.h"

@@ -1,7 +1,7 @@
 /* A method that the program does not have (tests/sim/toy_method.h) in a file: a run goes on from it. */
 #include "tests/app/output_fixture.h"
 
-#include "app/output/snapshot.h"
+#include "app/files/snapshot.h"
 #include "app/recording/sim_command.h"
 #include "app/scene/keys.h"
 #include "app/session/headless.h"
@@ -30,7 +30,7 @@ static uint64_t write_file(const Scene *scene)
 {
     Error error;
     World *world = world_create(&scene->world, &error);
-    Snapshot *file = snapshot_create("a.h5part", scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", scene, &error);
     step_on(world, 3);
     assert_true(snapshot_append(file, world, &error));
     snapshot_close(file);
@@ -50,7 +50,7 @@ static void goes_on_from_a_file(const char *backend)
     snprintf(scene.world.backend, sizeof scene.world.backend, "%s", backend);
     scene.world.reproducible = true;
     const uint64_t hash = write_file(&scene);
-    Snapshot *file = snapshot_resume("a.h5part", &scene, "", &last, &busy, &error);
+    SnapshotWriter *file = snapshot_resume("a.h5part", &scene, "", &last, &busy, &error);
     World *world = world_create(&scene.world, &error);
     assert_true(file && world && world_load(world, &last, &error));
     step_on(world, 3);

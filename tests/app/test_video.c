@@ -1,9 +1,7 @@
 /* Videos by ffmpeg, folders of frames, single pictures. */
 #include "tests/app/output_fixture.h"
 
-#include "app/output/image.h"
-#include "app/output/pictures.h"
-#include "app/output/video.h"
+#include "app/files/pictures.h"
 
 #include <signal.h>
 

@@ -2,7 +2,7 @@
    light is lost. The surface is what the light's map says. */
 #include "tests/render/fixture.h"
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "render/clear/caustics.h"
 #include "render/frame/frame.h"
 #include "shaders/shared/shadow_maps.h"

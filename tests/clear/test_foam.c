@@ -2,7 +2,7 @@
    by solids. */
 #include "tests/render/solids_fixture.h"
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 
 #define SPACING 0.08
 enum { LONG = 25, DEEP = 12, LAYERS = 5 };

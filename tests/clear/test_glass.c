@@ -2,7 +2,7 @@
    meets it. */
 #include "tests/render/fixture.h"
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "render/frame/camera.h"
 
 #define SPACING 0.08

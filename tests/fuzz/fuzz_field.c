@@ -1,6 +1,6 @@
 /* Fuzz target of tables over places: what is read is a full grid, and what is read off it lies between its
    values. The last byte chooses the kind: heights where it is a newline. */
-#include "app/scene/field_file.h"
+#include "app/scene/import/import.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,8 +1,7 @@
 /* Fuzz target of meshes, but for assimp: how many triangles a file says that it has, and its places moved;
    and of any triangles, what is wrong with them, and the distance from what is left. The first byte chooses.
  */
-#include "app/mesh_file/mesh_count.h"
-#include "app/mesh_file/mesh_move.h"
+#include "app/scene/import/import.h"
 #include "sim/mesh/mend.h"
 #include "sim/mesh/triangle_tree.h"
 

@@ -1,5 +1,5 @@
 /* Fuzz target of the reader of scenes in pictures. */
-#include "app/base/picture_text.h"
+#include "app/scene/scene_files.h"
 
 #include <stdint.h>
 #include <stdlib.h>

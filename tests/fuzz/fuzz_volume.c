@@ -1,6 +1,6 @@
 /* Fuzz target of a volume's header: what is read can be used as it is, and its raw values, of which the
    header's own bytes are taken for some, are the numbers that scale and offset say. */
-#include "app/volume/volume_file.h"
+#include "app/scene/import/import.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -5,7 +5,7 @@
 
 #include "tests/app/output_fixture.h"
 
-#include "app/base/path.h"
+#include "app/scene/scene_files.h"
 #include "app/session/headless.h"
 #include "app/session/recording_play.h"
 #include "app/session/simulator_state.h"

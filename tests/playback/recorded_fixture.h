@@ -68,7 +68,7 @@ static inline SnapshotStep made_up(size_t count, double time)
     return step;
 }
 
-static inline void append(Snapshot *file, size_t count, double time)
+static inline void append(SnapshotWriter *file, size_t count, double time)
 {
     Error error = {{0}};
     SnapshotStep step = made_up(count, time);
@@ -81,7 +81,7 @@ static inline void write_file(const char *path, const size_t counts[], size_t st
 {
     Error error = {{0}};
     const Scene scene = tank_scene(NULL);
-    Snapshot *file = snapshot_create(path, &scene, &error);
+    SnapshotWriter *file = snapshot_create(path, &scene, &error);
     must(file, &error);
     for (size_t k = 0; k < steps; k++)
         append(file, counts[k], interval * (double)k);

@@ -52,7 +52,7 @@ static void run_and_read(const char *method)
     Still lived[STEPS] = {{.room = 0}}, read = {.room = 0};
     Recorded recorded;
     World *world = world_create(&scene.world, &error);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     must(world && file, &error);
     for (int k = 0; k < STEPS; k++) {
         must(snapshot_append(file, world, &error), &error);
@@ -112,7 +112,7 @@ static void assert_scene_comes_back(const Scene *scene, const SceneSettings *set
     Error error = {{0}};
     Notes notes = {.count = 0};
     Recorded recorded;
-    Snapshot *file = snapshot_create("a.h5part", scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", scene, &error);
     must(file, &error);
     append(file, 1, 0);
     snapshot_close(file);
@@ -297,7 +297,7 @@ static void births_that_no_column_tells(void **state)
         Notes notes = {.count = 0};
         Recorded recorded;
         const Scene scene = tank_scene(cases[i].set);
-        Snapshot *file = snapshot_create("births.h5part", &scene, &error);
+        SnapshotWriter *file = snapshot_create("births.h5part", &scene, &error);
         must(file, &error);
         append(file, 3, 0);
         snapshot_close(file);
@@ -524,7 +524,7 @@ static void a_file_that_grows(void **state)
     Recorded recorded;
     Still still = {.room = 0};
     const Scene scene = tank_scene(NULL);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     must(file, &error);
     append(file, 4, 0);
     open_recorded(&recorded, "a.h5part", NULL);

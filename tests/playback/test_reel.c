@@ -199,7 +199,7 @@ static void a_file_that_grows_is_followed(void **state)
     ReelStatus status;
     Recorded recorded;
     const Scene scene = tank_scene(NULL);
-    Snapshot *file = snapshot_create("a.h5part", &scene, &error);
+    SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     must(file, &error);
     append(file, 1, 0);
     open_recorded(&recorded, "a.h5part", NULL);

@@ -2,7 +2,7 @@
    8 of 255.
 
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "render/glyphs/glyphs_def.h"
 #include "render/slice/slice_def.h"
 #include "render/trails/trails_def.h"

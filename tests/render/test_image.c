@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 
 #include <unistd.h>
 

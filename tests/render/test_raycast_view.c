@@ -2,7 +2,7 @@
    without a volume. */
 #include "tests/render/raycast_fixture.h"
 
-#include "app/output/image.h"
+#include "app/files/pictures.h"
 #include "render/frame/colormap.h"
 
 #define SPACING 0.08

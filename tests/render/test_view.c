@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "tests/render/toy_view.h"
 #include "tests/scene/scene_text.h"
 

@@ -1,7 +1,7 @@
 /* What scenes are warned about, and what they are not. */
 #include "tests/scene/scene_text.h"
 
-#include "app/scene/advise.h"
+#include "app/scene/scene.h"
 #include "sim/gl/backends.h"
 
 #include <dirent.h>

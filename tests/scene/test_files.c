@@ -2,7 +2,7 @@
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
 
-#include "app/base/path.h"
+#include "app/scene/scene_files.h"
 #include "sim/gl/backends.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"

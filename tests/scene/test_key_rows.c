@@ -55,7 +55,7 @@ static void a_key_has_an_owner(void **state)
     const KeyOwner *owner = key_owner(scene_key_find("solver.bounce"));
     assert_true(parse_text(LEAST, NULL, &scene, &error));
     assert_false(key_owner_used(owner, &scene, false));
-    key_owner_need(owner, need, sizeof need);
+    key_owner_condition(owner, need, sizeof need);
     assert_string_equal(need, "solver.method: toy");
     snprintf(scene.world.method, NAME_SIZE, "toy");
     assert_true(key_owner_used(owner, &scene, false));

@@ -2,7 +2,7 @@
  */
 #include "tests/scene/scene_text.h"
 
-#include "app/base/suggest.h"
+#include "app/base/program.h"
 #include "app/scene/keys.h"
 #include "render/pbsr/pbsr_def.h"
 #include "sim/gl/backends.h"

@@ -6,7 +6,7 @@
 #include "render/volume/volume_def.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "sim/world/live.h"
 
 #define TWO_FLUIDS                                                                                           \

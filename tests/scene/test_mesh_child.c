@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "app/mesh_file/mesh_child.h"
+#include "app/scene/import/import_private.h"
 
 #include <signal.h>
 #include <stdlib.h>

@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "app/mesh_file/mesh_file.h"
+#include "app/scene/import/import.h"
 
 #include <string.h>
 

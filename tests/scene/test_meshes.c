@@ -3,8 +3,7 @@
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
 
-#include "app/mesh_file/mesh_count.h"
-#include "app/mesh_file/mesh_file.h"
+#include "app/scene/import/import.h"
 
 #include <math.h>
 #include <stdlib.h>

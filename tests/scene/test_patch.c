@@ -1,5 +1,5 @@
 /* Settings put into a text: comments and layout stay, and it is read as it shall be. */
-#include "app/yaml/patch.h"
+#include "app/scene/yaml/yaml.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

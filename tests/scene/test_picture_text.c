@@ -1,7 +1,7 @@
 #define _GNU_SOURCE /* memmem */
 /* The scene that a picture carries: what was written comes back, and what was cut or forged is said. */
-#include "app/base/picture_text.h"
-#include "app/output/image.h"
+#include "app/files/pictures.h"
+#include "app/scene/scene_files.h"
 
 #include <math.h>
 #include <setjmp.h>

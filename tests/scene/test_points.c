@@ -2,7 +2,7 @@
 #include "tests/scene/scene_text.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "sim/base/control_points.h"
 
 #include <math.h>

@@ -5,7 +5,6 @@
 
 #include "app/case/run.h"
 #include "app/scene/keys.h"
-#include "app/scene/preset.h"
 #include "sim/world/world.h"
 
 #include <stdlib.h>
@@ -113,7 +112,7 @@ static void all_names_are_known(void **state)
     (void)state;
     assert_refused(LEAST "solver: {preset: acurate}\n",
                    "scene.yaml:7:18: solver.preset cannot be 'acurate'; did you mean 'accurate'?");
-    for (const Preset *preset = preset_list; preset->name; preset++)
+    for (const SolverPreset *preset = solver_preset_list; preset->name; preset++)
         for (int k = 0; preset->settings[k].path; k++) {
             char setting[128];
             snprintf(setting, sizeof setting, "%s=%s", preset->settings[k].path, preset->settings[k].value);
@@ -129,7 +128,7 @@ static void it_is_told_what_came_from_it(void **state)
     size_t size = 0;
     world_of(PLANE, "solver.kernel=quintic");
     FILE *file = open_memstream(&text, &size);
-    preset_print(&scene, file);
+    solver_preset_print(&scene, file);
     fclose(file);
     assert_non_null(strstr(text, "from solver.preset accurate\n"));
     assert_non_null(strstr(text, "  solver.delta_sph = 0.1\n"));

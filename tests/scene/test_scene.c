@@ -1,6 +1,6 @@
 /* The loader on texts in memory: what a scene becomes, and what is refused with which words at which place.
  */
-#include "app/base/path.h"
+#include "app/scene/scene_files.h"
 #include "sim/matter/seed.h"
 #include "sim/world/world.h"
 #include "tests/scene/scene_text.h"

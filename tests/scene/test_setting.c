@@ -1,6 +1,5 @@
 /* In what two scenes differ: settings by which the one becomes the other, to the same bits. */
-#include "app/setting/differ.h"
-#include "app/setting/settle.h"
+#include "app/scene/save.h"
 #include "sim/matter/flow.h"
 
 #include <setjmp.h>
@@ -40,7 +39,7 @@ static void test_there_and_back(void **state)
     Scene *scene = scenes(3);
     SceneSettings set = {.count = 0}, found;
     Error error = {{0}};
-    Differ differ, rest;
+    SceneDifference differ, rest;
     static const char *const settings[] = {"title=\"one: two\"",
                                            "fluids[0].viscosity=0.1",
                                            "fluids[0].color=[0.2, 0.4, 0.6]",
@@ -55,12 +54,12 @@ static void test_there_and_back(void **state)
         set.set[set.count++] = settings[i];
     parse(TEXT, NULL, &scene[0]);
     parse(TEXT, &set, &scene[1]);
-    scene_differ(&scene[0], &scene[1], &differ);
+    scene_difference(&scene[0], &scene[1], &differ);
     assert_true(differ.world);
     assert_true(setting_list_settings(&differ.settings, &found, &error));
     assert_true(found.count >= set.count);
     parse(TEXT, &found, &scene[2]);
-    scene_differ(&scene[1], &scene[2], &rest);
+    scene_difference(&scene[1], &scene[2], &rest);
     assert_int_equal(rest.settings.count, 0);
     assert_memory_equal(&scene[1].world, &scene[2].world, sizeof scene[1].world);
     setting_list_free(&differ.settings);
@@ -68,13 +67,13 @@ static void test_there_and_back(void **state)
     free(scene);
 }
 
-static void differ_by(const char *setting, Differ *differ)
+static void differ_by(const char *setting, SceneDifference *differ)
 {
     Scene *scene = scenes(2);
     SceneSettings set = {.count = 1, .set = {setting}};
     parse(TEXT, NULL, &scene[0]);
     parse(TEXT, &set, &scene[1]);
-    scene_differ(&scene[0], &scene[1], differ);
+    scene_difference(&scene[0], &scene[1], differ);
     free(scene);
 }
 
@@ -102,7 +101,7 @@ static void test_kinds(void **state)
          "view.camera_path=[{time: 1, from: [0, 1, 1], to: [0, 0, 0]}]", false, false},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
-        Differ differ;
+        SceneDifference differ;
         differ_by(rows[i].setting, &differ);
         if (*rows[i].whole) /* of a key of the view each of `views` says it too */
             assert_string_equal(differ.settings.set[0], rows[i].whole);
@@ -132,7 +131,7 @@ static void test_settle(void **state)
         assert_true(solid_hand_move(&def.solids[k].hand, at, turn, -100, 10, 10, 3));
     }
     WorldDef after = def;
-    settle_world(&after, 1ULL << gate_of_emitter(0, 1));
+    world_def_apply_moves(&after, 1ULL << gate_of_emitter(0, 1));
     assert_true(flow_shut(&after) == 1ULL << gate_of_emitter(0, 1));
     for (int k = 0; k < SOLID_KIND_COUNT; k++)
         for (int t = 0; t < 4; t++) {

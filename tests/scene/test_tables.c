@@ -2,7 +2,7 @@
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
 
-#include "app/scene/field_file.h"
+#include "app/scene/import/import.h"
 #include "sim/matter/fill.h"
 
 #include <math.h>

@@ -1,10 +1,9 @@
 /* A tree as YAML again is the same scene. */
 #include "tests/sim/fixture.h"
 
-#include "app/base/path.h"
 #include "app/scene/keys.h"
-#include "app/yaml/print.h"
-#include "app/yaml/yaml.h"
+#include "app/scene/scene_files.h"
+#include "app/scene/yaml/yaml.h"
 #include "sim/gl/backends.h"
 
 #include <stdlib.h>
@@ -15,7 +14,7 @@ static Error error;
 /* The tree of a text with one more setting (NULL: none), printed; the caller frees it. */
 static char *printed(const char *path, const char *bytes, size_t size, const char *setting, const char *said)
 {
-    Tree tree;
+    YamlTree tree;
     char *text = NULL;
     size_t length = 0;
     if (!tree_read(&tree, path, bytes, size, &error) || (setting && !tree_set(&tree, setting, said, &error)))

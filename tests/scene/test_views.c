@@ -2,7 +2,7 @@
 #include "tests/scene/scene_text.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "render/slice/slice_def.h"
 #include "render/trails/trails_def.h"
 

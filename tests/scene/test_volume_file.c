@@ -3,9 +3,8 @@
 #include "tests/scene/scene_text.h"
 #include "tests/scratch.h"
 
-#include "app/base/physical.h"
-#include "app/volume/volume_file.h"
-#include "app/volume/volume_kept.h"
+#include "app/base/program.h"
+#include "app/scene/import/import.h"
 #include "render/pbsr/pbsr_def.h"
 
 #include <math.h>
@@ -162,7 +161,7 @@ static void a_raw_file_that_cannot_be_read_whole_is_refused(void **state)
     assert_false(volume_header_load(pipe, &header, &error));
     assert_non_null(strstr(error.message, "pipe: no regular file; a header is read more than once"));
     write_file(large, "", 0);
-    if (physical_bytes() < 0x1p34 && truncate(large, (off_t)1 << 32) == 0) /* of holes */
+    if (memory_bytes() < 0x1p34 && truncate(large, (off_t)1 << 32) == 0) /* of holes */
         check_raw_refused(folder, "large", "[65536, 32768, 2]", "no memory for 4294967296 values, 17.2 GB; ");
 }
 
@@ -243,10 +242,10 @@ static void layers_have_their_files(void **state)
     const struct timespec moment = {.tv_nsec = 20000000}; /* two writes have two times */
     nanosleep(&moment, NULL);
     write_file(raw, (const unsigned char[24]){0, 4, [23] = 4}, sizeof bytes);
-    const RangedVolume *after = volume_kept(header, &error);
+    const RangedVolume *after = volume_file_cached(header, &error);
     assert_ptr_not_equal(after, before);
     check_near((double)after->volume.value[0], 12, 0, "a value that was written anew");
-    assert_ptr_equal(volume_kept(header, &error), after);
+    assert_ptr_equal(volume_file_cached(header, &error), after);
     snprintf(text, sizeof text, LEAST "view:\n  pbsr:\n    layers:\n      - {of: torus, file: %s}\n", header);
     assert_refused(text, "scene.yaml:10:27: of a file a layer is a surface");
     assert_refused(LEAST "view: {pbsr: {layers: [{file: none.yaml}]}}\n",

@@ -57,49 +57,43 @@ APP = {
     "metric": "base",
     "probe": "base metric",
     "outcome": "base metric",
-    "yaml": "base",
-    "volume": "base yaml",
-    "mesh_file": "base",
-    "recipe": "base yaml",
-    "scene": "base metric probe yaml volume mesh_file recipe",
-    "term": "scene",
-    "recording": "base yaml scene",
+    "scene/yaml": "base",
+    "scene/import": "base scene/yaml",
+    "scene": "base metric probe scene/yaml scene/import",
+    "recording": "base scene/yaml scene",
     "hand": "base scene",
     "touch": "base scene recording hand",
-    "device": "base yaml scene recording hand",
+    "device": "base scene/yaml scene recording hand",
     "held": "base scene hand device",
-    "output": "base yaml scene",
-    "setting": "base yaml scene recording output",
-    "session": "base metric probe outcome scene recording hand held output",
-    "playback": "base yaml scene output session",
-    "export": "base yaml scene output playback",
+    "files": "base scene/yaml scene",
+    "session": "base metric probe outcome scene recording hand held files",
+    "playback": "base scene/yaml scene files session",
     "scaling": "base",
-    "trace": "base yaml scene output",
-    "beside": "base scene recording output session playback",
-    "shelf": "base yaml scene output session beside",
+    "beside": "base scene recording files session playback",
+    "shelf": "base scene/yaml scene files session beside",
     "case": "base metric probe scene",
     "lab": "base metric probe outcome scene held session case",
     "stability": "base outcome scene session lab",
-    "fit": "base metric outcome yaml scene session case lab",
-    "ablate": "base metric outcome scene term lab",
+    "fit": "base metric outcome scene/yaml scene session case lab",
+    "ablate": "base metric outcome scene lab",
     "gallery": "base scene session lab",
     "window": "",
     "watch": "base",
     "meter": "base session lab",
-    "panel": "probe recipe scene term hand held session shelf window",
-    "play": "base yaml mesh_file recipe scene recording hand touch device held output setting session playback beside shelf lab window watch meter panel",
+    "panel": "probe scene hand held session shelf window",
+    "play": "base scene/yaml scene/import scene recording hand touch device held files session playback beside shelf lab window watch meter panel",
     "manual": "base scene session",
-    "film": "base scene recording output setting session playback beside",
-    "dist": "base probe scene output session scaling lab",
-    "command": "base metric probe outcome yaml recipe scene recording hand device held output setting session playback export beside shelf trace case lab stability fit ablate gallery meter play manual film",
+    "film": "base scene recording files session playback beside",
+    "dist": "base probe scene files session scaling lab",
+    "command": "base metric probe outcome scene/yaml scene recording hand device held files session playback beside shelf case lab stability fit ablate gallery meter play manual film",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("sim/dist", {"": ""}, ["sim"]),
           ("render", RENDER, ["sim", "sim/gl"]), ("app", APP, ["sim", "sim/gl", "sim/dist", "render"])]
-DRAWS_NOTHING = {"base", "metric", "probe", "yaml", "volume", "recording", "device", "window"}  # rooms of app without render and sim/gl
+DRAWS_NOTHING = {"base", "metric", "probe", "scene/yaml", "scene/import", "recording", "device", "window"}  # rooms of app without render and sim/gl
 
 
 # What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
-METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/preset.c", "app/recipe/recipe_rows.c", "app/command/info.c"]
+METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/presets.c", "app/command/info.c"]
 
 # What names views beside their folders and app/case: lists.
 VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]

@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 
 #include "app/scene/keys.h"
-#include "app/scene/live.h"
+#include "app/scene/scene.h"
 #include "render/volume/volume_def.h"
 #include "sim/gl/limits.h"
 #include "tests/scene/scene_text.h"
