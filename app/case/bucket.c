@@ -1,6 +1,6 @@
 /* A spinning bucket: the surface is y = omega^2 r^2 / 2 g. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

@@ -6,9 +6,8 @@
 #ifndef SLOSH_CASE_H
 #define SLOSH_CASE_H
 
-#include "app/metric/cloud.h"
-#include "app/metric/curve.h"
-#include "app/probe/probe.h"
+#include "app/run/measure/metric.h"
+#include "app/run/measure/probe.h"
 #include "sim/world/world.h"
 
 enum {

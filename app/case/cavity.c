@@ -1,7 +1,7 @@
 /* The lid-driven cavity: velocities on its centre lines, against Ghia, Ghia and Shin 1982. */
 #include "app/case/all.h"
 #include "app/case/reference.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Two drops collide off centre: momenta are conserved, and energy must not grow. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

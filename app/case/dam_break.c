@@ -5,7 +5,7 @@
    much. */
 #include "app/case/all.h"
 #include "app/case/reference.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

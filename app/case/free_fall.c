@@ -1,6 +1,6 @@
 /* A box in free fall: in its frame, the fluid floats in place. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* A column of water at rest: p = rho0 g (H - y), and energy is conserved. Measured by particles and by the
    scene's probes: sensors on the floor and on a wall, and a gauge of the height. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

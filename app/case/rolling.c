@@ -6,7 +6,7 @@
    driven by the tank's angle, which tilts gravity, and by the angular acceleration, through the
    Stokes-Joukowski potential of a fluid under a lid. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

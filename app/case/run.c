@@ -175,7 +175,7 @@ static bool start_probes(CaseResult *result, World *world, Error *error)
     const ProbeList *list = &result->scene.probes;
     if (list->count == 0)
         return true;
-    result->run.feels = probe_list_feels(list);
+    result->run.feels = probe_list_has_forces(list);
     if (result->run.feels && !world_feel(world, error))
         return false;
     result->run.probes = probes_create(list, &result->scene.world);

@@ -1,7 +1,7 @@
 /* Linear sloshing: the box shakes for two periods, then the fluid oscillates at its natural frequency,
    omega^2 = g k tanh(k d), k = pi / L. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

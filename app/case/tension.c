@@ -1,7 +1,7 @@
 /* Surface tension in the plane: oscillation of a drop, pressure in drops, contact angle of drops on a
    floor. */
 #include "app/case/all.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* A standing wave of half a wavelength in a tank with slip walls, and its viscous decay. */
 #include "app/case/all.h"
 #include "app/case/start.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 
 #include <complex.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 #include "app/session/args_table.h"
 #include "app/command/export_parts.h"
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 #include "app/lab/bench_table.h"
 #include "app/manual/manual.h"
 #include "app/scene/keys.h"

@@ -7,8 +7,8 @@
 #include "app/command/bench_plan.h"
 #include "app/command/bench_points.h"
 #include "app/command/cmd.h"
-#include "app/device/devices.h"
-#include "app/device/mapping.h"
+#include "app/input/device/devices.h"
+#include "app/input/mapping.h"
 #include "app/lab/chart.h"
 #include "app/meter/report.h"
 #include "app/play/play.h"
@@ -218,7 +218,7 @@ static int bench_play(const Args *args, Error *error)
                                  .settings = &args->settings,
                                  .width = args->width,
                                  .height = args->height,
-                                 .past_bytes = (size_t)(args->past * 1048576),
+                                 .history_bytes = (size_t)(args->past * 1048576),
                                  .shake_seconds = args->seconds,
                                  .quiet = args->quiet};
         code = play(&setup, &figures[done]);

@@ -3,7 +3,7 @@
 #include "app/ablate/ablate_report.h"
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 
 #include <stdlib.h>
 #include <string.h>

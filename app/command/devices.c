@@ -1,9 +1,8 @@
+#include "app/input/device/devices.h"
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/command/cmd.h"
-#include "app/device/device_survey.h"
-#include "app/device/devices_watch.h"
-#include "app/device/mapping.h"
+#include "app/input/mapping.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -46,7 +45,7 @@ static bool write_json(const char *path, json_t *devices, Error *error)
     return written;
 }
 
-static void print_found(const DeviceFound *found)
+static void print_found(const DeviceListing *found)
 {
     char note[DEVICE_PROBLEM_SIZE];
     const char *problem = found->problem;
@@ -57,7 +56,7 @@ static void print_found(const DeviceFound *found)
         printf("  %s\n", note);
 }
 
-static json_t *json_found(const DeviceFound *found)
+static json_t *json_found(const DeviceListing *found)
 {
     json_t *json = json_device(found->row);
     json_object_set_new(json, "bus", json_string(found->info.bluetooth ? "bluetooth" : "usb"));
@@ -69,9 +68,9 @@ static json_t *json_found(const DeviceFound *found)
 /* Lists the plugged in devices. */
 static int list_found(const Args *args, Error *error)
 {
-    static DeviceFound found[DEVICE_SURVEY_MAX];
+    static DeviceListing found[DEVICE_LIST_MAX];
     json_t *devices = json_array();
-    const int count = device_survey(&hid_port_hidapi, found);
+    const int count = device_list(&hid_port_hidapi, found);
     for (int i = 0; i < count; i++) {
         if (!args->quiet)
             print_found(&found[i]);
@@ -128,7 +127,7 @@ static int list_recorded(const Args *args, Error *error)
     return 0;
 }
 
-static json_t *json_watched(const Watch *watch)
+static json_t *json_watched(const DevicesWatch *watch)
 {
     json_t *devices = json_array();
     for (int i = 0; i < watch->count; i++) {
@@ -145,17 +144,17 @@ static json_t *json_watched(const Watch *watch)
 
 static int watch_devices(const Args *args, Error *error)
 {
-    static Watch watch;
+    static DevicesWatch watch;
     if (args->device && !devices_check(args->device, error))
         return fail(EXIT_USAGE, error);
     if (args->json && !json_file_check(args->json, error))
         return fail(EXIT_FAILED, error);
-    watch = (Watch){.source = args->device,
-                    .out = args->watch && !args->quiet ? stdout : NULL,
-                    .messages = args->quiet   ? NULL
-                                : args->watch ? stdout
-                                              : stderr,
-                    .bars = isatty(STDOUT_FILENO)};
+    watch = (DevicesWatch){.source = args->device,
+                           .out = args->watch && !args->quiet ? stdout : NULL,
+                           .messages = args->quiet   ? NULL
+                                       : args->watch ? stdout
+                                                     : stderr,
+                           .bars = isatty(STDOUT_FILENO)};
     watch.record = args->record ? report_log_create(args->record, error) : NULL;
     if (args->record && !watch.record)
         return fail(EXIT_FAILED, error);

@@ -3,7 +3,7 @@
 #include "app/base/program.h"
 #include "app/command/cmd.h"
 #include "app/command/export_parts.h"
-#include "app/playback/recorded_scene.h"
+#include "app/run/playback/playback.h"
 #include "sim/base/stage.h"
 
 #include <stdio.h>

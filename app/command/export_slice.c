@@ -5,7 +5,7 @@
 #include "app/command/export_parts.h"
 #include "app/files/export.h"
 #include "app/files/snapshot.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "render/plane/plane_kernel.h"
 
 #include <errno.h>

@@ -6,7 +6,7 @@
 #include "app/files/export_formats.h"
 #include "app/files/pathlines.h"
 #include "app/files/snapshot.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "sim/base/stage.h"
 
 #include <errno.h>

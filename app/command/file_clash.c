@@ -3,11 +3,11 @@
 
 #include "app/base/file.h"
 #include "app/base/output.h"
-#include "app/device/mapping.h"
 #include "app/files/export.h"
 #include "app/files/pictures.h"
 #include "app/fit/fit_plan.h"
-#include "app/recording/recording.h"
+#include "app/input/mapping.h"
+#include "app/run/recording/recording.h"
 #include "app/scene/scene_files.h"
 #include "app/session/args_table.h"
 

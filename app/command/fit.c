@@ -5,7 +5,7 @@
 #include "app/fit/fit_report.h"
 #include "app/fit/fit_scene.h"
 #include "app/lab/bench.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 
 #include <math.h>
 #include <string.h>

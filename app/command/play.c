@@ -2,10 +2,10 @@
 #include "app/base/file.h"
 #include "app/base/output.h"
 #include "app/command/cmd.h"
-#include "app/device/devices.h"
+#include "app/input/device/devices.h"
 #include "app/meter/report.h"
 #include "app/play/scene.h"
-#include "app/playback/recorded.h"
+#include "app/run/playback/playback.h"
 
 #include <stdio.h>
 
@@ -47,7 +47,7 @@ int cmd_play(const Args *args)
                              .width = args->width,
                              .height = args->height,
                              .record = args->record,
-                             .past_bytes = (size_t)(args->past * 1048576),
+                             .history_bytes = (size_t)(args->past * 1048576),
                              .mapping = &mapping,
                              .device = args->device,
                              .json = args->json,

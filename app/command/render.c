@@ -1,14 +1,14 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/beside/panel_title.h"
-#include "app/beside/shoot.h"
 #include "app/command/cmd.h"
 #include "app/files/pictures.h"
 #include "app/film/render_file.h"
 #include "app/film/render_plan.h"
 #include "app/film/render_report.h"
-#include "app/playback/recorded.h"
-#include "app/recording/recording.h"
+#include "app/run/compare/compare.h"
+#include "app/run/compare/panel_pictures.h"
+#include "app/run/playback/playback.h"
+#include "app/run/recording/recording.h"
 #include "app/scene/scene_files.h"
 #include "sim/base/stage.h"
 
@@ -28,7 +28,7 @@ typedef struct Render {
     const Args *args;
     RenderPlan plan;
     Session sessions[PANELS_MAX]; /* one per world; the first owns the context */
-    Shoot shoot;
+    PanelPictures panel_pictures;
     Pictures *pictures;
     Schedule schedule;
     Progress progress;
@@ -67,7 +67,7 @@ static PanelFacts facts_of(const Render *render, int panel, double time)
             .def = &session->scene.world, .particles = session->info.count, .spacing = session->info.spacing};
     }
     const Recorded *run = &plan->files[file];
-    const ShootSource *source = &render->shoot.sources[render->shoot.source_of[panel]];
+    const PictureSource *source = &render->panel_pictures.sources[render->panel_pictures.source_of[panel]];
     return (PanelFacts){.def = &run->scene.world,
                         .particles = source->state.count,
                         .spacing = run->numbers.spacing,
@@ -109,18 +109,18 @@ static void make_title(const Render *render, int panel, double time, Title *titl
 
 static bool open_shoot(Render *render, Error *error)
 {
-    ShootPanel panels[PANELS_MAX];
+    PicturePanel panels[PANELS_MAX];
     RenderPlan *plan = &render->plan;
     for (int i = 0; i < plan->panel_count; i++) {
         const int world = plan->world_of[i], file = plan->file_of[i];
         const bool follows = plan->leader_of[i] >= 0 && !render->args->interpolate;
-        panels[i] = (ShootPanel){.session = world >= 0 ? &render->sessions[world] : NULL,
-                                 .recorded = file >= 0 ? &plan->files[file] : NULL,
-                                 .scene = follows ? &render->sessions[plan->leader_of[i]] : NULL,
-                                 .view = plan->views[i]};
+        panels[i] = (PicturePanel){.session = world >= 0 ? &render->sessions[world] : NULL,
+                                   .recorded = file >= 0 ? &plan->files[file] : NULL,
+                                   .scene = follows ? &render->sessions[plan->leader_of[i]] : NULL,
+                                   .view = plan->views[i]};
     }
-    return shoot_open(&render->shoot, panels, plan->panel_count, render->args->interpolate,
-                      render->args->width, render->args->height, error);
+    return panel_pictures_open(&render->panel_pictures, panels, plan->panel_count, render->args->interpolate,
+                               render->args->width, render->args->height, error);
 }
 
 /* Fraction of work done, by simulated time, as the solver takes most of the time. */
@@ -145,12 +145,12 @@ static bool blame(const Session *session, Error *error)
 static bool step(Render *render, int world, double time, Error *error)
 {
     Session *session = &render->sessions[world];
-    if (!shoot_watch(&render->shoot, session, time, error))
+    if (!panel_pictures_watch(&render->panel_pictures, session, time, error))
         return blame(session, error);
     const bool last = session->info.time + 1.001 * session->scene.world.dt >= time;
     const double began = wall_ms();
-    if ((shoot_interpolates(&render->shoot, session) && last &&
-         !shoot_keep(&render->shoot, session, error)) ||
+    if ((panel_pictures_interpolates(&render->panel_pictures, session) && last &&
+         !panel_pictures_keep(&render->panel_pictures, session, error)) ||
         !session_step(session, error))
         return blame(session, error);
     render->figures.step_seconds[world] += 1e-3 * (wall_ms() - began);
@@ -194,23 +194,24 @@ static bool advance(Render *render, double time, Error *error)
 static bool take_picture(Render *render, double time, Error *error)
 {
     const RenderPlan *plan = &render->plan;
-    Shoot *shoot = &render->shoot;
+    PanelPictures *panel_pictures = &render->panel_pictures;
     Title titles[PANELS_MAX];
-    if (!shoot_take(shoot, time, error))
+    if (!panel_pictures_take(panel_pictures, time, error))
         return false;
     for (int i = 0; i < plan->panel_count; i++) {
         make_title(render, i, time, &titles[i]);
-        if (!shoot_set_title(shoot, i, &titles[i], error))
+        if (!panel_pictures_set_title(panel_pictures, i, &titles[i], error))
             return false;
     }
     render->text.time = render->sessions[0].info.time;
-    if (!shoot_draw(shoot, error) || !pictures_add(render->pictures, &shoot->image, error))
+    if (!panel_pictures_draw(panel_pictures, error) ||
+        !pictures_add(render->pictures, &panel_pictures->image, error))
         return false;
     for (int i = 0; i < plan->panel_count; i++)
         for (int k = 0; k < i; k++)
-            render->figures.differ[i][k] |= !shoot_same(shoot, i, k, titles);
+            render->figures.differ[i][k] |= !panel_pictures_same(panel_pictures, i, k, titles);
     render->figures.pictures++;
-    render->figures.apart = fmax(render->figures.apart, shoot_spread(shoot));
+    render->figures.apart = fmax(render->figures.apart, panel_pictures_spread(panel_pictures));
     progress_update(&render->progress, fraction_done(render));
     return true;
 }
@@ -258,7 +259,7 @@ static int report(Render *render, Error *error)
     for (int i = 0; schedule->count == 1 && i < render->plan.world_count; i++)
         figures->stopped |= !session_reached(&render->sessions[i], schedule->first);
     render_report(&render->plan, render->sessions, figures);
-    if (render_write_json(&render->plan, render->sessions, &render->shoot, figures, error))
+    if (render_write_json(&render->plan, render->sessions, &render->panel_pictures, figures, error))
         return figures->stopped ? EXIT_INTERRUPTED : 0;
     fprintf(stderr, "%s\n", error->message);
     return EXIT_FAILED;
@@ -273,7 +274,7 @@ static void tell_times(const Render *render)
             fprintf(stderr, "%s--interpolate has no effect: in mode cfl states fall on the pictures' times\n",
                     session->prefix);
         if (render->schedule.count > 1 && !render->args->interpolate)
-            session_tell_uneven(session, "pictures", render->schedule.interval,
+            session_warn_uneven(session, "pictures", render->schedule.interval,
                                 render->schedule.interval * (render->schedule.count - 1));
     }
 }
@@ -325,7 +326,7 @@ static int shoot_all(Render *render, PicturesKind kind, Error *error)
     }
     const size_t count = taken ? render->figures.pictures : 0, staying = pictures_kept(render->pictures);
     warn_of_older(render->pictures, count);
-    lacks_print(&render->shoot.lacks, render->args->output, stderr);
+    missing_attributes_print(&render->panel_pictures.missing, render->args->output, stderr);
     if (!taken)
         pictures_discard(render->pictures);
     else
@@ -333,7 +334,7 @@ static int shoot_all(Render *render, PicturesKind kind, Error *error)
     const int code = taken ? report(render, error) : fail(render, error);
     if (!taken)
         render_tell_staying(render->args, staying);
-    shoot_close(&render->shoot);
+    panel_pictures_close(&render->panel_pictures);
     return code;
 }
 

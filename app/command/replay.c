@@ -1,8 +1,7 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/command/cmd.h"
-#include "app/session/recording_play.h"
-#include "app/session/snapshot_series.h"
+#include "app/run/session.h"
 
 #include <inttypes.h>
 #include <stdio.h>
@@ -91,8 +90,8 @@ static int finish(Replay *replay, Error *error)
                 plural(snapshot_steps(replay->series.file)));
     if (replay->broke)
         fprintf(stderr, "%s\n", error->message);
-    const int code = recording_play_judge(&replay->play, &replay->session, replay->ended, replay->hash,
-                                          replay->args->quiet);
+    const int code = recording_play_report(&replay->play, &replay->session, replay->ended, replay->hash,
+                                           replay->args->quiet);
     return write_json(replay, error) ? code : fail(EXIT_FAILED, error);
 }
 
@@ -139,17 +138,17 @@ static int run(Replay *replay, Error *error)
     if (code == 0)
         return finish(replay, error);
     fail_run(args, code, error);
-    snapshot_series_left(replay->series.file, args->output);
+    snapshot_series_report_left(replay->series.file, args->output);
     return code;
 }
 
 static int open_recording(Replay *replay, Error *error)
 {
     const Args *args = replay->args;
-    if ((args->output && !snapshot_series_name(args->output, error)) ||
+    if ((args->output && !snapshot_series_check_name(args->output, error)) ||
         !recording_read(replay->path, &replay->recording, error))
         return EXIT_USAGE;
-    recording_play_tell_version(replay->path, &replay->recording);
+    recording_play_warn_version(replay->path, &replay->recording);
     replay->play = (RecordingPlay){.path = replay->path, .recording = &replay->recording};
     return recording_play_open(&replay->play, &args->settings, args->gpu, false, &replay->session, error);
 }

@@ -4,9 +4,8 @@
 #include "app/command/cmd.h"
 #include "app/files/forces_log.h"
 #include "app/lab/probe_chart.h"
-#include "app/metric/compression.h"
-#include "app/session/session.h"
-#include "app/session/snapshot_series.h"
+#include "app/run/measure/metric.h"
+#include "app/run/session.h"
 
 #include <stdio.h>
 #include <unistd.h>
@@ -69,7 +68,7 @@ static bool simulate(Session *session, const Args *args, SnapshotWriter *file, L
 {
     SnapshotSeries series = {.file = file, .every = args->every};
     if (!args->quiet) /* the file has its times */
-        session_tell_uneven(session, "snapshots", args->every, args->time);
+        session_warn_uneven(session, "snapshots", args->every, args->time);
     if (snapshot_steps(file) > 0)
         snapshot_series_resume(&series, session);
     for (;;) {
@@ -120,7 +119,7 @@ static int fail(const Session *session, const Args *args, const SnapshotWriter *
     const Summary summary = {
         .command = "run", .product = "snapshots", .products = file ? snapshot_steps(file) : 0};
     const int code = session_fail(session, args, &summary, error);
-    snapshot_series_left(file, args->output);
+    snapshot_series_report_left(file, args->output);
     if (!run_probes_draw(&look->probes, session, args, &why))
         complain(code, &why);
     return code;
@@ -134,8 +133,8 @@ static SnapshotWriter *resume(Session *session, const Args *args, bool *busy, Er
     if (snapshot_file_has(args->output, SCALAR_ACCELERATION_X) &&
         !(scene->world.acceleration = world_keep_acceleration(session->world, error)))
         return NULL;
-    SnapshotWriter *file =
-        snapshot_resume(args->output, &session->scene, hand_replay_mark(session->hand), &state, busy, error);
+    SnapshotWriter *file = snapshot_resume(args->output, &session->scene, device_replay_mark(session->hand),
+                                           &state, busy, error);
     Error why = {{0}};
     if (file && !world_load(session->world, &state, &why)) {
         error_set(error, "%.300s: cannot be resumed: %.600s", args->output, why.message);
@@ -153,7 +152,7 @@ static SnapshotWriter *resume(Session *session, const Args *args, bool *busy, Er
 static SnapshotWriter *begin(const Session *session, const Args *args, Error *error)
 {
     SnapshotWriter *file = snapshot_create(args->output, &session->scene, error);
-    if (!file || snapshot_note_motion_source(file, hand_replay_mark(session->hand), error))
+    if (!file || snapshot_note_motion_source(file, device_replay_mark(session->hand), error))
         return file;
     snapshot_close(file);
     return NULL;
@@ -175,7 +174,7 @@ static int run(Session *session, const Args *args, Error *error)
     SnapshotWriter *file;
     bool busy = false;
     const bool resumed = args->resume && access(args->output, F_OK) == 0;
-    const bool feels = args->forces || (args->probes && probe_list_feels(&session->scene.probes));
+    const bool feels = args->forces || (args->probes && probe_list_has_forces(&session->scene.probes));
     if (!run_probes_check(session, args, error) || (feels && !world_feel(session->world, error)))
         return complain(EXIT_USAGE, error);
     if ((args->json && !json_file_check(args->json, error)) ||
@@ -208,7 +207,8 @@ int cmd_run(const Args *args)
     Session session = {.world = NULL};
     Error error = {{0}};
     interrupt_install();
-    int code = snapshot_series_name(args->output, &error) ? session_open(&session, args, &error) : EXIT_USAGE;
+    int code =
+        snapshot_series_check_name(args->output, &error) ? session_open(&session, args, &error) : EXIT_USAGE;
     if (code == 0)
         code = run(&session, args, &error);
     else if (code == EXIT_FAILED)

@@ -6,7 +6,7 @@
 #include "app/lab/case_watch.h"
 #include "app/lab/chart.h"
 #include "app/lab/validate_report.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "sim/matter/seed.h"
 
 #include <errno.h>

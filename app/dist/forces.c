@@ -6,7 +6,7 @@
 bool dist_forces_feel(const Stand *stand, const Args *args, Error *error)
 {
     const Session *session = &stand->session;
-    const bool feels = args->forces || (args->probes && probe_list_feels(&session->scene.probes));
+    const bool feels = args->forces || (args->probes && probe_list_has_forces(&session->scene.probes));
     return !feels || world_feel(session->world, error);
 }
 

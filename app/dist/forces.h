@@ -5,7 +5,7 @@
 
 #include "app/dist/stand.h"
 #include "app/files/forces_log.h"
-#include "app/session/probe_series.h"
+#include "app/run/session.h"
 
 /* Starts summing forces in the world, also for force probes. */
 bool dist_forces_feel(const Stand *stand, const Args *args, Error *error);

@@ -65,12 +65,12 @@ static size_t choose(Near *near, const Probes *probes)
     const Cloud *own = &near->own;
     size_t count = 0;
     for (size_t i = 0; i < own->count; i++)
-        count += probes_near(probes, own->position + 4 * i);
+        count += probes_cover(probes, own->position + 4 * i);
     if (grows(&near->out_room, count))
         reserve(&near->out, near->out_room, sizeof(Record));
     Record *record = near->out;
     for (size_t i = 0; i < own->count; i++) {
-        if (!probes_near(probes, own->position + 4 * i))
+        if (!probes_cover(probes, own->position + 4 * i))
             continue;
         *record = (Record){.cell = near->cell[i],
                            .id = near->id[i],

@@ -2,7 +2,7 @@
 #ifndef SLOSH_DIST_NEAR_H
 #define SLOSH_DIST_NEAR_H
 
-#include "app/probe/probe.h"
+#include "app/run/measure/probe.h"
 #include "sim/base/particle_id.h"
 #include "sim/world/world.h"
 

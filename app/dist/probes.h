@@ -5,7 +5,7 @@
 
 #include "app/dist/near.h"
 #include "app/dist/stand.h"
-#include "app/session/probe_series.h"
+#include "app/run/session.h"
 
 /* Zero-initialise before use. */
 typedef struct DistProbes {

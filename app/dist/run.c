@@ -6,7 +6,7 @@
 #include "app/dist/probes.h"
 #include "app/dist/share.h"
 #include "app/dist/stand.h"
-#include "app/session/snapshot_series.h"
+#include "app/run/session.h"
 #include "sim/base/stage.h"
 #include "sim/dist/dist.h"
 #include "sim/dist/ranks.h"
@@ -31,7 +31,7 @@ static bool check_options(const Args *args, Error *error)
 {
     if (args->device)
         return error_set(error, "slosh-dist run: it has no --device yet; use slosh run");
-    return snapshot_series_name(args->output, error);
+    return snapshot_series_check_name(args->output, error);
 }
 
 static bool add_snapshot(DistRun *run, Error *error)
@@ -118,7 +118,7 @@ static int fail(const DistRun *run, const Error *error)
     const Summary summary = summary_of(run);
     if (run->stand.rank == 0) {
         session_fail(&run->stand.session, run->args, &summary, error);
-        snapshot_series_left(run->file, run->args->output);
+        snapshot_series_report_left(run->file, run->args->output);
     }
     return EXIT_FAILED;
 }

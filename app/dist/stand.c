@@ -116,7 +116,7 @@ bool stand_substep(Stand *stand, Error *error)
     Session *session = &stand->session;
     const bool ok = world_substep(session->world, NULL, error);
     world_info(session->world, &session->info);
-    if (session_trouble_is_new(&session->told_trouble, &session->info.trouble))
+    if (session_trouble_is_new(&session->reported_trouble, &session->info.trouble))
         stand_say(stand, session_trouble_text(&session->info.trouble, words));
     return ok;
 }

@@ -3,8 +3,8 @@
 #ifndef SLOSH_STAND_H
 #define SLOSH_STAND_H
 
+#include "app/run/session.h"
 #include "app/session/args.h"
-#include "app/session/session.h"
 
 typedef struct Stand {
     Session session; /* like slosh run's on each rank; the scene has the backend named in the file */

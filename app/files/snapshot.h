@@ -85,8 +85,8 @@ typedef struct SnapshotWriter SnapshotWriter;
    Returns NULL with the reason: see output_begin; or another program is writing a file of that name. */
 SnapshotWriter *snapshot_create(const char *path, const Scene *scene, Error *error);
 
-/* Notes in a new file the source of the box's motion beside the scene: a mark such as hand_replay_mark's; "":
-   none. */
+/* Notes in a new file the source of the box's motion beside the scene: a mark such as device_replay_mark's;
+   "": none. */
 bool snapshot_note_motion_source(SnapshotWriter *snapshot, const char *mark, Error *error);
 
 /* Adds a state and syncs it to the disk: a program killed later leaves the step complete. Disk space for the

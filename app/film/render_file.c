@@ -2,14 +2,12 @@
 
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/beside/beside.h"
-#include "app/beside/lacks.h"
-#include "app/beside/panel_title.h"
 #include "app/files/pictures.h"
 #include "app/film/render_report.h"
-#include "app/playback/reel_watch.h"
-#include "app/session/headless.h"
-#include "app/session/studio.h"
+#include "app/run/compare/compare.h"
+#include "app/run/compare/panel_pictures.h"
+#include "app/run/offscreen.h"
+#include "app/run/playback/playback.h"
 #include "render/frame/overlay.h"
 #include "render/panels.h"
 #include "sim/base/stage.h"
@@ -22,14 +20,14 @@ static const size_t KEPT_BYTES = 256U << 20; /* for steps in memory */
 
 /* A shown run: the file itself, or a run beside the file (`file` of a view). */
 typedef struct ShownRun {
-    char name[BESIDE_WORDS]; /* without the folder */
-    Recorded recorded;       /* with its reader until there is a reel */
+    char name[COMPARE_NAME_SIZE]; /* without the folder */
+    Recorded recorded;            /* with its reader until there is a reel */
     unsigned attributes;
-    Reel *reel;
-    ReelStatus at;
+    Prefetch *prefetch;
+    PrefetchStatus at;
     ParticleBuffers state;
     size_t drawn; /* step in the last picture */
-    ReelWatch watch;
+    PrefetchWatch watch;
 } ShownRun;
 
 typedef struct FileRender {
@@ -37,7 +35,7 @@ typedef struct FileRender {
     Scene scene;
     Headless *context;
     Panels *panels; /* per view of the scene */
-    Lacks lacks;
+    MissingAttributes missing;
     int run_count;
     ShownRun runs[PANELS_MAX + 1]; /* the file first */
     int run_of[PANELS_MAX];        /* index of each panel's run */
@@ -108,13 +106,13 @@ static bool find_run(FileRender *render, int panel, Notes *notes, Error *error)
     if (!*view->file)
         return recorded_has(&render->runs[0].recorded, view, error);
     for (int i = 0; i < panel; i++)
-        if (beside_same(scene_view(&render->scene, i), view)) {
+        if (compare_is_same(scene_view(&render->scene, i), view)) {
             render->run_of[panel] = render->run_of[i];
             return recorded_has(&render->runs[render->run_of[i]].recorded, view, error);
         }
     ShownRun *run = &render->runs[render->run_count];
-    beside_words(view, run->name);
-    if (!beside_open_file(render->args->scenes[0], view, panel, &run->recorded, notes, error))
+    compare_name(view, run->name);
+    if (!compare_open_file(render->args->scenes[0], view, panel, &run->recorded, notes, error))
         return false;
     render->run_of[panel] = render->run_count++;
     return true;
@@ -154,16 +152,16 @@ static bool understand(FileRender *render, PicturesKind *kind, Error *error)
 
 /* Opens the reels. Runs beside the file show their first step at or after the file's time. The scenes'
    data stays here. */
-static bool open_reels(FileRender *render, Error *error)
+static bool open_prefetches(FileRender *render, Error *error)
 {
     for (int i = 0; i < render->run_count; i++) {
         ShownRun *run = &render->runs[i];
         Recorded taken = run->recorded;
-        const ReelSetup setup = {
+        const PrefetchSetup setup = {
             .recorded = &taken, .attributes = run->attributes, .bytes = KEPT_BYTES, .at_or_after = i > 0};
         run->drawn = SIZE_MAX;
-        run->reel = reel_create(&setup, error);
-        if (!run->reel)
+        run->prefetch = prefetch_create(&setup, error);
+        if (!run->prefetch)
             return false;
         run->recorded.reader = NULL;
     }
@@ -177,7 +175,7 @@ static bool open_all(FileRender *render, Error *error)
     Subject subjects[PANELS_MAX];
     ViewDef views[PANELS_MAX];
     for (int i = 0; i < render->run_count; i++) {
-        render->runs[i].watch = (ReelWatch){.every = INFINITY, .watched = -INFINITY};
+        render->runs[i].watch = (PrefetchWatch){.every = INFINITY, .watched = -INFINITY};
     }
     for (int i = 0; i < count; i++) {
         ShownRun *run = &render->runs[render->run_of[i]];
@@ -191,7 +189,7 @@ static bool open_all(FileRender *render, Error *error)
     if (!(render->context = headless_create(args->gpu, error)))
         return false;
     fprintf(stderr, "renderer: %s\n", headless_renderer(render->context));
-    return open_reels(render, error) &&
+    return open_prefetches(render, error) &&
            (render->panels = panels_create(subjects, count, args->width, args->height, error)) &&
            (image_create(&render->image, args->width, args->height) ||
             error_set(error, "out of memory for a picture of %d x %d", args->width, args->height)) &&
@@ -204,7 +202,7 @@ static void close_all(FileRender *render)
     image_destroy(&render->image);
     panels_destroy(render->panels);
     for (int i = 0; i < render->run_count; i++) {
-        reel_destroy(render->runs[i].reel);
+        prefetch_destroy(render->runs[i].prefetch);
         recorded_close(&render->runs[i].recorded); /* if not taken over by a reel */
     }
     headless_destroy(render->context);
@@ -230,16 +228,17 @@ static void see(void *user, const ParticleBuffers *particles)
 static bool take(FileRender *render, ShownRun *run, double time, bool *fresh, Error *error)
 {
     Watched watched = {render, run};
-    if (!reel_watch(&run->watch, run->reel, time, &(ReelSeer){see, &watched}, &run->at, error))
+    if (!prefetch_watch(&run->watch, run->prefetch, time, &(PrefetchObserver){see, &watched}, &run->at,
+                        error))
         return false;
-    reel_seek(run->reel, time, render->interval);
-    if (!reel_wait(run->reel, &run->at, error))
+    prefetch_seek(run->prefetch, time, render->interval);
+    if (!prefetch_wait(run->prefetch, &run->at, error))
         return false;
     if (run->at.index == run->drawn)
         return true;
     *fresh = true;
     run->drawn = run->at.index;
-    return reel_take(run->reel, &run->state) ||
+    return prefetch_take(run->prefetch, &run->state) ||
            error_set(error, "%s: Step#%zu is not shown", run->recorded.path, run->at.index);
 }
 
@@ -288,7 +287,7 @@ static bool draw(FileRender *render, double time, Error *error)
     if (!set_titles(render, error))
         return false;
     panels_draw(render->panels, states, NULL);
-    lacks_take(&render->lacks, render->panels, states);
+    missing_attributes_add(&render->missing, render->panels, states);
     if (!panels_read(render->panels, render->image.rgb, error))
         return false;
     render->particles = render->runs[0].state.count;
@@ -337,8 +336,8 @@ static int fail(const FileRender *render, const Error *error)
 static void print_flaws(const FileRender *render)
 {
     for (int i = 0; i < render->run_count; i++)
-        if (render->runs[i].reel)
-            reel_print_flaws(render->runs[i].reel, stderr);
+        if (render->runs[i].prefetch)
+            prefetch_print_flaws(render->runs[i].prefetch, stderr);
 }
 
 static void report(const FileRender *render)
@@ -346,7 +345,7 @@ static void report(const FileRender *render)
     const Args *args = render->args;
     char older[1088];
     print_flaws(render);
-    lacks_print(&render->lacks, args->output, stderr);
+    missing_attributes_print(&render->missing, args->output, stderr);
     if (render->taken < render->wanted)
         fprintf(stderr, "stopped at t = %.4g s; %s is whole\n", render->time, args->output);
     if (pictures_find_stale(render->pictures, older))

@@ -1,6 +1,6 @@
 #include "app/film/render_plan.h"
 
-#include "app/beside/beside.h"
+#include "app/run/compare/compare.h"
 #include "app/scene/scene.h"
 #include "app/session/sweep.h"
 #include "sim/matter/flow.h"
@@ -29,7 +29,7 @@ static bool load(const RenderPlan *plan, int setting, const ViewDef *view, int e
                  Notes *notes, Error *error)
 {
     static const ViewDef none;
-    static BesideSettings beside;
+    static CompareSettings beside;
     const Args *args = plan->args;
     char said[ARGS_SWEEPS_MAX][SWEEP_SAID];
     SceneSettings settings = args->settings;
@@ -37,7 +37,7 @@ static bool load(const RenderPlan *plan, int setting, const ViewDef *view, int e
         if (!sweep_set(args->sweeps[i].key, sweeps_value(args->sweeps, args->sweep_count, i, (size_t)setting),
                        "--compare", said[i], &settings, error))
             return false;
-    return (beside_settings(&settings, view ? view : &none, entry, &beside, error) &&
+    return (compare_settings(&settings, view ? view : &none, entry, &beside, error) &&
             scene_load(args->scenes[0], &beside.settings, scene, notes, error) &&
             world_can(&scene->world, error)) ||
            blame(plan, setting, error);
@@ -106,7 +106,7 @@ static void name_panel(const RenderPlan *plan, int panel, bool of_views, char na
                  sweeps_value(args->sweeps, args->sweep_count, i, (size_t)plan->setting_of[panel]));
         append(name, words);
     }
-    beside_words(plan->views[panel], words);
+    compare_name(plan->views[panel], words);
     append(name, words);
 }
 
@@ -119,7 +119,7 @@ void render_plan_name(const RenderPlan *plan, int panel, char name[TITLE_SIZE])
 static int first_alike(const RenderPlan *plan, int panel)
 {
     for (int i = 0; i < panel; i++)
-        if (beside_same(plan->views[i], plan->views[panel]) &&
+        if (compare_is_same(plan->views[i], plan->views[panel]) &&
             (*plan->views[panel]->file ||
              same_world(plan, plan->views[i], plan->setting_of[i], plan->setting_of[panel])))
             return i;
@@ -129,8 +129,8 @@ static int first_alike(const RenderPlan *plan, int panel)
 static bool add_file(RenderPlan *plan, int panel, Notes *notes, Error *error)
 {
     plan->file_of[panel] = plan->file_count;
-    if (!beside_open_file(plan->scenes[0].path, plan->views[panel], panel / plan->setting_count,
-                          &plan->files[plan->file_count], notes, error))
+    if (!compare_open_file(plan->scenes[0].path, plan->views[panel], panel / plan->setting_count,
+                           &plan->files[plan->file_count], notes, error))
         return false;
     plan->file_count++;
     return true;
@@ -143,7 +143,7 @@ static bool add_world(RenderPlan *plan, int panel, Notes *notes, Error *error)
     plan->world_of[panel] = world;
     plan->scene_of[world] = &plan->scenes[setting];
     name_panel(plan, panel, false, plan->worlds[world]);
-    if (!beside_is(view))
+    if (!compare_is_other(view))
         return true;
     plan->scene_of[world] = &plan->own[panel];
     return load(plan, setting, view, panel / plan->setting_count, &plan->own[panel], notes, error);
@@ -168,7 +168,7 @@ static bool share(RenderPlan *plan, int panel, int first, Error *error)
 static int find_leader(const RenderPlan *plan, int panel)
 {
     for (int i = 0; i < plan->panel_count; i++)
-        if (plan->setting_of[i] == plan->setting_of[panel] && !beside_is(plan->views[i]))
+        if (plan->setting_of[i] == plan->setting_of[panel] && !compare_is_other(plan->views[i]))
             return plan->world_of[i];
     return -1;
 }
@@ -264,8 +264,8 @@ static void tell_own(const RenderPlan *plan, const Notes notes[], const Notes ow
 {
     for (int i = 0; i < plan->panel_count; i++)
         for (int k = 0; k < own[i].count; k++) {
-            char words[BESIDE_WORDS];
-            beside_words(plan->views[i], words);
+            char words[COMPARE_NAME_SIZE];
+            compare_name(plan->views[i], words);
             if (plan->file_of[i] >= 0) /* the note names the file */
                 fprintf(stderr, "%s\n", own[i].line[k]);
             else if (!notes_have(&notes[plan->setting_of[i]], own[i].line[k]))

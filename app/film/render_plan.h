@@ -3,7 +3,7 @@
 #ifndef SLOSH_RENDER_PLAN_H
 #define SLOSH_RENDER_PLAN_H
 
-#include "app/playback/recorded.h"
+#include "app/run/playback/playback.h"
 #include "app/scene/scene.h"
 #include "app/session/args.h"
 #include "render/panels.h"

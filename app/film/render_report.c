@@ -135,32 +135,32 @@ static void add_source(const RenderPlan *plan, const Session sessions[], const R
     json_object_set_new(json, "run", session_json(&sessions[world], plan->args, &summary));
 }
 
-static json_t *panel_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
-                          const RenderFigures *figures, int panel)
+static json_t *panel_json(const RenderPlan *plan, const Session sessions[],
+                          const PanelPictures *panel_pictures, const RenderFigures *figures, int panel)
 {
     const ViewDef *view = plan->views[panel];
-    const PanelPlace *at = &panels_places(shoot->panels)[panel];
+    const PanelPlace *at = &panels_places(panel_pictures->panels)[panel];
     char name[TITLE_SIZE];
     double range[2];
     render_plan_name(plan, panel, name);
-    panels_range(shoot->panels, panel, range);
+    panels_range(panel_pictures->panels, panel, range);
     json_t *json =
         json_pack("{s:s, s:[i,i,i,i], s:s, s:s, s:f}", "setting", name, "place", at->x, at->y, at->width,
                   at->height, "view", view->kind, "scalar", scalar_name(view_color_by(view)), "time",
-                  shoot->sources[shoot->source_of[panel]].state.time);
+                  panel_pictures->sources[panel_pictures->source_of[panel]].state.time);
     add_source(plan, sessions, figures, panel, json);
     if (json && view_color_by(view) != SCALAR_FLUID)
         json_object_set_new(json, "range", json_pack("[f,f]", range[0], range[1]));
     return json;
 }
 
-static json_t *several_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
-                            const RenderFigures *figures)
+static json_t *several_json(const RenderPlan *plan, const Session sessions[],
+                            const PanelPictures *panel_pictures, const RenderFigures *figures)
 {
     const Args *args = plan->args;
     json_t *panels = json_array();
     for (int i = 0; i < plan->panel_count; i++)
-        json_array_append_new(panels, panel_json(plan, sessions, shoot, figures, i));
+        json_array_append_new(panels, panel_json(plan, sessions, panel_pictures, figures, i));
     return json_pack("{s:s, s:s, s:s, s:I, s:f, s:f, s:b, s:s, s:o}", "command", "render", "scene",
                      plan->scenes[0].path, "output", args->output, "pictures", (json_int_t)figures->pictures,
                      "simulated_seconds", sessions[0].info.time, "wall_seconds",
@@ -168,7 +168,7 @@ static json_t *several_json(const RenderPlan *plan, const Session sessions[], co
                      headless_renderer(sessions[0].context), "panels", panels);
 }
 
-bool render_write_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
+bool render_write_json(const RenderPlan *plan, const Session sessions[], const PanelPictures *panel_pictures,
                        const RenderFigures *figures, Error *error)
 {
     const Args *args = plan->args;
@@ -177,7 +177,7 @@ bool render_write_json(const RenderPlan *plan, const Session sessions[], const S
         return true;
     if (plan->panel_count == 1)
         return session_write_json(&sessions[0], args, &summary, error);
-    json_t *json = several_json(plan, sessions, shoot, figures);
+    json_t *json = several_json(plan, sessions, panel_pictures, figures);
     const bool written = json_file_write(json, args->json, error);
     json_decref(json);
     return written;

@@ -2,8 +2,8 @@
 #ifndef SLOSH_RENDER_REPORT_H
 #define SLOSH_RENDER_REPORT_H
 
-#include "app/beside/shoot.h"
 #include "app/film/render_plan.h"
+#include "app/run/compare/panel_pictures.h"
 
 typedef struct RenderFigures {
     size_t pictures;
@@ -22,7 +22,7 @@ void render_report(const RenderPlan *plan, const Session sessions[], const Rende
 
 /* Writes --json FILE, if given: for a scene as session_write_json, for several panels as in
    docs/compare.md. */
-bool render_write_json(const RenderPlan *plan, const Session sessions[], const Shoot *shoot,
+bool render_write_json(const RenderPlan *plan, const Session sessions[], const PanelPictures *panel_pictures,
                        const RenderFigures *figures, Error *error);
 
 #endif

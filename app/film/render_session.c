@@ -1,12 +1,12 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "app/beside/beside.h"
-#include "app/beside/shoot.h"
 #include "app/files/pictures.h"
 #include "app/film/render_file.h"
 #include "app/film/render_report.h"
+#include "app/run/compare/compare.h"
+#include "app/run/compare/panel_pictures.h"
+#include "app/run/session.h"
 #include "app/session/args.h"
-#include "app/session/recording_play.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -21,7 +21,7 @@ typedef struct Film {
     RecordingPlay play;
     Session session;
     const World *world; /* used by the shoot: the session may move to another backend */
-    Shoot shoot;
+    PanelPictures panel_pictures;
     Pictures *pictures;
     Progress progress;
     double until;         /* time of the last picture, s; INFINITY: end of the session */
@@ -70,25 +70,26 @@ static double next_time(const Film *film)
 static bool open_shoot(Film *film, Error *error)
 {
     const Scene *scene = &film->session.scene;
-    ShootPanel panels[PANELS_MAX];
+    PicturePanel panels[PANELS_MAX];
     int count = 0;
-    shoot_close(&film->shoot);
+    panel_pictures_close(&film->panel_pictures);
     for (int i = 0; i < scene_view_count(scene); i++)
-        if (!beside_is(scene_view(scene, i)))
-            panels[count++] = (ShootPanel){.session = &film->session, .view = scene_view(scene, i)};
+        if (!compare_is_other(scene_view(scene, i)))
+            panels[count++] = (PicturePanel){.session = &film->session, .view = scene_view(scene, i)};
     film->world = film->session.world;
-    return count > 0
-               ? shoot_open(&film->shoot, panels, count, false, film->args->width, film->args->height, error)
-               : error_set(error, "%s: no view shows the session itself", film->args->scenes[0]);
+    return count > 0 ? panel_pictures_open(&film->panel_pictures, panels, count, false, film->args->width,
+                                           film->args->height, error)
+                     : error_set(error, "%s: no view shows the session itself", film->args->scenes[0]);
 }
 
 static bool take_picture(Film *film, Error *error)
 {
     if ((film->world != film->session.world && !open_shoot(film, error)) ||
-        !shoot_take(&film->shoot, film->session.info.time, error) || !shoot_draw(&film->shoot, error))
+        !panel_pictures_take(&film->panel_pictures, film->session.info.time, error) ||
+        !panel_pictures_draw(&film->panel_pictures, error))
         return false;
     do {
-        if (!pictures_add(film->pictures, &film->shoot.image, error))
+        if (!pictures_add(film->pictures, &film->panel_pictures.image, error))
             return false;
         film->taken++;
     } while (film->kind != PICTURES_PNG && session_reached(&film->session, next_time(film)) &&
@@ -132,7 +133,8 @@ static bool simulate(Film *film, Error *error)
             return false;
         if (is_over(film))
             return take_last(film, error);
-        if (film->world == session->world && !shoot_watch(&film->shoot, session, next_time(film), error))
+        if (film->world == session->world &&
+            !panel_pictures_watch(&film->panel_pictures, session, next_time(film), error))
             return false;
         if (!session_substep(session, error)) {
             if (!recording_play_broke(&film->play, session))
@@ -150,7 +152,7 @@ static bool simulate(Film *film, Error *error)
 static int judge(const Film *film)
 {
     if (film->ended || interrupted())
-        return recording_play_judge(&film->play, &film->session, film->ended, film->hash, film->args->quiet);
+        return recording_play_report(&film->play, &film->session, film->ended, film->hash, film->args->quiet);
     if (!film->args->quiet)
         fprintf(stderr, "the session goes on to step %" PRIu64 "; its end was not compared\n",
                 film->recording.steps);
@@ -191,7 +193,7 @@ static int finish(Film *film, Error *error)
     const Args *args = film->args;
     Pictures *pictures = film->pictures;
     char older[1088];
-    lacks_print(&film->shoot.lacks, args->output, stderr);
+    missing_attributes_print(&film->panel_pictures.missing, args->output, stderr);
     if (pictures_find_stale(pictures, older))
         fprintf(stderr, "%s and what follows is of an earlier run; remove it unless you want both\n", older);
     film->pictures = NULL;
@@ -228,7 +230,7 @@ static int open_recording(Film *film, Error *error)
     if (!check_options(args, error) || !choose_times(film, error) ||
         !recording_read(args->scenes[0], &film->recording, error))
         return EXIT_USAGE;
-    recording_play_tell_version(args->scenes[0], &film->recording);
+    recording_play_warn_version(args->scenes[0], &film->recording);
     film->play = (RecordingPlay){.path = args->scenes[0], .recording = &film->recording};
     return recording_play_open(&film->play, &args->settings, args->gpu, true, &film->session, error);
 }
@@ -242,7 +244,7 @@ int render_session(const Args *args)
     int code = open_recording(&film, &error);
     code = code == 0 ? shoot_film(&film, &error) : fail(&film, code, &error);
     pictures_discard(film.pictures);
-    shoot_close(&film.shoot);
+    panel_pictures_close(&film.panel_pictures);
     session_close(&film.session);
     recording_destroy(&film.recording);
     return code;

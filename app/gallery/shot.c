@@ -1,6 +1,6 @@
 #include "app/gallery/shot.h"
 
-#include "app/session/studio.h"
+#include "app/run/offscreen.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -39,7 +39,8 @@ static double sum_of(const StageTimes *times)
 
 /* The first pictures fill caches, and make the backdrop copied by later pictures. Slow pictures are drawn
    fewer times. */
-static bool draw_all(Studio *studio, World *world, GlTimer *timer, int pictures, double *ms, Error *error)
+static bool draw_all(Offscreen *offscreen, World *world, GlTimer *timer, int pictures, double *ms,
+                     Error *error)
 {
     double sums[WARM_UP + PICTURES];
     StageTimes times = {0};
@@ -47,7 +48,7 @@ static bool draw_all(Studio *studio, World *world, GlTimer *timer, int pictures,
     const double began = wall_ms();
     while (drawn < pictures && (drawn < WARM_UP + 1 || wall_ms() - began < ENOUGH_MS)) {
         drawn++;
-        if (!studio_draw(studio, world, NULL, timer, error))
+        if (!offscreen_draw(offscreen, world, NULL, timer, error))
             return false;
         if (gl_timer_frame(timer, &times))
             sums[known++] = sum_of(&times);
@@ -60,12 +61,12 @@ static bool draw_all(Studio *studio, World *world, GlTimer *timer, int pictures,
     return true;
 }
 
-static bool read_picture(const Studio *studio, int width, int height, int factor, LinearPicture *picture,
-                         Error *error)
+static bool read_picture(const Offscreen *offscreen, int width, int height, int factor,
+                         LinearPicture *picture, Error *error)
 {
     uint8_t *rgb = malloc(3 * (size_t)(factor * width) * (size_t)(factor * height));
     if (rgb)
-        renderer_read(studio->renderer, rgb);
+        renderer_read(offscreen->renderer, rgb);
     const bool ok = rgb && linear_picture_make(picture, rgb, width, height, factor);
     free(rgb);
     return ok || error_set(error, "no memory for a picture of %d x %d", factor * width, factor * height);
@@ -74,18 +75,18 @@ static bool read_picture(const Studio *studio, int width, int height, int factor
 bool shoot(const Scene *scene, World *world, int width, int height, int factor, bool timed, Shot *shot,
            Error *error)
 {
-    Studio studio;
+    Offscreen offscreen;
     GlTimer *timer = NULL;
     *shot = (Shot){.ms = (double)NAN};
-    bool ok =
-        studio_open(&studio, &scene->view, &scene->world, world, factor * width, factor * height, error);
+    bool ok = offscreen_open(&offscreen, &scene->view, &scene->world, world, factor * width, factor * height,
+                             error);
     if (ok && !(timer = gl_timer_create(GL_CLOCK_AUTO)))
         ok = error_set(error, "no memory for the clock of the stages");
     if (ok)
         snprintf(shot->clock, sizeof shot->clock, "%s", gl_timer_clock_name(timer));
-    ok = ok && draw_all(&studio, world, timer, timed ? WARM_UP + PICTURES : 1, &shot->ms, error) &&
-         read_picture(&studio, width, height, factor, &shot->picture, error);
+    ok = ok && draw_all(&offscreen, world, timer, timed ? WARM_UP + PICTURES : 1, &shot->ms, error) &&
+         read_picture(&offscreen, width, height, factor, &shot->picture, error);
     gl_timer_destroy(timer);
-    studio_close(&studio);
+    offscreen_close(&offscreen);
     return ok;
 }

@@ -3,8 +3,8 @@
 #define SLOSH_SHOT_H
 
 #include "app/gallery/picture_error.h"
+#include "app/run/offscreen.h"
 #include "app/scene/scene.h"
-#include "app/session/headless.h"
 #include "sim/world/world.h"
 
 enum { SHOT_FACTOR = 8 };

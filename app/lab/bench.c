@@ -1,8 +1,8 @@
 #include "app/lab/bench.h"
 
 #include "app/base/program.h"
-#include "app/held/hand_replay.h"
-#include "app/outcome/outcome_watch.h"
+#include "app/input/box_control.h"
+#include "app/run/measure/outcome.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -131,10 +131,10 @@ static bool figures(const Samples *samples, const char *gl_clock, BenchResult *r
 /* The objects of a measurement. */
 typedef struct Stand {
     World *world;
-    HandReplay *hand; /* or NULL */
+    DeviceReplay *hand; /* or NULL */
     const WorldDef *def;
     OutcomeHistory history;
-    Studio studio;
+    Offscreen offscreen;
     GlTimer *timer;
     bool draws, sim_on_gpu;
 } Stand;
@@ -148,15 +148,15 @@ static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
     if (!stand->world)
         return false;
     if (setup->device &&
-        !(stand->hand = hand_replay_open(setup->device, setup->mapping, setup->scene, error)))
+        !(stand->hand = device_replay_open(setup->device, setup->mapping, setup->scene, error)))
         return false;
     if (!stand->draws && !stand->sim_on_gpu)
         return true;
-    if (stand->draws && !studio_open(&stand->studio, &setup->scene->view, &setup->scene->world, stand->world,
-                                     setup->width, setup->height, error))
+    if (stand->draws && !offscreen_open(&stand->offscreen, &setup->scene->view, &setup->scene->world,
+                                        stand->world, setup->width, setup->height, error))
         return false;
     if (stand->draws)
-        renderer_set_more(stand->studio.renderer, true); /* as in the window */
+        renderer_set_more(stand->offscreen.renderer, true); /* as in the window */
     stand->timer = gl_timer_create(setup->clock);
     return stand->timer || error_set(error, "no memory for the clock of the stages");
 }
@@ -164,8 +164,8 @@ static bool stand_open(Stand *stand, const BenchSetup *setup, Error *error)
 static void stand_close(Stand *stand)
 {
     gl_timer_destroy(stand->timer);
-    studio_close(&stand->studio);
-    hand_replay_close(stand->hand);
+    offscreen_close(&stand->offscreen);
+    device_replay_close(stand->hand);
     world_destroy(stand->world);
 }
 
@@ -173,10 +173,10 @@ static void stand_close(Stand *stand)
 static bool frame(Stand *stand, StageClock *clock, Error *error)
 {
     *clock = stand->sim_on_gpu ? gl_timer_stage_clock(stand->timer) : (StageClock){0};
-    hand_replay_move(stand->hand, stand->world);
+    device_replay_apply(stand->hand, stand->world);
     if (!world_step(stand->world, clock, error))
         return false;
-    return !stand->draws || studio_draw(&stand->studio, stand->world, clock, stand->timer, error);
+    return !stand->draws || offscreen_draw(&stand->offscreen, stand->world, clock, stand->timer, error);
 }
 
 static bool advance(Stand *stand, double from, Error *error)
@@ -184,7 +184,7 @@ static bool advance(Stand *stand, double from, Error *error)
     WorldInfo info;
     for (world_info(stand->world, &info); info.time < from && !interrupted();
          world_info(stand->world, &info)) {
-        hand_replay_move(stand->hand, stand->world);
+        device_replay_apply(stand->hand, stand->world);
         if (!world_step(stand->world, NULL, error))
             return false;
     }
@@ -207,7 +207,7 @@ static bool warm_up(Stand *stand, Error *error)
 
 static bool look(Stand *stand, Error *error)
 {
-    return outcome_look(&stand->history, stand->def, stand->hand != NULL, stand->world) ||
+    return outcome_sample(&stand->history, stand->def, stand->hand != NULL, stand->world) ||
            error_set(error, "no memory to look at the particles; use a larger spacing");
 }
 
@@ -292,7 +292,7 @@ static bool conclude(Stand *stand, const Samples *samples, BenchResult *result, 
     result->lost = samples->lost;
     result->time = samples->began;
     return figures(samples, gl_timer_clock_name(stand->timer), result, error) &&
-           (!stand->draws || studio_count(&stand->studio, stand->world, &result->counts, error));
+           (!stand->draws || offscreen_count(&stand->offscreen, stand->world, &result->counts, error));
 }
 
 /* Fills in the outcome, and the reason of a failure. */

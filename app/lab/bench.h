@@ -3,9 +3,9 @@
 #define SLOSH_BENCH_H
 
 #include "app/base/program.h"
-#include "app/outcome/outcome.h"
+#include "app/run/measure/outcome.h"
+#include "app/run/offscreen.h"
 #include "app/scene/scene.h"
-#include "app/session/studio.h"
 #include "sim/gl/timer.h"
 #include "sim/world/world.h"
 
@@ -55,7 +55,7 @@ typedef struct BenchSetup {
     double from;    /* simulated time at the start of the measurement, s */
     double seconds; /* simulated time over which the frames are spread; steps between frames are not
                        measured; 0: frames follow at once */
-    const char *device, *mapping; /* arguments of hand_replay_open; without a device the hand is at rest */
+    const char *device, *mapping; /* arguments of device_replay_open; without a device the hand is at rest */
     GlClock clock;
 } BenchSetup;
 

@@ -1,6 +1,6 @@
 #include "app/base/file.h"
 #include "app/lab/bench.h"
-#include "app/session/solved.h"
+#include "app/run/session.h"
 
 #include <jansson.h>
 #include <string.h>
@@ -23,7 +23,7 @@ const char *bench_processor(void)
 
 static void print_parts(const BenchResult *r, FILE *file)
 {
-    char words[SOLVED_WORDS], text[OUTCOME_TEXT];
+    char words[SOLVE_FIGURES_WORDS], text[OUTCOME_TEXT];
     if (r->outcome.kind != OUTCOME_HOLDS)
         fprintf(file, "  %s\n", outcome_text(&r->outcome, text));
     if (r->troubles > 0)
@@ -37,7 +37,7 @@ static void print_parts(const BenchResult *r, FILE *file)
         fprintf(file, "  without lists of neighbours: %.3g GB are more than the driver allows\n",
                 1e-9 * (double)r->unlisted);
     if (r->solved.steps > 0)
-        fprintf(file, "  %s\n", solved_text(&r->solved, words));
+        fprintf(file, "  %s\n", solve_figures_text(&r->solved, words));
     fprintf(file, "  sim %.3f ms, upload %.3f ms, render %.3f ms, frame %.3f ms\n", r->sim_ms, r->upload_ms,
             r->render_ms, r->frame_ms);
     fprintf(file, "  %.3g million particle-steps/s, real-time factor %.2f, %.0f bytes a particle\n\n",
@@ -137,7 +137,7 @@ static json_t *result_json(const BenchResult *r)
     json_decref(sums);
     outcome_json(ok ? json : NULL, &r->outcome);
     if (ok)
-        solved_json(json, &r->solved);
+        solve_figures_json(json, &r->solved);
     if (ok && r->counts.counted)
         json_object_set_new(json, "coverage", json_real(r->counts.coverage));
     if (ok && r->swept[0])

@@ -1,6 +1,6 @@
 #include "app/lab/case_watch.h"
 
-#include "app/outcome/outcome_watch.h"
+#include "app/run/measure/outcome.h"
 
 enum { LOOKS = 10 }; /* one look costs as much as a few steps */
 
@@ -17,7 +17,7 @@ void case_watch(void *watcher, const WorldDef *def, World *world)
     if (watch->looked && info.time < watch->next)
         return;
     watch->next = info.time + watch->every;
-    watch->looked |= outcome_look(&watch->history, def, false, world);
+    watch->looked |= outcome_sample(&watch->history, def, false, world);
 }
 
 void case_watch_outcome(CaseWatch *watch, const CaseResult *result, Outcome *outcome)

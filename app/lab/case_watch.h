@@ -1,10 +1,10 @@
-/* Watches a case during its run to judge the outcome (app/outcome/outcome.h). */
+/* Watches a case during its run to judge the outcome (app/run/measure/outcome.h). */
 #ifndef SLOSH_CASE_WATCH_H
 #define SLOSH_CASE_WATCH_H
 
 #include "app/case/case.h"
 #include "app/case/run.h"
-#include "app/outcome/outcome.h"
+#include "app/run/measure/outcome.h"
 
 typedef struct CaseWatch {
     OutcomeHistory history;

@@ -4,8 +4,8 @@
 #define SLOSH_CHART_PLAN_H
 
 #include "app/lab/chart_sweep.h"
+#include "app/run/offscreen.h"
 #include "app/session/args.h"
-#include "app/session/headless.h"
 
 enum { CHART_JOBS_MAX = 200, CHART_NAMES_MAX = SWEEP_NAMES_MAX };
 

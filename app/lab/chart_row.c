@@ -1,7 +1,7 @@
 #include "app/lab/chart_row.h"
 
 #include "app/lab/row_text.h"
-#include "app/metric/curve.h"
+#include "app/run/measure/metric.h"
 
 #include <errno.h>
 #include <inttypes.h>

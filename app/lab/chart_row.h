@@ -4,8 +4,8 @@
 #ifndef SLOSH_CHART_ROW_H
 #define SLOSH_CHART_ROW_H
 
-#include "app/metric/metric_list.h"
-#include "app/outcome/outcome.h"
+#include "app/run/measure/metric.h"
+#include "app/run/measure/outcome.h"
 #include "app/scene/scene.h"
 
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #include "app/base/program.h"
 #include "app/lab/case_watch.h"
 #include "app/lab/run_key.h"
-#include "app/outcome/outcome_watch.h"
-#include "app/probe/probe.h"
+#include "app/run/measure/outcome.h"
+#include "app/run/measure/probe.h"
 #include "sim/base/stage.h"
 #include "sim/world/method.h"
 
@@ -176,7 +176,7 @@ static bool start_probes(SceneRun *run)
         asked |= metric_kinds[scene->metrics[m]].numbers == 0;
     if (!asked)
         return true;
-    run->feels = probe_list_feels(&scene->probes) && world_feel(run->world, &run->failure);
+    run->feels = probe_list_has_forces(&scene->probes) && world_feel(run->world, &run->failure);
     run->probes = probes_create(&scene->probes, &scene->world);
     if (run->probes)
         run->read = malloc(((size_t)probes_columns(run->probes) + 1) * sizeof *run->read);
@@ -236,7 +236,7 @@ static bool sample_all(SceneRun *run, double until, ChartRow *row, Progress *pro
             return !interrupted() || error_set(error, "stopped");
         row->quantities = note_state(run, run->now);
         if ((k % LOOK_EVERY == 0 || k == CHART_TIMES - 1) &&
-            !outcome_look(&run->history, &run->scene->world, false, run->world))
+            !outcome_sample(&run->history, &run->scene->world, false, run->world))
             row->quantities = -1;
         if (row->quantities < 0)
             return error_set(error, "no memory to read the particles; use a larger spacing");

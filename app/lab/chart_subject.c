@@ -1,7 +1,7 @@
 #include "app/lab/chart_subject.h"
 
 #include "app/case/run.h"
-#include "app/metric/metric_list.h"
+#include "app/run/measure/metric.h"
 #include "app/session/args_table.h"
 
 #include <stdio.h>

@@ -1,8 +1,8 @@
 #include "app/lab/probe_chart.h"
 
 #include "app/lab/chart.h"
-#include "app/metric/curve.h"
-#include "app/probe/probe_table.h"
+#include "app/run/measure/metric.h"
+#include "app/run/measure/probe.h"
 
 #include <errno.h>
 #include <math.h>

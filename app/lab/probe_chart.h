@@ -1,8 +1,8 @@
-/* Plots a table of probes (app/probe/probe_table.h), one panel per unit. */
+/* Plots a table of probes (app/run/measure/probe.h), one panel per unit. */
 #ifndef SLOSH_PROBE_CHART_H
 #define SLOSH_PROBE_CHART_H
 
-#include "app/session/probe_series.h"
+#include "app/run/session.h"
 
 /* Returns true if `path` is valid for --probes: FILE.csv, FILE.svg, FILE.png. */
 bool probe_chart_name(const char *path, Error *error);

@@ -2,7 +2,7 @@
 #ifndef SLOSH_ROW_TEXT_H
 #define SLOSH_ROW_TEXT_H
 
-#include "app/outcome/outcome.h"
+#include "app/run/measure/outcome.h"
 
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
 #define SLOSH_VALIDATE_REPORT_H
 
 #include "app/case/run.h"
-#include "app/outcome/outcome.h"
+#include "app/run/measure/outcome.h"
 
 #include <stdio.h>
 

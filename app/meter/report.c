@@ -2,7 +2,7 @@
 
 #include "app/base/file.h"
 #include "app/lab/bench.h"
-#include "app/session/solved.h"
+#include "app/run/session.h"
 #include "sim/world/world.h"
 
 static json_t *vector(const double *v, int count)
@@ -13,7 +13,7 @@ static json_t *vector(const double *v, int count)
     return array;
 }
 
-static json_t *session_json(const PlayFigures *f)
+static json_t *scene_json(const PlayFigures *f)
 {
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s, s:[i, i], s:I, s:f, s:i}", "scene", f->scene,
                              "backend", f->backend, "method", f->method, "view", f->view, "threads",
@@ -44,13 +44,13 @@ static json_t *session_json(const PlayFigures *f)
     if (json)
         json_object_update(json, times), json_object_update(json, state), json_object_update(json, hands),
             json_object_update(json, devices);
-    solved_json(json, &f->solved);
+    solve_figures_json(json, &f->solved);
     if (json) {
         json_object_set_new(json, "session", json_string(f->script));
         json_object_set_new(json, "box_size", vector(f->box_size, 3));
         json_object_set_new(json, "video_pictures", json_integer((json_int_t)f->video_pictures));
         json_object_set_new(json, "times", vector(f->times, f->views));
-        json_object_set_new(json, "limits", limits_json(f->limited));
+        json_object_set_new(json, "limits", step_limits_json(f->limited));
         json_object_set_new(json, "view_settings", json_loads(f->view_settings, 0, NULL));
         json_object_set_new(json, "readout", json_loads(f->readout, 0, NULL));
     }
@@ -75,7 +75,7 @@ static void leave_out_solver(json_t *json)
 
 static json_t *figures_json(const PlayFigures *f)
 {
-    json_t *json = *f->renderer ? session_json(f) : json_pack("{s:s}", "scene", f->scene);
+    json_t *json = *f->renderer ? scene_json(f) : json_pack("{s:s}", "scene", f->scene);
     if (json && f->recorded)
         leave_out_solver(json);
     if (json && *f->failure.message)
@@ -117,7 +117,7 @@ static const char *what_limits(const PlayFigures *f)
 
 void play_print(const PlayFigures *f, FILE *file)
 {
-    char threads[32] = "", words[SOLVED_WORDS], bounds[LIMITS_WORDS];
+    char threads[32] = "", words[SOLVE_FIGURES_WORDS], bounds[STEP_LIMITS_WORDS];
     if (f->threads > 0)
         snprintf(threads, sizeof threads, "%d thread%s, ", f->threads, plural((size_t)f->threads));
     fprintf(file, "%s: %zu particle%s, %s on %s, %slive for %.1f s\n", f->scene, f->particles,
@@ -127,9 +127,9 @@ void play_print(const PlayFigures *f, FILE *file)
     fprintf(file, "  pictures a second     %8.1f\n", f->pictures_per_second);
     fprintf(file, "  solver, a frame       %8.2f ms of %.4g\n", f->sim_ms, 1e3 * f->dt);
     if (!f->limited[STEP_LIMIT_DT])
-        fprintf(file, "  steps bounded by      %s\n", limits_text(f->limited, bounds));
+        fprintf(file, "  steps bounded by      %s\n", step_limits_text(f->limited, bounds));
     if (f->solved.steps > 0)
-        fprintf(file, "  %s\n", solved_text(&f->solved, words));
+        fprintf(file, "  %s\n", solve_figures_text(&f->solved, words));
     fprintf(file, "  rendering, a picture  %8.2f ms, of these the panel %.2f (CPU), events %.2f (CPU)\n",
             f->render_ms, f->panel_ms, f->events_ms);
     fprintf(file, "  start to picture      %8.0f ms\n", f->first_picture_ms);

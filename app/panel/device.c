@@ -46,7 +46,7 @@ static void plain_words(const char *before, const char *name, char text[32])
             *c = ' ';
 }
 
-static void draw_axes(Ui *ui, const HandDevice *device)
+static void draw_axes(Ui *ui, const BoxControlDevice *device)
 {
     for (int i = 0; i < MAPPING_AXES; i++) {
         const AxisMap *row = &device->map.axes[i];
@@ -59,7 +59,7 @@ static void draw_axes(Ui *ui, const HandDevice *device)
 }
 
 /* Shows the turn since the neutral pose as a rotation vector; a quarter turn fills a bar. */
-static void draw_pose(Ui *ui, const HandDevice *device)
+static void draw_pose(Ui *ui, const BoxControlDevice *device)
 {
     const double *q = device->turned;
     const double sine = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2]), side = q[3] < 0 ? -1 : 1;
@@ -73,7 +73,7 @@ static void draw_pose(Ui *ui, const HandDevice *device)
 }
 
 /* Shows the tilt from gravity alone, independent of the neutral pose. */
-static void draw_tilt(Ui *ui, const HandDevice *device)
+static void draw_tilt(Ui *ui, const BoxControlDevice *device)
 {
     char text[64];
     const double tilt = acos(fmax(fmin(-device->down[1], 1), -1)) * 180 / M_PI;
@@ -82,7 +82,7 @@ static void draw_tilt(Ui *ui, const HandDevice *device)
         ui_row(ui, "tilt", text);
 }
 
-static void draw_sliders(Ui *ui, const HandDevice *device, PanelEvents *events)
+static void draw_sliders(Ui *ui, const BoxControlDevice *device, PanelEvents *events)
 {
     static const UiScale gains = {.low = 0, .high = 3, .least = 0, .most = 10, .unit = ""};
     static const UiScale zones = {.low = 0, .high = 0.5, .least = 0, .most = 0.9, .unit = ""};
@@ -101,7 +101,7 @@ static void draw_sliders(Ui *ui, const HandDevice *device, PanelEvents *events)
     }
 }
 
-static void draw_device(Ui *ui, const HandDevice *device, PanelEvents *events)
+static void draw_device(Ui *ui, const BoxControlDevice *device, PanelEvents *events)
 {
     char text[sizeof device->name + sizeof device->problem + 4];
     if (device->problem[0]) {

@@ -1,6 +1,7 @@
 /* Overlay listing all user commands. */
-#include "app/hand/play_commands.h"
 #include "app/panel/panel.h"
+
+#include "app/input/play_commands.h"
 
 #include <math.h>
 #include <stdio.h>

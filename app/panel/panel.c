@@ -1,6 +1,6 @@
 #include "app/panel/panel.h"
 
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 #include "app/panel/panel_parts.h"
 
 #include <math.h>

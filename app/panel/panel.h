@@ -5,9 +5,9 @@
 #ifndef SLOSH_PANEL_H
 #define SLOSH_PANEL_H
 
-#include "app/held/hand_post.h"
+#include "app/input/box_control.h"
+#include "app/run/simulator.h"
 #include "app/scene/scene.h"
-#include "app/session/simulator.h"
 #include "app/shelf/cards.h"
 #include "render/ui/ui.h"
 #include "sim/base/stage.h"
@@ -52,7 +52,7 @@ typedef struct PanelData {
     const char *renderer;
     const char *const *warnings; /* in plain words */
     int warning_count;
-    const HandDevice *devices; /* motion devices; without any, the panel has no section for devices */
+    const BoxControlDevice *devices; /* motion devices; without any, the panel has no section for devices */
     int device_count;
     double panel_ms; /* mean CPU time of the panel per picture, over the last pictures */
 } PanelData;

@@ -1,6 +1,6 @@
 #include "app/panel/timeline.h"
 
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 
 #include <math.h>
 #include <stdio.h>

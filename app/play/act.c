@@ -1,9 +1,7 @@
 /* Executes the requests to the window, between two pictures. */
-#include "app/play/parts.h"
-
+#include "app/input/touch.h"
 #include "app/play/again.h"
-#include "app/touch/walls.h"
-
+#include "app/play/parts.h"
 #include "render/frame/colormap.h"
 #include "render/frame/overlay.h"
 #include "render/frame/view.h"
@@ -37,8 +35,8 @@ static void follow_scene(Play *play)
     grip_begin(&play->grip);
     readout_begin(&play->readout);
     play->wanted = hand_at_rest().told;
-    touch_release(&play->touch, false);
-    touch_forget(&play->touch);
+    touch_tool_release(&play->touch, false);
+    touch_tool_reset(&play->touch);
     play->touch.travels = play->model.travels;
     play->outlined = false;
     play->camera.held = false;
@@ -211,12 +209,12 @@ static bool may_close(Play *play)
 static void tell_touch(Play *play)
 {
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
-    if (play->model.open.scene.touch.way == TOUCH_HOLD) {
+    if (play->model.open.scene.touch.way == TOUCH_TOOL_SOLIDS) {
         notice_tell(&play->notice, "touch: left drag moves a solid, right drag turns it; hold");
         return;
     }
     notice_tell(&play->notice, "touch: left drag: %s, right drag: %s, wheel: size, Shift + wheel: strength",
-                finger_way_name(left), finger_way_name(touch_other(left)));
+                finger_way_name(left), finger_way_name(touch_tool_other(left)));
 }
 
 /* The fluid to pour. */
@@ -274,13 +272,13 @@ static void change_touch(Play *play, const double amount[2])
     char setting[64];
     if (amount[0] != 0) {
         snprintf(setting, sizeof setting, "touch.radius=%.3g",
-                 touch_notches(touch->radius, amount[0], 1, 100));
+                 touch_tool_notches(touch->radius, amount[0], 1, 100));
         if (model_set(&play->model, setting))
             notice_tell(&play->notice, "touch: radius %.3g spacings", touch->radius);
     }
     if (amount[1] != 0) {
         snprintf(setting, sizeof setting, "touch.strength=%.3g",
-                 touch_notches(touch->strength, amount[1], 0.01, 100));
+                 touch_tool_notches(touch->strength, amount[1], 0.01, 100));
         if (model_set(&play->model, setting))
             notice_tell(&play->notice, "touch: strength %.3g", touch->strength);
     }
@@ -417,7 +415,7 @@ static void do_command(Play *play, PlayCommand command, bool held)
         break;
     case PLAY_RESET:
         model_reset(model);
-        touch_forget(&play->touch);
+        touch_tool_reset(&play->touch);
         break;
     case PLAY_SLOWER:
         model_set_speed(model, 0.5);
@@ -475,10 +473,10 @@ static void do_command(Play *play, PlayCommand command, bool held)
         view_changed(play);
         break;
     case PLAY_BOX_HOME:
-        hand_post_home(play->post);
+        box_control_home(play->control);
         break;
     case PLAY_NEUTRAL:
-        hand_post_neutral(play->post);
+        box_control_neutral(play->control);
         break;
     case PLAY_WALLS:
         take_walls(play);
@@ -600,7 +598,7 @@ static void act(Play *play, const Ask *ask)
         open_file(play, ask->text);
         break;
     case ASK_TUNE:
-        hand_post_tune(play->post, ask->device, ask->amount[0], ask->amount[1]);
+        box_control_tune(play->control, ask->device, ask->amount[0], ask->amount[1]);
         break;
     case ASK_LET_GO:
         model_let_go(&play->model);

@@ -4,7 +4,7 @@
 #ifndef SLOSH_PLAY_ASK_H
 #define SLOSH_PLAY_ASK_H
 
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 #include "render/frame/view.h"
 
 #include <stdbool.h>

@@ -39,7 +39,7 @@ Orbit camera_now(const PlayCamera *camera, const Model *model, const CameraSight
 void camera_grab(PlayCamera *camera, const Model *model, const CameraSight *sight)
 {
     camera->orbit = camera_now(camera, model, sight);
-    orbit_settle(&camera->orbit);
+    orbit_begin_drag(&camera->orbit);
     camera->held = true;
 }
 

@@ -1,9 +1,9 @@
-/* The window's camera: as in the scene, or in the user's hand (app/hand/orbit.h). Changes the view of the
+/* The window's camera: as in the scene, or in the user's hand (app/input/hand.h). Changes the view of the
    open scene; callers must notify the picture. */
 #ifndef SLOSH_PLAY_CAMERA_H
 #define SLOSH_PLAY_CAMERA_H
 
-#include "app/hand/orbit.h"
+#include "app/input/hand.h"
 #include "app/play/model.h"
 #include "render/frame/handle.h"
 

@@ -37,9 +37,9 @@ static void follow_outline(Play *play, BoxState *pose)
     const WorldDef *def = &model->open.scene.world;
     const ParticleBuffers *state = &model->particles;
     outline_pose(def->motions, def->motion_count, def->box_size[1], state->time, &play->wanted, pose);
-    play->outlined =
-        model->open.source->simulates && !model->status.failed &&
-        outline_follow(play->outlined, box_lags(model), outline_apart(&state->box, pose, def->box_size));
+    play->outlined = model->open.source->simulates && !model->status.failed &&
+                     outline_is_needed(play->outlined, box_lags(model),
+                                       outline_distance(&state->box, pose, def->box_size));
 }
 
 /* Draws the outline into a picture of the scene's own state. */
@@ -70,20 +70,20 @@ static void draw_hold(const Play *play, const Look *look, const SightRay *ray, c
                       Text *text)
 {
     const WorldDef *def = &play->model.open.scene.world;
-    const Hold *hold = &play->touch.hold;
+    const SolidDrag *hold = &play->touch.hold;
     TouchDef as_wide = {.way = FINGER_STIR - 1};
     TouchTool at = {.on = true};
     BoxState pose;
     double there[3];
-    const int solid = hold->holds
-                          ? hold->solid
-                          : hold_under(def, look->particles->time, look->particles->floating, ray, there);
+    const int solid =
+        hold->holds ? hold->solid
+                    : solid_drag_under(def, look->particles->time, look->particles->floating, ray, there);
     if (solid < 0 || solid >= def->solid_count)
         return;
     solid_pose_in(&def->solids[solid], look->particles->time, &look->particles->floating[solid], &pose);
     memcpy(at.at, pose.position, sizeof at.at);
     as_wide.radius = solid_reach(&def->solids[solid]) / def->spacing;
-    const Handle ring = touch_ring(&at, &as_wide, def->spacing, forward);
+    const Handle ring = touch_tool_outline(&at, &as_wide, def->spacing, forward);
     grip_draw_ring(look, &ring, text, hold->holds ? TOUCHES : RESTS);
 }
 
@@ -95,7 +95,7 @@ static void draw_finger(Play *play, const Look *look, Text *text)
     SightRay ray;
     double forward[3];
     hands_ray(play, look, &ray, forward);
-    if (scene->touch.way == TOUCH_HOLD) {
+    if (scene->touch.way == TOUCH_TOOL_SOLIDS) {
         draw_hold(play, look, &ray, forward, text);
         return;
     }
@@ -103,10 +103,10 @@ static void draw_finger(Play *play, const Look *look, Text *text)
         const double middle[3] = {0, 0.5 * look->particles->box_size[1], 0};
         const bool shown = play->readout.found.placed;
         memcpy(tool.at, shown ? play->readout.found.place : middle, sizeof tool.at);
-        if (!touch_move(&tool, &ray, forward, scene->world.dimensions))
+        if (!touch_tool_move(&tool, &ray, forward, scene->world.dimensions))
             return;
     }
-    const Handle ring = touch_ring(&tool, &scene->touch, scene->world.spacing, forward);
+    const Handle ring = touch_tool_outline(&tool, &scene->touch, scene->world.spacing, forward);
     grip_draw_ring(look, &ring, text, tool.holds ? TOUCHES : RESTS);
 }
 
@@ -200,7 +200,8 @@ static void count_picture(Play *play, double began)
     if (model->paused)
         meter_rest(&play->meter, true);
     meter_picture(&play->meter, now,
-                  model->open.simulator ? simulator_obeyed(model->open.simulator, model->particles.step) : 0);
+                  model->open.simulator ? simulator_applied(model->open.simulator, model->particles.step)
+                                        : 0);
     meter_rest(&play->meter, model->paused);
 }
 

@@ -130,9 +130,9 @@ void figures_of(const Play *play, PlayFigures *figures)
 {
     *figures = (PlayFigures){.width = play->picture.width,
                              .height = play->picture.height,
-                             .device_reports = hand_post_reports(play->post),
-                             .report_median_ms = hand_post_latency(play->post, 0.5),
-                             .report_p99_ms = hand_post_latency(play->post, 0.99),
+                             .device_reports = box_control_reports(play->control),
+                             .report_median_ms = box_control_latency(play->control, 0.5),
+                             .report_p99_ms = box_control_latency(play->control, 0.99),
                              .display_scale = window_scale(play->window),
                              .fullscreen = window_is_fullscreen(play->window),
                              .panel = play->overlay.panel,

@@ -1,6 +1,6 @@
 #include "app/play/grip.h"
 
-#include "app/touch/walls.h"
+#include "app/input/touch.h"
 
 #define GLFW_INCLUDE_NONE /* numbers only */
 #include <GLFW/glfw3.h>
@@ -104,7 +104,7 @@ bool grip_size(Grip *grip, const Look *look, double size[3])
     if (!grip->wall || !look->world || !dragged(grip, look, at))
         return false;
     memcpy(size, look->particles->box_size, 3 * sizeof *size);
-    wall_drag(&grip->handle, at, BOX_LEAST * look->world->spacing, size);
+    wall_drag(&grip->handle, at, BOX_SIDE_LEAST * look->world->spacing, size);
     return true;
 }
 

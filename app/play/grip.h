@@ -5,7 +5,7 @@
    Each panel has the handles of its own view. The mouse acts in the panel below the cursor; a held handle
    belongs to the chosen view.
 
-   When walls may be taken, walls have handles too, in views of the scene's own state: app/touch/walls.h.
+   When walls may be taken, walls have handles too, in views of the scene's own state: app/input/touch.h.
 
    Handles appear only in the window, not in screenshots and videos. */
 #ifndef SLOSH_PLAY_GRIP_H

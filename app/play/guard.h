@@ -3,7 +3,7 @@
 #ifndef SLOSH_PLAY_GUARD_H
 #define SLOSH_PLAY_GUARD_H
 
-#include "app/session/simulator.h"
+#include "app/run/simulator.h"
 
 typedef struct Guard Guard;
 

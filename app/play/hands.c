@@ -34,7 +34,7 @@ static void follow_target(Play *play, const BoxTarget *target)
     play->wanted = *target;
 }
 
-static void take_news(Play *play, const HandNews *news)
+static void take_news(Play *play, const BoxControlNews *news)
 {
     follow_target(play, &news->target);
     for (int i = 0; i < news->words_count; i++)
@@ -89,26 +89,26 @@ static void press(Play *play, const SightRay *ray)
     const FingerWay left = (FingerWay)(play->model.open.scene.touch.way + 1);
     double at[3] = {0, 0.5 * play->model.particles.box_size[1], 0};
     model_take(&play->model); /* a solver on the GPU has since written to the drawn buffers */
-    const FingerWay way = play->input.drag == PLAY_TOUCH_OTHER ? touch_other(left) : left;
+    const FingerWay way = play->input.drag == PLAY_TOUCH_OTHER ? touch_tool_other(left) : left;
     if (play->model.has_particles &&
         particle_place_under(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at) &&
         way == FINGER_POUR)
         lift(&play->model.particles, &play->model.open.scene.world, at);
-    touch_press(tool, way, at);
+    touch_tool_press(tool, way, at);
     tool->spent = way == FINGER_POUR && !may_pour(play);
 }
 
 /* Moves the held solid with the mouse. */
 static void hold(Play *play, const SightRay *ray, const double forward[3])
 {
-    Hold *held = &play->touch.hold;
+    SolidDrag *held = &play->touch.hold;
     SolidCommand command;
     const WorldDef *def = &play->model.open.scene.world;
     const double time = play->model.particles.time;
-    if (!held->pressed && !hold_press(held, def, time, play->model.particles.floating, ray, forward,
-                                      play->input.drag == PLAY_TOUCH_OTHER))
+    if (!held->pressed && !solid_drag_press(held, def, time, play->model.particles.floating, ray, forward,
+                                            play->input.drag == PLAY_TOUCH_OTHER))
         notice_tell(&play->notice, "there is no solid under the mouse; 1 puts a ball there, 2 a box");
-    if (!hold_move(held, ray, &command))
+    if (!solid_drag_move(held, ray, &command))
         return;
     play->picture.over = true;
     held->holds = model_solid(&play->model, &command);
@@ -121,10 +121,10 @@ static uint64_t touch(Play *play)
     const Scene *scene = &play->model.open.scene;
     Finger finger;
     const unsigned travels = tool->travels;
-    touch_travel(tool, play->model.travels, play->model.told_script == SCRIPT_PLAYS);
+    touch_tool_travel(tool, play->model.travels, play->model.told_script == SCRIPT_PLAYS);
     if (!input_touches(&play->input) || !picture_visible(&play->picture)) {
-        touch_release(tool, play->model.status.past.behind);
-        hold_release(&tool->hold);
+        touch_tool_release(tool, play->model.status.past.behind);
+        solid_drag_release(&tool->hold);
     } else if (renderer_is_flat(panels_renderer(play->picture.panels, play->picture.chosen))) {
         if (!tool->spent)
             notice_tell(&play->notice, "a flat picture has no depth to touch; use another view");
@@ -135,19 +135,19 @@ static uint64_t touch(Play *play)
         double forward[3];
         hands_ray(play, &look, &ray, forward);
         tool->hold.holds &= travels == tool->travels;
-        if (scene->touch.way == TOUCH_HOLD) {
+        if (scene->touch.way == TOUCH_TOOL_SOLIDS) {
             hold(play, &ray, forward);
         } else {
             if (!tool->holds)
                 press(play, &ray);
-            touch_move(tool, &ray, forward, scene->world.dimensions);
+            touch_tool_move(tool, &ray, forward, scene->world.dimensions);
         }
     }
     TouchDef def = scene->touch;
     if (def.fluid >= scene->world.fluid_count)
         def.fluid = scene->world.fluid_count - 1;
     def.strength *= tool->holds ? play->input.pressed : 1;
-    if (!touch_asks(tool, &def, scene->world.spacing, &finger))
+    if (!touch_tool_finger(tool, &def, scene->world.spacing, &finger))
         return 0;
     play->picture.over = true;
     return model_touch(&play->model, &finger);
@@ -171,7 +171,7 @@ static bool looks(Play *play, SightRay *ray)
 void hands_put(Play *play, int like)
 {
     const Scene *scene = &play->model.open.scene;
-    SolidCommand command = {.act = SOLID_ACT_PUT,
+    SolidCommand command = {.act = SOLID_ACTION_PUT,
                             .like = like,
                             .size = touch_radius(&scene->touch, FINGER_STIR, scene->world.spacing),
                             .at = {0, 0.5 * scene->world.box_size[1], 0}};
@@ -179,8 +179,8 @@ void hands_put(Play *play, int like)
     double there[3];
     if (!looks(play, &ray))
         return;
-    const int solid =
-        hold_under(&scene->world, play->model.particles.time, play->model.particles.floating, &ray, there);
+    const int solid = solid_drag_under(&scene->world, play->model.particles.time,
+                                       play->model.particles.floating, &ray, there);
     if (like == SOLID_LIKE && solid < 0) {
         notice_tell(&play->notice, "there is no solid under the mouse to be put once more");
         return;
@@ -202,9 +202,9 @@ void hands_take(Play *play)
     double there[3];
     if (!looks(play, &ray))
         return;
-    const SolidCommand command = {
-        .act = SOLID_ACT_TAKE,
-        .solid = hold_under(def, play->model.particles.time, play->model.particles.floating, &ray, there)};
+    const SolidCommand command = {.act = SOLID_ACTION_TAKE,
+                                  .solid = solid_drag_under(def, play->model.particles.time,
+                                                            play->model.particles.floating, &ray, there)};
     if (command.solid < 0) {
         notice_tell(&play->notice, "there is no solid under the mouse");
     } else if (model_solid(&play->model, &command)) {
@@ -288,10 +288,10 @@ void hands_look(Play *play)
     WindowGamepad pad;
     const bool has_pad = window_gamepad(play->window, &pad);
     HandInput hand = {.dt = 0};
-    HandNews news;
+    BoxControlNews news;
     orbit_axes(&orbit, hand.right, hand.up, hand.away);
     const double event_ms = input_hand(&play->input, has_pad ? &pad : NULL, metres, &hand, &play->asks);
-    const uint64_t number = hand_post_look(play->post, &hand, particles->box_size, &news);
+    const uint64_t number = box_control_update(play->control, &hand, particles->box_size, &news);
     follow_pad(play, has_pad ? &pad : NULL, news.camera);
     const uint64_t touched = touch(play);
     if ((number || touched) && event_ms > 0 && !play->model.paused)

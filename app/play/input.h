@@ -1,9 +1,9 @@
 /* Input of the window's own devices: mouse, keys and a gamepad. Turns events into requests (app/play/ask.h),
-   and held inputs into motion of the box (app/hand/hand.h). Pure: independent of window, scene and clock. */
+   and held inputs into motion of the box (app/input/hand.h). Pure: independent of window, scene and clock. */
 #ifndef SLOSH_PLAY_INPUT_H
 #define SLOSH_PLAY_INPUT_H
 
-#include "app/hand/hand.h"
+#include "app/input/hand.h"
 #include "app/play/ask.h"
 #include "app/window/window.h"
 
@@ -13,7 +13,7 @@ typedef struct Input {
     double mouse[2];  /* pixels */
     PlayCommand drag; /* PLAY_ORBIT, ..., or PLAY_NONE */
     int drag_button;
-    bool touching;         /* given: drags and the wheel act on the fluid (app/touch) */
+    bool touching;         /* given: drags and the wheel act on the fluid (app/input/touch.h) */
     bool grabbed;          /* the drag moves the camera; an ungrabbed pan drag is still a click */
     bool down[INPUT_KEYS]; /* keys, by their number */
     unsigned pad_buttons;  /* at the last poll */

@@ -33,7 +33,7 @@ static bool same_bytes(const void *a, const void *b, size_t size)
    box's pose of that time for the hand. */
 static void follow_travels(Model *model)
 {
-    const SimulatorPast *past = &model->status.past;
+    const SimulatorHistory *past = &model->status.past;
     WorldDef def;
     if (past->travels == model->travels)
         return;
@@ -43,7 +43,7 @@ static void follow_travels(Model *model)
         model->open.scene.world = def;
         play_scene_advise(&model->open, NULL, NULL);
     }
-    hand_post_follow(model->post, &past->target);
+    box_control_set_target(model->control, &past->target);
     model->shut = model->status.shut;
 }
 
@@ -90,7 +90,7 @@ void model_listen(Model *model)
         notice_error(model->notice, status->message);
     }
     char words[1280];
-    while (company_message(model->open.company, words))
+    while (compare_message(model->open.compared, words))
         notice_error(model->notice, words);
     follow_travels(model);
     follow_solids(model);
@@ -107,12 +107,12 @@ void model_listen(Model *model)
 void model_take(Model *model)
 {
     PlayScene *open = &model->open;
-    const bool together = open->company && open->simulator;
+    const bool together = open->compared && open->simulator;
     if (together)
         simulator_hold(open->simulator);
     model->has_particles = open->source->take(open, &model->particles);
-    if (model->has_particles && open->company)
-        model->has_particles = company_take(open->company, model->particles.time);
+    if (model->has_particles && open->compared)
+        model->has_particles = compare_take(open->compared, model->particles.time);
     if (together)
         simulator_release(open->simulator);
 }
@@ -120,26 +120,26 @@ void model_take(Model *model)
 bool model_fresh(const Model *model)
 {
     PlayScene *open = (PlayScene *)&model->open;
-    return open->source->fresh(open) || company_fresh(open->company);
+    return open->source->fresh(open) || compare_has_new(open->compared);
 }
 
 const ParticleBuffers *model_state(const Model *model, const ViewDef *view)
 {
-    const ParticleBuffers *beside = company_state(model->open.company, view);
+    const ParticleBuffers *beside = compare_state(model->open.compared, view);
     return beside ? beside : &model->particles;
 }
 
 const WorldDef *model_world(const Model *model, const ViewDef *view)
 {
-    const WorldDef *beside = company_world(model->open.company, view);
+    const WorldDef *beside = compare_world(model->open.compared, view);
     return beside ? beside : &model->open.scene.world;
 }
 
 bool model_has(const Model *model, const ViewDef *view, Error *error)
 {
     const PlayScene *open = &model->open;
-    return company_world(open->company, view) ? company_has(open->company, view, error)
-                                              : open->source->has(open, view, error);
+    return compare_world(open->compared, view) ? compare_has_attributes(open->compared, view, error)
+                                               : open->source->has(open, view, error);
 }
 
 /* Name of the scene's own states in titles. */
@@ -163,7 +163,7 @@ bool model_titles(const Model *model, const ViewDef *const views[], int count, T
                                 .recorded = !open->source->simulates,
                                 .first = -INFINITY,
                                 .last = INFINITY};
-        company_facts(open->company, views[i], &facts[i]);
+        compare_facts(open->compared, views[i], &facts[i]);
         any |= *facts[i].words != 0;
     }
     for (int i = 0; i < count; i++)
@@ -174,16 +174,16 @@ bool model_titles(const Model *model, const ViewDef *const views[], int count, T
     return any;
 }
 
-/* A HandSend. */
+/* A BoxControlSend. */
 static uint64_t send_target(void *open, const BoxTarget *target)
 {
     const PlayScene *scene = open;
     const SimCommand command = {.kind = SIM_TARGET, .target = *target};
-    company_send(scene->company, &command);
+    compare_send(scene->compared, &command);
     return simulator_send(scene->simulator, &command);
 }
 
-/* A HandSend without a simulation. */
+/* A BoxControlSend without a simulation. */
 static uint64_t send_nowhere(void *model, const BoxTarget *target)
 {
     (void)target;
@@ -194,9 +194,9 @@ static uint64_t send_nowhere(void *model, const BoxTarget *target)
 static void post_open(Model *model)
 {
     if (model->open.source->simulates)
-        hand_post_open(model->post, send_target, &model->open);
+        box_control_open(model->control, send_target, &model->open);
     else
-        hand_post_open(model->post, send_nowhere, model);
+        box_control_open(model->control, send_nowhere, model);
 }
 
 static void adopt(Model *model, const PlayScene *opened)
@@ -281,7 +281,7 @@ static void leave(Model *model)
     const double until = wall_ms() + SAVE_MS;
     if (!model->open.source)
         return;
-    hand_post_close(model->post);
+    box_control_close(model->control);
     keep_session(model);
     while (model->status.saving && !model->status.ended && wall_ms() < until) {
         window_wait(model->window, 0.01);
@@ -314,10 +314,12 @@ bool model_open(Model *model, const char *scene, const SceneSettings *settings, 
     if (!model_leave(model, 0))
         return error_set(error, "the scene before the present one is still ending; try again in a moment");
     const bool read = play_scene_read(&opened, scene, settings, &notes, error);
-    const SimulatorSetup how = {
-        .wake = window_wake, .timer = model->timer, .paused = model->paused, .past_bytes = model->past_bytes};
+    const SimulatorSetup how = {.wake = window_wake,
+                                .timer = model->timer,
+                                .paused = model->paused,
+                                .history_bytes = model->history_bytes};
     share_processors(&opened.scene.world);
-    for (int i = 0; (def = company_world_def(opened.company, i)); i++)
+    for (int i = 0; (def = compare_world_def(opened.compared, i)); i++)
         share_processors(def);
     if (!read || !play_scene_start(&opened, &how, error)) {
         play_scene_close(&opened, SAVE_MS);
@@ -332,7 +334,7 @@ bool model_open(Model *model, const char *scene, const SceneSettings *settings, 
 void model_reset(Model *model)
 {
     keep_session(model);
-    hand_post_close(model->post); /* a device report now would move the box, and would be lost */
+    box_control_close(model->control); /* a device report now would move the box, and would be lost */
     model->open.source->reset(&model->open);
     model->shut = flow_shut(&model->open.scene.world);
     post_open(model);
@@ -443,7 +445,7 @@ void model_set_speed(Model *model, double factor)
 void model_let_go(Model *model)
 {
     model->open.source->status(&model->open, &model->status);
-    hand_post_let_go(model->post, &model->status.hand);
+    box_control_release(model->control, &model->status.hand);
 }
 
 void model_save(Model *model)
@@ -520,7 +522,7 @@ static bool set_scene(Model *model, const char *setting, bool *concerns_world, E
 static bool may_move(const Model *model, const SimCommand *command, Error *error)
 {
     Simulator *followers[SIMULATOR_FOLLOWERS];
-    return !sim_command_sets_backend(command) || company_followers(model->open.company, followers) == 0 ||
+    return !sim_command_sets_backend(command) || compare_followers(model->open.compared, followers) == 0 ||
            error_set(error, "%s: the backend stays while solvers run side by side; set it before the start",
                      command->setting);
 }
@@ -541,7 +543,7 @@ bool model_set(Model *model, const char *setting)
     simulator_set_realtime(model->open.simulator, model->open.scene.realtime);
     advise_anew(model, setting);
     if (concerns_world)
-        company_send(model->open.company, &command);
+        compare_send(model->open.compared, &command);
     if (sim_command_moves(&command))
         move(model, &command, &before);
     else if (concerns_world && !simulator_send(model->open.simulator, &command))
@@ -555,7 +557,7 @@ void model_shut(Model *model, uint64_t gates)
     if (!model->open.source->simulates)
         return;
     model->shut = gates;
-    company_send(model->open.company, &command);
+    compare_send(model->open.compared, &command);
     simulator_send(model->open.simulator, &command);
 }
 
@@ -564,7 +566,7 @@ uint64_t model_touch(Model *model, const Finger *finger)
     const SimCommand command = {.kind = SIM_TOUCH, .finger = *finger};
     if (!model->open.source->simulates)
         return 0;
-    company_send(model->open.company, &command);
+    compare_send(model->open.compared, &command);
     return simulator_send(model->open.simulator, &command);
 }
 
@@ -576,7 +578,7 @@ bool model_solid(Model *model, const SolidCommand *command)
     const SimCommand sent = {.kind = SIM_SOLID, .solid = *command};
     def.solid_count += def.solid_count == 0;
     const bool may =
-        world_can(&def, &error) && (company_followers(model->open.company, followers) == 0 ||
+        world_can(&def, &error) && (compare_followers(model->open.compared, followers) == 0 ||
                                     error_set(&error, "solids stay while solvers run side by side"));
     if (!may)
         notice_error(model->notice, error.message);
@@ -588,7 +590,7 @@ bool model_resize(Model *model, const double size[3])
     Simulator *followers[SIMULATOR_FOLLOWERS];
     if (!model->open.source->simulates)
         return false;
-    if (company_followers(model->open.company, followers) > 0) {
+    if (compare_followers(model->open.compared, followers) > 0) {
         notice_tell(model->notice, "the box keeps its size while solvers run side by side");
         return false;
     }
@@ -601,7 +603,7 @@ static bool follow_view(Model *model, const ViewDef *view)
 {
     if (!scene_view_reads_acceleration(view))
         return false;
-    company_want(model->open.company, view);
+    compare_want_accelerations(model->open.compared, view);
     return scene_shows(&model->open.scene, view);
 }
 

@@ -2,7 +2,7 @@
 #ifndef SLOSH_PLAY_MODEL_H
 #define SLOSH_PLAY_MODEL_H
 
-#include "app/held/hand_post.h"
+#include "app/input/box_control.h"
 #include "app/play/notice.h"
 #include "app/play/scene.h"
 #include "app/window/window.h"
@@ -12,15 +12,15 @@
 
 /* Zero-initialise all but the given fields. */
 typedef struct Model {
-    Window *window;      /* given: waits take events, new states wake the window */
-    GlTimer *timer;      /* given: see SimulatorSetup */
-    HandPost *post;      /* given: sends the hand's target of the box */
-    Notice *notice;      /* given */
-    struct Guard *guard; /* given: guards the open session; NULL: no guard */
-    const char *record;  /* given: with a path every session is saved; or NULL */
-    bool kept;           /* with `record`: the session about to be left is already saved */
-    size_t past_bytes;   /* given: see SimulatorSetup */
-    double speed;        /* given: simulated seconds per second */
+    Window *window;       /* given: waits take events, new states wake the window */
+    GlTimer *timer;       /* given: see SimulatorSetup */
+    BoxControl *control;  /* given: sends the hand's target of the box */
+    Notice *notice;       /* given */
+    struct Guard *guard;  /* given: guards the open session; NULL: no guard */
+    const char *record;   /* given: with a path every session is saved; or NULL */
+    bool kept;            /* with `record`: the session about to be left is already saved */
+    size_t history_bytes; /* given: see SimulatorSetup */
+    double speed;         /* given: simulated seconds per second */
 
     PlayScene open;
     PlayScene left;            /* previous scene, whose solver is still ending; or zero */
@@ -36,7 +36,7 @@ typedef struct Model {
     unsigned saves, messages; /* reported so far */
     ScriptState told_script;  /* last reported */
     uint64_t shut;            /* gates to close: world_shut */
-    unsigned travels;         /* last handled SimulatorPast.travels */
+    unsigned travels;         /* last handled SimulatorHistory.travels */
     unsigned solids;          /* SimulatorStatus.solids */
     atomic_bool pulled;       /* the user tried to move the box of a recorded run */
     bool told_fixed;          /* reported that the box cannot move */

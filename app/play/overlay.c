@@ -52,7 +52,7 @@ static bool mouse_is_near(const Overlay *overlay)
 /* True while paused or in the past, with the mouse near, or if always shown. */
 static bool shows_timeline(const Overlay *overlay, const Model *model)
 {
-    const SimulatorPast *past = &model->status.past;
+    const SimulatorHistory *past = &model->status.past;
     return model->has_particles && past->kept &&
            (overlay->timeline || model->paused || past->behind || overlay->scrubs || mouse_is_near(overlay));
 }
@@ -147,7 +147,7 @@ static void collect(Overlay *overlay, Model *model, const OverlayFacts *facts, f
     const SimulatorStatus *status = &model->status;
     const ParticleBuffers *particles = &model->particles;
     find_warnings(overlay, model, facts);
-    overlay->device_count = hand_post_devices(model->post, overlay->devices);
+    overlay->device_count = box_control_devices(model->control, overlay->devices);
     world_def_at(&model->open.scene.world, particles->time); /* present values of tables */
     *data = (PanelData){.scene = &model->open.scene,
                         .recorded = !model->open.source->simulates,
@@ -200,10 +200,10 @@ double overlay_covered_left(const Overlay *overlay, int width)
 }
 
 /* Redraws the bars of motion devices, as often as visible. */
-static void follow_devices(Overlay *overlay, HandPost *post, double now)
+static void follow_devices(Overlay *overlay, BoxControl *control, double now)
 {
     static const double BARS_MS = 50;
-    const uint64_t reports = hand_post_reports(post);
+    const uint64_t reports = box_control_reports(control);
     if (reports == overlay->reports_shown || now < overlay->bars_ms + BARS_MS)
         return;
     overlay->input.now.changed = true;
@@ -256,7 +256,7 @@ static double script_done(const SimulatorStatus *status)
 
 static void draw_timeline(Overlay *overlay, const Model *model, const OverlayFacts *facts, AskQueue *asks)
 {
-    const SimulatorPast *past = &model->status.past;
+    const SimulatorHistory *past = &model->status.past;
     const TimelineData data = {.from = past->from,
                                .to = past->to,
                                .now = model->particles.time,
@@ -355,7 +355,7 @@ bool overlay_draw(Overlay *overlay, Model *model, const OverlayFacts *facts, Ask
         widget_input_skip(&overlay->input);
         return false;
     }
-    follow_devices(overlay, model->post, now);
+    follow_devices(overlay, model->control, now);
     overlay->input.now.dt = 1e-3 * fmin(now - overlay->drawn_ms, 1000);
     overlay->input.now.changed |= shown != overlay->shown;
     overlay->input.now.changed |= timeline && model->paused && model->particles.time != overlay->time;

@@ -36,7 +36,7 @@ typedef struct Overlay {
     const char *warnings[8 + NOTES_MAX];
     int warning_count;
     char lost[64]; /* a warning of lost particles */
-    HandDevice devices[HAND_POST_DEVICES_MAX];
+    BoxControlDevice devices[BOX_CONTROL_DEVICES_MAX];
     int device_count;
     uint64_t reports_shown; /* reports of motion devices at the last drawing of their bars */
     double bars_ms;         /* wall time of that drawing */

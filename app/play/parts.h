@@ -3,7 +3,8 @@
 #ifndef SLOSH_PLAY_PARTS_H
 #define SLOSH_PLAY_PARTS_H
 
-#include "app/hand/outline.h"
+#include "app/input/hand.h"
+#include "app/input/touch.h"
 #include "app/meter/meter.h"
 #include "app/play/ask.h"
 #include "app/play/camera.h"
@@ -16,7 +17,6 @@
 #include "app/play/picture.h"
 #include "app/play/readout.h"
 #include "app/play/views.h"
-#include "app/touch/touch.h"
 #include "app/watch/watch.h"
 #include "app/window/shake.h"
 #include "app/window/window.h"
@@ -36,7 +36,7 @@ typedef struct Reload {
 
 typedef struct Play {
     Window *window;
-    HandPost *post;
+    BoxControl *control;
     Input input;
     AskQueue asks; /* executed between two pictures */
     Model model;

@@ -36,7 +36,7 @@ static const ViewDef *shown(const Scene *scene, int chosen, int panel)
 
 static const WorldDef *world_of(const PlayScene *open, const ViewDef *view)
 {
-    const WorldDef *beside = company_world(open->company, view);
+    const WorldDef *beside = compare_world(open->compared, view);
     return beside ? beside : &open->scene.world;
 }
 

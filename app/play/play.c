@@ -2,7 +2,7 @@
 #include "app/play/play.h"
 
 #include "app/base/program.h"
-#include "app/device/devices.h"
+#include "app/input/device/devices.h"
 #include "app/play/figures.h"
 #include "app/play/guard.h"
 #include "app/play/parts.h"
@@ -28,10 +28,10 @@ typedef struct Session {
     jmp_buf back;     /* jump to the end, from window functions after the display is gone */
 } Session;
 
-/* A WindowClaimed: true if a HandPost uses the device. */
-static bool claimed(void *post, uint16_t vendor, uint16_t product)
+/* A WindowClaimed: true if a BoxControl uses the device. */
+static bool claimed(void *control, uint16_t vendor, uint16_t product)
 {
-    return hand_post_claims(post, vendor, product);
+    return box_control_uses(control, vendor, product);
 }
 
 static bool make_post(Session *session, Error *error)
@@ -39,10 +39,11 @@ static bool make_post(Session *session, Error *error)
     Play *play = &session->play;
     Mapping mapping;
     mapping_default(&mapping);
-    play->post = hand_post_create(session->setup->mapping ? session->setup->mapping : &mapping, window_wake);
-    if (!play->post)
+    play->control =
+        box_control_create(session->setup->mapping ? session->setup->mapping : &mapping, window_wake);
+    if (!play->control)
         return error_set(error, "no memory for the hand");
-    window_leave_gamepads(play->window, claimed, play->post);
+    window_leave_gamepads(play->window, claimed, play->control);
     return true;
 }
 
@@ -69,10 +70,10 @@ static bool start(Session *session, Error *error)
     play->model = (Model){.window = play->window,
                           .guard = guard_create(setup->record, window_connection(play->window)),
                           .timer = play->picture.timer,
-                          .post = play->post,
+                          .control = play->control,
                           .notice = &play->notice,
                           .record = setup->record,
-                          .past_bytes = setup->past_bytes,
+                          .history_bytes = setup->history_bytes,
                           .speed = 1};
     const float letters = picture_letters(play->window);
     play->overlay.panel =
@@ -88,7 +89,7 @@ static bool start_devices(Session *session, Error *error)
 {
     const PlaySetup *setup = session->setup;
     const DevicesSetup devices = {
-        .source = setup->device, .listener = hand_post_hear, .user = session->play.post};
+        .source = setup->device, .listener = box_control_device_event, .user = session->play.control};
     if (session->devices || !setup->mapping || !session->play.model.has_particles)
         return true;
     session->devices = devices_start(&devices, error);
@@ -110,7 +111,7 @@ static void follow_shaders(Play *play)
         return;
     if (picture_reload(&play->picture, &play->model.open, &error) &&
         (!play->model.open.simulator || simulator_reload(play->model.open.simulator, &error)) &&
-        company_reload(play->model.open.company, &error))
+        compare_reload(play->model.open.compared, &error))
         notice_tell(&play->notice, "the shaders were read again");
     else
         notice_error(&play->notice, error.message);
@@ -256,13 +257,13 @@ static bool close_all(Session *session)
 {
     Play *play = &session->play;
     devices_stop(session->devices);
-    if (play->post)
-        hand_post_close(play->post);
+    if (play->control)
+        box_control_close(play->control);
     guard_destroy(play->model.guard);
     play->model.guard = NULL;
     if ((play->window && window_gone(play->window)) || !model_close(&play->model, PATIENCE_MS))
         return false;
-    hand_post_destroy(play->post);
+    box_control_destroy(play->control);
     overlay_end(&play->overlay);
     picture_end(&play->picture);
     window_destroy(play->window);

@@ -2,7 +2,7 @@
 #ifndef SLOSH_PLAY_H
 #define SLOSH_PLAY_H
 
-#include "app/device/mapping.h"
+#include "app/input/mapping.h"
 #include "app/meter/report.h"
 #include "app/session/args.h"
 
@@ -11,7 +11,7 @@ typedef struct PlaySetup {
     const SceneSettings *settings; /* of that scene; scenes opened later use their files */
     int width, height;             /* of the window, in screen coordinates */
     const char *record;            /* file for the session at the end; or NULL */
-    size_t past_bytes;             /* memory for states to go back to; 0: none */
+    size_t history_bytes;          /* memory for states to go back to; 0: none */
     const Mapping *mapping;        /* of motion devices; NULL: devices are not used */
     const char *device;            /* --device, or NULL: the plugged in devices */
     double shake_seconds;          /* more than 0: a script shakes the box for that time, then all ends */

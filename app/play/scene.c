@@ -1,9 +1,9 @@
 #include "app/play/scene.h"
 
-#include "app/beside/beside.h"
+#include "app/run/compare/compare.h"
+#include "app/run/session.h"
 #include "app/scene/scene.h"
 #include "app/scene/scene_files.h"
-#include "app/session/recording_play.h"
 
 #include <dirent.h>
 #include <math.h>
@@ -30,7 +30,7 @@ static void leave_out_beside(Scene *scene)
 {
     int kept = 0;
     for (int i = 0; i < scene->view_count; i++)
-        if (!beside_is(&scene->views[i]))
+        if (!compare_is_other(&scene->views[i]))
             scene->views[kept++] = scene->views[i];
     scene->view_count = kept;
 }
@@ -73,11 +73,11 @@ static bool read_scene(PlayScene *open, const char *name, const SceneSettings *s
     if (!scene_path_find(name, path, error))
         return false;
     char *text = scene_file_read(path, &size, error);
-    const CompanySetup company = {.scene = &open->scene, .text = text, .size = size, .settings = settings};
+    const CompareSetup compared = {.scene = &open->scene, .text = text, .size = size, .settings = settings};
     const bool ok =
         text && scene_parse(path, text, size, &applied, &open->scene, notes, error) &&
         recording_create(&open->recording, path, text, size, settings ? settings : &none, error) &&
-        company_read(&company, &open->company, notes, error);
+        compare_read(&compared, &open->compared, notes, error);
     free(text);
     if (ok)
         tell_picture(path, notes);
@@ -97,10 +97,10 @@ static bool read_recorded(PlayScene *open, const char *path, const SceneSettings
     snprintf(open->scene.path, sizeof open->scene.path, "%s", path);
     for (int i = 0; i < scene_view_count(&open->scene); i++) {
         ViewDef *view = open->scene.view_count > 0 ? &open->scene.views[i] : &open->scene.view;
-        if (!beside_is(view))
+        if (!compare_is_other(view))
             recorded_adapt(open->recorded, view, notes);
     }
-    return company_read(&(CompanySetup){.scene = &open->scene}, &open->company, notes, error);
+    return compare_read(&(CompareSetup){.scene = &open->scene}, &open->compared, notes, error);
 }
 
 bool play_scene_read(PlayScene *open, const char *name, const SceneSettings *settings, Notes *notes,
@@ -141,8 +141,8 @@ bool play_scene_make_upload(PlayScene *open, Error *error)
 {
     const WorldDef *def = &open->scene.world;
     if (!open->upload && !world_on_gpu(def))
-        open->upload = upload_create(beside_simulated_room(def),
-                                     upload_of_worlds(beside_simulated_attributes(def)), error);
+        open->upload = upload_create(compare_simulated_particles(def),
+                                     upload_of_worlds(compare_simulated_attributes(def)), error);
     return open->upload || world_on_gpu(def);
 }
 
@@ -151,12 +151,12 @@ bool play_scene_start(PlayScene *open, const SimulatorSetup *how, Error *error)
     SimulatorSetup each = *how;
     Simulator *followers[SIMULATOR_FOLLOWERS];
     int solvers = 1;
-    while (company_world_def(open->company, solvers - 1))
+    while (compare_world_def(open->compared, solvers - 1))
         solvers++;
-    each.past_bytes = how->past_bytes / (size_t)solvers;
-    if (!company_start(open->company, &each, error))
+    each.history_bytes = how->history_bytes / (size_t)solvers;
+    if (!compare_start(open->compared, &each, error))
         return false;
-    each.follower_count = company_followers(open->company, followers);
+    each.follower_count = compare_followers(open->compared, followers);
     each.followers = followers;
     return open->source->start(open, &each, error);
 }
@@ -171,7 +171,7 @@ bool play_scene_close(PlayScene *open, double patience_ms)
 {
     if (open->source && !open->source->close(open, patience_ms))
         return false;
-    company_destroy(open->company);
+    compare_destroy(open->compared);
     recording_destroy(&open->recording);
     free(open->renewed);
     *open = (PlayScene){.source = NULL};

@@ -3,12 +3,12 @@
 #ifndef SLOSH_PLAY_SCENE_H
 #define SLOSH_PLAY_SCENE_H
 
-#include "app/beside/company.h"
 #include "app/play/source.h"
-#include "app/playback/player.h"
-#include "app/recording/recording.h"
+#include "app/run/compare/compare.h"
+#include "app/run/playback/playback.h"
+#include "app/run/recording/recording.h"
+#include "app/run/simulator.h"
 #include "app/scene/scene.h"
-#include "app/session/simulator.h"
 #include "render/particles/upload.h"
 #include "sim/base/error.h"
 
@@ -23,7 +23,7 @@ typedef struct PlayScene {
     Simulator *simulator;
     Recorded *recorded; /* of a file of snapshots; the player has taken its content */
     Player *player;
-    Company *company;         /* runs shown beside the scene; NULL: none */
+    CompareRuns *compared;    /* runs shown beside the scene; NULL: none */
     const SourceKind *source; /* NULL: no scene is open */
 } PlayScene;
 

@@ -3,7 +3,7 @@
 #ifndef SLOSH_PLAY_SOURCE_H
 #define SLOSH_PLAY_SOURCE_H
 
-#include "app/session/simulator.h"
+#include "app/run/simulator.h"
 #include "sim/gl/particle_buffers.h"
 
 struct PlayScene;

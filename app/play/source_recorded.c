@@ -1,4 +1,4 @@
-/* A recorded run as the window's source, built on app/playback/player.h. */
+/* A recorded run as the window's source, built on app/run/playback/playback.h. */
 #include "app/play/scene.h"
 #include "sim/base/stage.h"
 
@@ -32,17 +32,17 @@ static void status(PlayScene *open, SimulatorStatus *out)
     PlayerStatus player;
     player_status(open->player, &player);
     *out = (SimulatorStatus){
-        .ready = player.reel.answered,
+        .ready = player.prefetch.answered,
         .paused = player.paused,
         .rests = player.rests,
         .realtime = true,
         .speed = player.speed,
-        .time = player.reel.time,
-        .step = player.reel.step,
-        .particles = player.reel.particles,
+        .time = player.prefetch.time,
+        .step = player.prefetch.step,
+        .particles = player.prefetch.particles,
         .simulated_s = player.played_s,
         .messages = player.failures,
-        .past = {.kept = true, .behind = true, .from = player.reel.first, .to = player.reel.last}};
+        .past = {.kept = true, .behind = true, .from = player.prefetch.first, .to = player.prefetch.last}};
     snprintf(out->message, sizeof out->message, "%s", player.message);
 }
 

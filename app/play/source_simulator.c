@@ -1,6 +1,6 @@
-/* A simulation as the window's source, built on app/session/simulator.h. */
-#include "app/beside/beside.h"
+/* A simulation as the window's source, built on app/run/simulator.h. */
 #include "app/play/scene.h"
+#include "app/run/compare/compare.h"
 #include "render/renderer.h"
 
 static bool start(PlayScene *open, const SimulatorSetup *how, Error *error)
@@ -52,7 +52,7 @@ static bool take(PlayScene *open, ParticleBuffers *out)
 
 static bool has(const PlayScene *open, const ViewDef *view, Error *error)
 {
-    return beside_simulated_has(&open->scene.world, view, error);
+    return compare_simulated_has(&open->scene.world, view, error);
 }
 
 static void pause(PlayScene *open, bool paused)

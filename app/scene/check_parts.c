@@ -1,5 +1,5 @@
-#include "app/metric/metric_list.h"
-#include "app/probe/probe.h"
+#include "app/run/measure/metric.h"
+#include "app/run/measure/probe.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_private.h"
 #include "sim/matter/fill.h"

@@ -1,6 +1,6 @@
 #include "app/scene/keys.h"
 
-#include "app/metric/metric_list.h"
+#include "app/run/measure/metric.h"
 #include "app/scene/scene_private.h"
 #include "render/frame/overlay.h"
 #include "render/frame/view.h"
@@ -161,12 +161,12 @@ static const Key views_keys[] = {
 
 /* The rows of each owner are defined beside the struct with their fields. */
 extern const Key box_keys[], fluid_keys[], solid_keys[], solver_keys[], step_keys[],
-    box_motion_keys[];                                            /* sim/matter */
+    box_motion_keys[];                                            /* sim/def */
 extern const Key preset_keys[];                                   /* app/scene */
-extern const Key probe_keys[];                                    /* app/probe */
+extern const Key probe_keys[];                                    /* app/run/measure */
 extern const Key motion_keys[], solid_motion_keys[], hand_keys[]; /* sim/box */
-extern const Key touch_keys[];                                    /* sim/touch */
-extern const Key method_keys[], backend_keys[];                   /* sim/world */
+extern const Key touch_keys[];                                    /* sim/flow */
+extern const Key method_keys[], backend_keys[];                   /* sim/step */
 extern const Key view_keys[], view_frame_keys[];                  /* render/frame */
 
 enum { KEYS_MAX = 512 };

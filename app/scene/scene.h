@@ -2,7 +2,7 @@
 #ifndef APP_SCENE_SCENE_H
 #define APP_SCENE_SCENE_H
 
-#include "app/probe/probe_def.h"
+#include "app/run/measure/probe_def.h"
 #include "render/frame/view_def.h"
 #include "render/panels.h"
 #include "sim/base/error.h"
@@ -58,7 +58,7 @@ typedef struct Scene {
     unsigned preset_filled;     /* bit k: the preset's setting k was filled in */
     bool realtime; /* the window follows the wall clock; otherwise it simulates as fast as possible */
     int metric_count;
-    /* for `slosh chart`: indices into metric_kinds (app/metric/metric_list.h) */
+    /* for `slosh chart`: indices into metric_kinds (app/run/measure/metric.h) */
     int metrics[SCENE_METRICS_MAX];
     ProbeList probes; /* unknown to the world */
     TouchDef touch;   /* unknown to the world; the window makes commands of touches */

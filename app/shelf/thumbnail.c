@@ -1,6 +1,6 @@
 #include "app/shelf/thumbnail.h"
 
-#include "app/beside/shoot.h"
+#include "app/run/compare/panel_pictures.h"
 #include "app/scene/scene_files.h"
 #include "sim/matter/seed.h"
 #include "sim/world/world.h"
@@ -59,15 +59,17 @@ static bool simulate(Session *session, Error *error)
 
 static bool draw(const Session *session, Image *image, Error *error)
 {
-    Shoot shoot = {.source_count = 0};
-    const ShootPanel panel = {.session = session, .view = &session->scene.view};
-    const bool ok = shoot_open(&shoot, &panel, 1, false, THUMBNAIL_WIDTH, THUMBNAIL_HEIGHT, error) &&
-                    shoot_take(&shoot, session->info.time, error) && shoot_draw(&shoot, error);
+    PanelPictures panel_pictures = {.source_count = 0};
+    const PicturePanel panel = {.session = session, .view = &session->scene.view};
+    const bool ok =
+        panel_pictures_open(&panel_pictures, &panel, 1, false, THUMBNAIL_WIDTH, THUMBNAIL_HEIGHT, error) &&
+        panel_pictures_take(&panel_pictures, session->info.time, error) &&
+        panel_pictures_draw(&panel_pictures, error);
     if (ok) {
-        *image = shoot.image;
-        shoot.image = (Image){0};
+        *image = panel_pictures.image;
+        panel_pictures.image = (Image){0};
     }
-    shoot_close(&shoot);
+    panel_pictures_close(&panel_pictures);
     return ok;
 }
 

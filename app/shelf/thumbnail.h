@@ -3,7 +3,7 @@
 #define SLOSH_THUMBNAIL_H
 
 #include "app/files/pictures.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "sim/base/error.h"
 
 #include <stdbool.h>

@@ -100,7 +100,7 @@ void stable_print(const StableMap *map, FILE *file)
     }
 }
 
-static json_t *limits_json(const StableLimits *l)
+static json_t *step_limits_json(const StableLimits *l)
 {
     return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "sound", number_json(l->sound), "friction",
                      number_json(l->friction), "lattice", number_json(l->lattice), "courant",
@@ -133,7 +133,7 @@ static json_t *cell_json(const StableMap *map, const StableCellFound *found)
     return json_pack("{s:o, s:o, s:s, s:f, s:o, s:o, s:o, s:b}", "at", at, "holds",
                      number_json(stable_largest(found)), "end", ends[found->search.end], "last_tried",
                      stable_step(found->search.rung), "above", above_json(&found->search), "theory",
-                     limits_json(&found->limits), "ratio", number_json(found->ratio), "uneven",
+                     step_limits_json(&found->limits), "ratio", number_json(found->ratio), "uneven",
                      stable_uneven(found));
 }
 

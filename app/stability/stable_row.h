@@ -2,7 +2,7 @@
 #ifndef SLOSH_STABLE_ROW_H
 #define SLOSH_STABLE_ROW_H
 
-#include "app/outcome/outcome.h"
+#include "app/run/measure/outcome.h"
 #include "sim/matter/world_def.h"
 
 #include <stdint.h>

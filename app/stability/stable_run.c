@@ -2,7 +2,7 @@
 
 #include "app/base/program.h"
 #include "app/lab/run_key.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "app/stability/stable_trial.h"
 #include "sim/base/stage.h"
 

@@ -4,7 +4,7 @@
 #ifndef SLOSH_STABLE_SEARCH_H
 #define SLOSH_STABLE_SEARCH_H
 
-#include "app/outcome/outcome.h"
+#include "app/run/measure/outcome.h"
 
 /* STABLE_DOWN: the lowest rung tried is so far below the first, an eighth of its step. STABLE_ABOVE: count
    of samples above the largest stable step. STABLE_BELOW: rungs below, to check a shorter step, 0.71

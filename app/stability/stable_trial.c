@@ -1,7 +1,7 @@
 #include "app/stability/stable_trial.h"
 
 #include "app/base/program.h"
-#include "app/outcome/outcome_watch.h"
+#include "app/run/measure/outcome.h"
 
 typedef struct Trial {
     const Scene *scene;
@@ -18,7 +18,7 @@ static bool look(Trial *trial, double until, bool now, Error *error)
     if ((!now && trial->info.time < trial->next) || !world_sound(trial->world))
         return true;
     trial->next = trial->info.time + 0.999 * until / STABLE_LOOKS;
-    return outcome_look(&trial->history, &trial->scene->world, false, trial->world) ||
+    return outcome_sample(&trial->history, &trial->scene->world, false, trial->world) ||
            error_set(error, "no memory to read the particles; use a larger spacing");
 }
 

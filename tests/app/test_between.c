@@ -1,16 +1,16 @@
 /* Between two states: free fall exactly, whatever the order; what comes and goes; sides; the box. */
 #include "tests/sim/fixture.h"
 
-#include "app/session/between.h"
+#include "app/run/playback/interpolate.h"
 
 enum { COUNT = 5 };
 
 static const bool closed[3] = {false, false, false};
 
 /* COUNT particles in free fall, `time` s after they were thrown; ids in the other order where `turned`. */
-static void thrown(Still *still, double time, bool turned)
+static void thrown(StateCopy *still, double time, bool turned)
 {
-    assert_true(still_reserve(still, COUNT, PARTICLE_SCALAR(SCALAR_DENSITY)));
+    assert_true(state_copy_reserve(still, COUNT, PARTICLE_SCALAR(SCALAR_DENSITY)));
     still->state = (ParticleBuffers){.count = COUNT, .box_size = {2, 8, 2}, .time = time};
     for (size_t i = 0; i < COUNT; i++) {
         const size_t at = turned ? COUNT - 1 - i : i;
@@ -32,14 +32,14 @@ static void thrown(Still *still, double time, bool turned)
 static void free_fall_is_exact(void **state)
 {
     (void)state;
-    Still before = {.room = 0}, after = {.room = 0}, out = {.room = 0}, exact = {.room = 0};
+    StateCopy before = {.room = 0}, after = {.room = 0}, out = {.room = 0}, exact = {.room = 0};
     thrown(&before, 0.2, false);
     thrown(&after, 0.24, true);
-    assert_true(still_reserve(&out, 2 * COUNT, PARTICLE_SCALAR(SCALAR_DENSITY)));
+    assert_true(state_copy_reserve(&out, 2 * COUNT, PARTICLE_SCALAR(SCALAR_DENSITY)));
     for (int k = 0; k <= 4; k++) {
         const double time = 0.2 + 0.01 * k;
         thrown(&exact, time, true);
-        assert_true(between_states(&before, &after, closed, time, &out));
+        assert_true(interpolate_states(&before, &after, closed, time, &out));
         assert_int_equal(out.state.count, COUNT);
         assert_float_equal(out.state.time, time, 1e-12);
         assert_float_equal(out.state.box.position[0], exact.state.box.position[0], 1e-12);
@@ -53,10 +53,10 @@ static void free_fall_is_exact(void **state)
             }
         }
     }
-    still_free(&before);
-    still_free(&after);
-    still_free(&out);
-    still_free(&exact);
+    state_copy_free(&before);
+    state_copy_free(&after);
+    state_copy_free(&out);
+    state_copy_free(&exact);
 }
 
 /* One is drained, another let in, one goes out at one side and in at the other. */
@@ -64,17 +64,17 @@ static void what_comes_goes_and_crosses(void **state)
 {
     (void)state;
     static const bool periodic[3] = {true, false, false};
-    Still before = {.room = 0}, after = {.room = 0}, out = {.room = 0};
+    StateCopy before = {.room = 0}, after = {.room = 0}, out = {.room = 0};
     thrown(&before, 0, false);
     thrown(&after, 0.1, false);
-    assert_true(still_reserve(&out, 2 * COUNT, 0));
+    assert_true(state_copy_reserve(&out, 2 * COUNT, 0));
     before.arrays.id[0] = 77; /* no more there afterwards */
     after.arrays.id[0] = 99;  /* not there before */
     before.arrays.position[4] = 0.99F;
     after.arrays.position[4] = -0.98F; /* 0.03 m on */
     for (int half = 0; half < 2; half++) {
         const double time = half ? 0.075 : 0.025;
-        assert_true(between_states(&before, &after, periodic, time, &out));
+        assert_true(interpolate_states(&before, &after, periodic, time, &out));
         assert_int_equal(out.state.count, COUNT);
         for (size_t i = 0; i < COUNT; i++) {
             const uint32_t id = out.arrays.id[i];
@@ -86,29 +86,29 @@ static void what_comes_goes_and_crosses(void **state)
                 assert_float_equal(x, half ? -1 + 0.0125 : 0.9975, 1e-6);
         }
     }
-    still_free(&before);
-    still_free(&after);
-    still_free(&out);
+    state_copy_free(&before);
+    state_copy_free(&after);
+    state_copy_free(&out);
 }
 
 /* By half the angle at half the time, also where the quaternion has the other sign. */
 static void the_box_turns_the_short_way(void **state)
 {
     (void)state;
-    Still before = {.room = 0}, after = {.room = 0}, out = {.room = 0};
+    StateCopy before = {.room = 0}, after = {.room = 0}, out = {.room = 0};
     thrown(&before, 0, false);
     thrown(&after, 0.1, false);
-    assert_true(still_reserve(&out, 2 * COUNT, 0));
+    assert_true(state_copy_reserve(&out, 2 * COUNT, 0));
     for (int sign = -1; sign <= 1; sign += 2) {
         after.state.box.orientation[0] = sign * sin(0.1);
         after.state.box.orientation[3] = sign * cos(0.1);
-        assert_true(between_states(&before, &after, closed, 0.05, &out));
+        assert_true(interpolate_states(&before, &after, closed, 0.05, &out));
         assert_float_equal(out.state.box.orientation[0], sin(0.05), 1e-9);
         assert_float_equal(out.state.box.orientation[3], cos(0.05), 1e-9);
     }
-    still_free(&before);
-    still_free(&after);
-    still_free(&out);
+    state_copy_free(&before);
+    state_copy_free(&after);
+    state_copy_free(&out);
 }
 
 int main(void)

@@ -2,8 +2,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/case/case.h"
-#include "app/metric/compression.h"
-#include "app/metric/metric.h"
+#include "app/run/measure/metric.h"
 #include "sim/world/world.h"
 
 enum { MOST = 4000 };

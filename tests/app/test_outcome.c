@@ -1,9 +1,8 @@
 /* What counts as which outcome, on made-up histories; what a look sees of places, and of worlds that fail. */
 #include "tests/sim/fixture.h"
 
-#include "app/metric/closeness.h"
-#include "app/outcome/fluid_watch.h"
-#include "app/outcome/outcome_watch.h"
+#include "app/run/measure/metric.h"
+#include "app/run/measure/outcome.h"
 #include "sim/wcsph/wcsph.h"
 
 #include <jansson.h>
@@ -17,8 +16,8 @@ static int calm(void **state)
     (void)state;
     history = (OutcomeHistory){.count = 10};
     for (int i = 0; i < history.count; i++)
-        history.look[i] =
-            (OutcomeLook){.time = 0.1 * i, .count = 1000, .energy = 100 + 0.02 * i, .scale = 100 + 0.02 * i};
+        history.look[i] = (OutcomeSample){
+            .time = 0.1 * i, .count = 1000, .energy = 100 + 0.02 * i, .scale = 100 + 0.02 * i};
     return 0;
 }
 
@@ -183,7 +182,7 @@ static void words_are_the_same_everywhere(void **state)
 static double together(const Cloud *cloud, double h, size_t stride)
 {
     double value = -1;
-    assert_true(metric_together(cloud, h, stride, &value));
+    assert_true(metric_common_motion(cloud, h, stride, &value));
     return value;
 }
 
@@ -289,7 +288,7 @@ static void a_world_that_ends_says_of_what(void **state)
     World *world = world_create(&def, &error);
     assert_non_null(world);
     history = (OutcomeHistory){.count = 0};
-    assert_true(outcome_look(&history, &def, false, world));
+    assert_true(outcome_sample(&history, &def, false, world));
     assert_int_equal(history.look[0].close, 0);
     assert_int_equal(history.look[0].beyond, 0);
     assert_true(isfinite(history.look[0].energy) && history.look[0].scale >= history.look[0].energy);

@@ -4,7 +4,7 @@
 #include "tests/render/ui_fixture.h"
 #include "tests/sim/toy_method.h"
 
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 #include "app/panel/panel.h"
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
@@ -34,7 +34,7 @@ typedef struct Session {
     char last[PANEL_SETTING_SIZE];
     PlayCommand command; /* the last one */
     GLuint none_passed;
-    HandDevice devices[3];
+    BoxControlDevice devices[3];
     int tuned; /* the last one */
     double gain, dead_zone;
     size_t opened;    /* scenes */
@@ -470,15 +470,15 @@ static void add_devices(Session *session)
     Mapping mapping;
     mapping_default(&mapping);
     for (int i = 0; i < 3; i++) {
-        HandDevice *device = &session->devices[i];
-        *device = (HandDevice){.number = i + 1,
-                               .family = families[i],
-                               .map = mapping.family[families[i]],
-                               .has_pose = i > 0,
-                               .turned = {0.5, -0.5, 0, sqrt(0.5)},
-                               .down = {0.5, -sqrt(0.75), 0},
-                               .resting = true,
-                               .axes = {0.5, -1, 0.02, 1, -0.7, 0.3}};
+        BoxControlDevice *device = &session->devices[i];
+        *device = (BoxControlDevice){.number = i + 1,
+                                     .family = families[i],
+                                     .map = mapping.family[families[i]],
+                                     .has_pose = i > 0,
+                                     .turned = {0.5, -0.5, 0, sqrt(0.5)},
+                                     .down = {0.5, -sqrt(0.75), 0},
+                                     .resting = true,
+                                     .axes = {0.5, -1, 0.02, 1, -0.7, 0.3}};
         snprintf(device->name, sizeof device->name, "%s", names[i]);
     }
     snprintf(session->devices[2].problem, sizeof session->devices[2].problem,

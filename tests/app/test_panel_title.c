@@ -1,5 +1,5 @@
 /* Titles of panels that show different states. */
-#include "app/beside/panel_title.h"
+#include "app/run/compare/compare.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

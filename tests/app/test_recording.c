@@ -1,7 +1,7 @@
 /* Recordings: what is written comes back to the bit; what is wrong is named with its line. */
 #include "tests/app/output_fixture.h"
 
-#include "app/recording/recording.h"
+#include "app/run/recording/recording.h"
 #include "app/scene/scene_files.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* A session that was recorded comes out with the same bits when it is simulated again. */
 #include "tests/app/output_fixture.h"
 
-#include "app/session/recording_play.h"
+#include "app/run/session.h"
 
 #include <math.h>
 

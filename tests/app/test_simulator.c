@@ -2,9 +2,9 @@
    takes states meanwhile, as the window does; ThreadSanitizer watches. */
 #include "tests/app/output_fixture.h"
 
-#include "app/session/headless.h"
-#include "app/session/recording_play.h"
-#include "app/session/simulator.h"
+#include "app/run/offscreen.h"
+#include "app/run/session.h"
+#include "app/run/simulator.h"
 #include "sim/matter/seed.h"
 
 #include <math.h>
@@ -222,13 +222,13 @@ static void states_tell_what_they_obey(void **state)
     wait_for(&rig, is_ready);
     assert_int_equal(send_target(&rig, 0.1), 1);
     assert_int_equal(send_target(&rig, 0.2), 2); /* in the place of the first */
-    assert_int_equal(simulator_obeyed(rig.simulator, 0), 0);
+    assert_int_equal(simulator_applied(rig.simulator, 0), 0);
     simulator_single_step(rig.simulator, false);
     do
         wait_for(&rig, has_shown_all);
     while (rig.status.step < 5);
-    assert_int_equal(simulator_obeyed(rig.simulator, 5), 2);
-    assert_int_equal(simulator_obeyed(rig.simulator, 0), 0);
+    assert_int_equal(simulator_applied(rig.simulator, 5), 2);
+    assert_int_equal(simulator_applied(rig.simulator, 0), 0);
     assert_true(rig.particles.box.position[0] > 0);
     rig_close(&rig);
 }
@@ -251,7 +251,7 @@ static void what_waits_is_replaced(void **state)
     do
         wait_for(&rig, has_shown_all);
     while (rig.status.step < 5);
-    assert_int_equal(simulator_obeyed(rig.simulator, 5), sent);
+    assert_int_equal(simulator_applied(rig.simulator, 5), sent);
     simulator_save(rig.simulator, "a.rec");
     wait_for(&rig, has_saved);
     rig_close(&rig);
@@ -330,7 +330,7 @@ static void a_saved_session_gives_the_same_bits(void **state)
     assert_true(sent > 0);
     do
         wait_for(&rig, is_ready);
-    while (simulator_obeyed(rig.simulator, rig.status.step) < sent);
+    while (simulator_applied(rig.simulator, rig.status.step) < sent);
     simulator_reset(rig.simulator);
     simulator_set_realtime(rig.simulator, false); /* always within a frame */
     wait_for(&rig, is_ready);

@@ -1,10 +1,10 @@
 /* The solver on the window's own thread, its backend on the GPU; and from one backend to another. */
 #include "tests/app/output_fixture.h"
 
-#include "app/beside/company.h"
-#include "app/session/headless.h"
-#include "app/session/recording_play.h"
-#include "app/session/simulator.h"
+#include "app/run/compare/compare.h"
+#include "app/run/offscreen.h"
+#include "app/run/session.h"
+#include "app/run/simulator.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/shader_source.h"
 
@@ -321,26 +321,26 @@ static void what_follows_and_fails_is_empty(void **state)
     char text[sizeof still + 80];
     Notes notes = {.count = 0};
     SceneSettings settings = {.count = 0};
-    Company *company;
+    CompareRuns *compared;
     Simulator *followers[SIMULATOR_FOLLOWERS];
     ParticleBuffers particles;
     Rig rig = {.upload = NULL};
     snprintf(text, sizeof text, "%sviews: [{}, {set: {solver.method: dfsph}}]\n", still);
     must(scene_parse("a.yaml", text, strlen(text), &settings, &scene, NULL, &error) &&
          recording_create(&rig.recording, "a.yaml", text, strlen(text), &settings, &error));
-    const CompanySetup reads = {.scene = &scene, .text = text, .size = strlen(text), .settings = &settings};
-    must(company_read(&reads, &company, &notes, &error));
+    const CompareSetup reads = {.scene = &scene, .text = text, .size = strlen(text), .settings = &settings};
+    must(compare_read(&reads, &compared, &notes, &error));
     SimulatorSetup setup = {.scene = &scene, .recording = &rig.recording, .paused = true};
-    must(company_start(company, &setup, &error));
+    must(compare_start(compared, &setup, &error));
     setup.followers = followers;
-    setup.follower_count = company_followers(company, followers);
+    setup.follower_count = compare_followers(compared, followers);
     assert_int_equal(setup.follower_count, 1);
     rig.simulator = simulator_create(&setup, &error);
     assert_non_null(rig.simulator);
     simulator_single_step(rig.simulator, false);
     until_step(&rig, 5);
-    const ParticleBuffers *shown = company_state(company, &scene.views[1]);
-    assert_true(company_take(company, rig.status.time));
+    const ParticleBuffers *shown = compare_state(compared, &scene.views[1]);
+    assert_true(compare_take(compared, rig.status.time));
     assert_true(shown->count == 400 && shown->position.buffer);
     must(simulator_share(rig.simulator, PARTICLE_SCALAR(SCALAR_SPEED), &particles));
     simulator_step_back(rig.simulator, false); /* without a past nothing is new */
@@ -348,7 +348,7 @@ static void what_follows_and_fails_is_empty(void **state)
         simulator_work(rig.simulator, 1);
         simulator_status(rig.simulator, &rig.status);
     } while (rig.status.past.travelling);
-    assert_true(!simulator_fresh(rig.simulator) && !company_fresh(company));
+    assert_true(!simulator_fresh(rig.simulator) && !compare_has_new(compared));
     break_shader("sim/dfsph/force.comp");
     simulator_reset(rig.simulator);
     do {
@@ -356,12 +356,12 @@ static void what_follows_and_fails_is_empty(void **state)
         simulator_status(rig.simulator, &rig.status);
     } while (rig.status.step != 0);
     shader_source_set_directory(NULL);
-    company_take(company, rig.status.time);
+    compare_take(compared, rig.status.time);
     assert_true(shown->count == 0 && !shown->position.buffer && !shown->births);
-    assert_true(company_message(company, (char[1280]){0}));
+    assert_true(compare_message(compared, (char[1280]){0}));
     assert_false(rig.status.failed);
     assert_true(simulator_destroy(rig.simulator, 10000));
-    company_destroy(company);
+    compare_destroy(compared);
     recording_destroy(&rig.recording);
 }
 

@@ -2,9 +2,9 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/files/snapshot.h"
-#include "app/recording/sim_command.h"
+#include "app/run/offscreen.h"
+#include "app/run/recording/sim_command.h"
 #include "app/scene/keys.h"
-#include "app/session/headless.h"
 #include "sim/gl/backends.h"
 #include "sim/world/world.h"
 #include "tests/sim/toy_method.h"

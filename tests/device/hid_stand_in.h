@@ -4,7 +4,7 @@
 
 #include "tests/device/report_fixture.h"
 
-#include "app/device/hid_port.h"
+#include "app/input/device/devices.h"
 #include "sim/base/stage.h"
 
 #include <pthread.h>

@@ -10,8 +10,7 @@
 
 #include <cmocka.h>
 
-#include "app/device/checksum.h"
-#include "app/device/report.h"
+#include "app/input/device/report.h"
 
 #include <string.h>
 

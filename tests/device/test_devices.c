@@ -2,9 +2,7 @@
 #include "tests/device/hid_stand_in.h"
 #include "tests/scratch.h"
 
-#include "app/device/device_survey.h"
-#include "app/device/device_trouble.h"
-#include "app/device/devices.h"
+#include "app/input/device/devices.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -398,18 +396,18 @@ static void a_report_is_told_at_once(void **state)
 static void a_survey_tells_what_may_be_opened(void **state)
 {
     (void)state;
-    static DeviceFound found[DEVICE_SURVEY_MAX];
+    static DeviceListing found[DEVICE_LIST_MAX];
     StandInDevice *pad = plug(0, 0x054c, 0x0ce6, true), *cap = plug(1, 0x046d, 0xc626, false);
     plug(2, 0x256f, 0xc650, false);
     STAND_IN_SET(cap->refusal, HID_DENIED);
     STAND_IN_SET(pad->twice, true);
-    assert_int_equal(device_survey(&stand_in_port, found), 2);
+    assert_int_equal(device_list(&stand_in_port, found), 2);
     assert_string_equal(found[0].row->name, "DualSense");
     assert_true(found[0].info.bluetooth && found[0].problem[0] == 0);
     assert_non_null(strstr(found[1].problem, rules_command()));
     assert_true(pad->opens == 1 && pad->closes == 1);
     STAND_IN_SET(stand_in.answer, -1);
-    assert_int_equal(device_survey(&stand_in_port, found), -1);
+    assert_int_equal(device_list(&stand_in_port, found), -1);
 }
 
 static void a_process_is_found_by_its_name(void **state)

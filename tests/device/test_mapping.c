@@ -2,8 +2,8 @@
 #include "tests/near.h"
 #include "tests/scratch.h"
 
-#include "app/device/device_table.h"
-#include "app/device/mapping.h"
+#include "app/input/device/device.h"
+#include "app/input/mapping.h"
 
 #include <stdlib.h>
 #include <string.h>

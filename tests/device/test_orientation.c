@@ -6,7 +6,7 @@
    Accelerometer: 150 ug/sqrt(Hz), 1.3 mg. Readings are rounded to the reports' 1/16 degree/s and 1/8192 g. */
 #include "tests/near.h"
 
-#include "app/device/orientation.h"
+#include "app/input/device/device.h"
 #include "sim/box/box_motion.h"
 
 #include <string.h>

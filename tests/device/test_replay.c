@@ -2,8 +2,8 @@
 #include "tests/app/output_fixture.h"
 #include "tests/device/hid_stand_in.h"
 
-#include "app/device/devices.h"
-#include "app/device/report_log.h"
+#include "app/input/device/devices.h"
+#include "app/input/device/report_log.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* Recordings of raw reports: written, read again, cut, and wrong in every way that can be told. */
 #include "tests/app/output_fixture.h"
 
-#include "app/device/report_log.h"
+#include "app/input/device/report_log.h"
 #include "sim/base/stage.h"
 
 #include <signal.h>

@@ -1,8 +1,7 @@
 /* Reports that come late and all at once are as far apart as the device measured them. */
 #include "tests/device/report_fixture.h"
 
-#include "app/device/orientation.h"
-#include "app/device/sensor_clock.h"
+#include "app/input/device/device.h"
 
 #include <math.h>
 #include <stdio.h>

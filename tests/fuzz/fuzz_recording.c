@@ -1,5 +1,5 @@
 /* Fuzz target of the recording's parser: what is read can be written again, and is then the same. */
-#include "app/recording/recording.h"
+#include "app/run/recording/recording.h"
 
 #include <stdio.h>
 #include <stdlib.h>

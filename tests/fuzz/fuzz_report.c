@@ -1,8 +1,7 @@
 /* Fuzz target of the parsers of motion devices. The first byte chooses the layout, the second a calibration
    and whether the reports get a right checksum; then reports follow, each behind its length. What is refused
    changes nothing, and what is taken gives finite numbers within what a sensor can say. */
-#include "app/device/checksum.h"
-#include "app/device/report.h"
+#include "app/input/device/report.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/case/run.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "sim/gl/backends.h"
 
 static Headless *context;

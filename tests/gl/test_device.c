@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
-#include "app/session/studio.h"
+#include "app/run/offscreen.h"
 #include "render/glyphs/glyphs_def.h"
 #include "render/pbsr/pbsr_def.h"
 #include "sim/gl/backends.h"
@@ -204,11 +204,12 @@ static ViewDef view_of(const Viewed *viewed)
    frame, for what the sentinel found in the frame before, for the energy, since fluid that begins to fall is
    watched closely, and for that range. `late`: as in the window, which waits for no range, no length of
    arrows and nothing that a legend says. */
-static void count_frames(const char *backend, const Viewed *viewed, bool late, Studio *studio, World *world)
+static void count_frames(const char *backend, const Viewed *viewed, bool late, Offscreen *offscreen,
+                         World *world)
 {
     enum { FRAMES = 3 };
     Error error = {0};
-    renderer_set_late(studio->renderer, late);
+    renderer_set_late(offscreen->renderer, late);
     for (int frame = 0; frame < 2 + FRAMES; frame++) {
         if (frame == 2) { /* the first pictures make what they need */
             crossings = waits = queries = 0;
@@ -216,7 +217,7 @@ static void count_frames(const char *backend, const Viewed *viewed, bool late, S
         }
         bool done = world_step(world, NULL, &error);
         drawing = true;
-        done = done && studio_draw(studio, world, NULL, NULL, &error);
+        done = done && offscreen_draw(offscreen, world, NULL, NULL, &error);
         drawing = false;
         if (!done)
             fail_msg("%s, view %td, frame %d: %s", backend, viewed - views, frame, error.message);
@@ -246,13 +247,13 @@ static void no_particle_crosses_in_a_frame(void **state)
     }
     for (size_t i = 0; i < sizeof views / sizeof *views; i++) {
         Error error = {0};
-        Studio studio;
+        Offscreen offscreen;
         const ViewDef view = view_of(&views[i]);
-        if (!studio_open(&studio, &view, &def, worlds[0], 64, 64, &error))
+        if (!offscreen_open(&offscreen, &view, &def, worlds[0], 64, 64, &error))
             fail_msg("%s", error.message);
         for (int k = 0; k < 3; k++)
-            count_frames(backends[k % 2], &views[i], k > 1, &studio, worlds[k % 2]);
-        studio_close(&studio);
+            count_frames(backends[k % 2], &views[i], k > 1, &offscreen, worlds[k % 2]);
+        offscreen_close(&offscreen);
     }
     for (int k = 0; k < 2; k++) { /* the counters count */
         crossings = 0;

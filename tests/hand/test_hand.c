@@ -1,7 +1,7 @@
 /* The hand: what devices say becomes the pose that the box shall have. */
 #include "tests/near.h"
 
-#include "app/hand/hand.h"
+#include "app/input/hand.h"
 
 #include <string.h>
 
@@ -182,14 +182,14 @@ static void let_go_stops_where_the_box_is(void **state)
     HandInput input = level(), still = level();
     input.move_drag[0] = 0.3, input.move_offset[1] = 1;
     check_told(&hand, &input, &target);
-    hand_let_go(&hand, &now, NULL, size);
+    hand_release(&hand, &now, NULL, size);
     check_told(&hand, &still, &target);
     assert_memory_equal(&target, &now, sizeof now);
     assert_false(hand_update(&hand, &still, size, &target));
 
     BoxTarget broken = now;
     broken.orientation[2] = NAN;
-    hand_let_go(&hand, &broken, NULL, size);
+    hand_release(&hand, &broken, NULL, size);
     assert_false(hand_update(&hand, &still, size, &target));
     assert_memory_equal(&target, &now, sizeof now);
 }
@@ -255,7 +255,7 @@ static void let_go_of_one_of_two(void **state)
     HandInput still = level();
     still.tilt_offset[0] = 0.3;
     memcpy(still.turned, (double[]){0.3, -0.1, 0.1, 0.9}, sizeof still.turned);
-    hand_let_go(&hand, &before, &still, size);
+    hand_release(&hand, &before, &still, size);
     hand_update(&hand, &still, size, &target);
     check_vector(target.position, before.position[0], before.position[1], before.position[2], 1e-9,
                  "position");

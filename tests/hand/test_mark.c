@@ -1,14 +1,15 @@
 /* The mark of a recording, its mapping and its camera: the same for the same ones, wherever and whoever. */
 #include "tests/app/output_fixture.h"
 
-#include "app/held/hand_mark.h"
+#include "app/input/box_control.h"
 
 #define HEAD "slosh device recording 1\n0 1 plugged dualsense 054c:0ce6 usb\n"
 
 static const char plain[] = HEAD "0.1 1 report 01fe\n";
 
 /* Of that recording with that mapping file ("": as built in), looked at along `away_z`. */
-static void mark_of(const char *recording, const char *yaml, double away_z, char mark[HAND_MARK_SIZE])
+static void mark_of(const char *recording, const char *yaml, double away_z,
+                    char mark[DEVICE_REPLAY_HASH_SIZE])
 {
     Error error = {{0}};
     ReportLog log;
@@ -18,8 +19,8 @@ static void mark_of(const char *recording, const char *yaml, double away_z, char
     if (!report_log_parse("a.rec", recording, strlen(recording), &log, &error) ||
         (*yaml && !mapping_parse("m.yaml", yaml, strlen(yaml), &mapping, &error)))
         fail_msg("%s", error.message);
-    assert_true(hand_mark(&log, &mapping, &axes, mark));
-    assert_int_equal(strlen(mark), HAND_MARK_SIZE - 1);
+    assert_true(device_replay_hash(&log, &mapping, &axes, mark));
+    assert_int_equal(strlen(mark), DEVICE_REPLAY_HASH_SIZE - 1);
     report_log_destroy(&log);
 }
 
@@ -38,7 +39,7 @@ static void any_difference_that_moves_the_box_tells(void **state)
         {plain, "dualsense: {axes: {left_x: {invert: true}}}\n", -1},
         {plain, "", 1},
     };
-    char mark[HAND_MARK_SIZE], other[HAND_MARK_SIZE];
+    char mark[DEVICE_REPLAY_HASH_SIZE], other[DEVICE_REPLAY_HASH_SIZE];
     mark_of(plain, "", -1, mark);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         mark_of(others[i].recording, others[i].yaml, others[i].away_z, other);
@@ -51,7 +52,7 @@ static void any_difference_that_moves_the_box_tells(void **state)
 static void the_same_at_another_home(void **state)
 {
     (void)state;
-    char mark[HAND_MARK_SIZE], other[HAND_MARK_SIZE];
+    char mark[DEVICE_REPLAY_HASH_SIZE], other[DEVICE_REPLAY_HASH_SIZE];
     assert_int_equal(setenv("XDG_CONFIG_HOME", "/home/a/config", 1), 0);
     mark_of(plain, "", -1, mark);
     assert_int_equal(setenv("XDG_CONFIG_HOME", "/srv/b", 1), 0);

@@ -1,7 +1,7 @@
 /* The camera in the hand: it begins where the picture is, and drags do what they look like. */
 #include "tests/near.h"
 
-#include "app/hand/orbit.h"
+#include "app/input/hand.h"
 #include "render/frame/camera.h"
 
 #include <string.h>
@@ -140,7 +140,7 @@ static void a_drag_there_and_back_ends_where_it_began(void **state)
     for (int i = 0; i < 16; i++)
         check_near(after.view[i], before.view[i], 1e-6, "the matrix");
     orbit_turn(&orbit, 0, -3);
-    orbit_settle(&orbit);
+    orbit_begin_drag(&orbit);
     orbit_turn(&orbit, 0, 29 * M_PI / 180);
     check_near(camera_of(&orbit).eye[1], 0.15 + sqrt(3), 1e-5, "the eye"); /* 60 degrees above */
 }

@@ -2,7 +2,7 @@
  */
 #include "tests/near.h"
 
-#include "app/hand/outline.h"
+#include "app/input/hand.h"
 
 #include <string.h>
 
@@ -30,10 +30,10 @@ static void the_box_comes_to_the_outline(void **state)
         box_state_at(&shake, 1, size[1], time, &box);
         box_filter_apply(&filter, size[1], &box);
         outline_pose(&shake, 1, size[1], time, &target, &goal);
-        const double apart = outline_apart(&box, &goal, size);
+        const double apart = outline_distance(&box, &goal, size);
         if (apart > before + 1e-3)
             fail_msg("the box leaves the outline at %g s", time);
-        shown = outline_follow(shown, i == 0, apart);
+        shown = outline_is_needed(shown, i == 0, apart);
         if (i == 0)
             assert_true(shown);
         before = apart;
@@ -46,9 +46,9 @@ static void the_box_comes_to_the_outline(void **state)
 static void a_box_that_keeps_up_has_none(void **state)
 {
     (void)state;
-    assert_false(outline_follow(false, false, 3));
-    assert_false(outline_follow(false, true, 0.01)); /* as good as there */
-    assert_true(outline_follow(true, false, 0.01));  /* and until it is */
+    assert_false(outline_is_needed(false, false, 3));
+    assert_false(outline_is_needed(false, true, 0.01)); /* as good as there */
+    assert_true(outline_is_needed(true, false, 0.01));  /* and until it is */
 }
 
 static void a_turn_moves_the_corners(void **state)
@@ -58,7 +58,7 @@ static void a_turn_moves_the_corners(void **state)
     BoxState a, b;
     outline_pose(NULL, 0, size[1], 0, &home, &a);
     outline_pose(NULL, 0, size[1], 0, &turned, &b);
-    check_near(outline_apart(&a, &b, size), hypot(0.4, 0.2) / 0.4, 1e-9, "half a turn");
+    check_near(outline_distance(&a, &b, size), hypot(0.4, 0.2) / 0.4, 1e-9, "half a turn");
 }
 
 /* Twelve edges, each along one axis, all different, with the floor at y = 0. */

@@ -4,7 +4,7 @@
 #include "tests/device/hid_stand_in.h"
 #include "tests/near.h"
 
-#include "app/held/hand_post.h"
+#include "app/input/box_control.h"
 #include "sim/base/stage.h"
 
 #include <pthread.h>
@@ -46,10 +46,10 @@ static uint64_t take(void *user, const BoxTarget *target)
 
 /* A window that looks along -z, and devices. */
 typedef struct Room {
-    HandPost *post;
+    BoxControl *control;
     Sent sent;
     HandInput own;
-    HandNews news;
+    BoxControlNews news;
     DeviceState pad, cap;
 } Room;
 
@@ -62,7 +62,7 @@ static void wake(void)
 
 static void look(Room *room)
 {
-    hand_post_look(room->post, &room->own, size, &room->news);
+    box_control_update(room->control, &room->own, size, &room->news);
 }
 
 static void sleep_ms(double ms)
@@ -82,7 +82,7 @@ static void tell(Room *room, DeviceEventKind kind, int number, const char *probl
                                .name = pad ? "DualSense" : "SpaceMouse Compact",
                                .problem = problem,
                                .state = pad ? &room->pad : &room->cap};
-    hand_post_hear(room->post, &event);
+    box_control_device_event(room->control, &event);
 }
 
 static void report(Room *room, int number)
@@ -98,8 +98,8 @@ static Room room_open(void)
     Mapping mapping;
     mapping_default(&mapping);
     woken = 0;
-    Room room = {.post = hand_post_create(&mapping, wake)};
-    assert_non_null(room.post);
+    Room room = {.control = box_control_create(&mapping, wake)};
+    assert_non_null(room.control);
     room.own.right[0] = 1, room.own.up[1] = 1, room.own.away[2] = -1;
     room.pad.has_motion = true;
     room.pad.acceleration[1] = g;
@@ -109,13 +109,13 @@ static Room room_open(void)
 /* `room` stays where it is from now on: what is sent goes there. */
 static void room_begin(Room *room)
 {
-    hand_post_open(room->post, take, &room->sent);
+    box_control_open(room->control, take, &room->sent);
     look(room);
 }
 
 static void room_close(Room *room)
 {
-    hand_post_destroy(room->post);
+    box_control_destroy(room->control);
 }
 
 /* The pad is turned about z by so many degrees, and says so in 0.1 s. */
@@ -158,7 +158,7 @@ static void a_report_is_a_command_at_once(void **state)
     look(&room);
     assert_int_equal(room.news.sent_count, 1);
     assert_int_equal(room.news.sent[0].number, 1);
-    assert_int_equal(hand_post_reports(room.post), 1);
+    assert_int_equal(box_control_reports(room.control), 1);
     look(&room);
     assert_int_equal(room.news.words_count + room.news.sent_count, 0);
     room_close(&room);
@@ -219,7 +219,7 @@ static void unplugged_the_box_stays(void **state)
     assert_int_equal(room.sent.count, before.count);
     report(&room, PAD); /* of one that is gone */
     assert_int_equal(room.sent.count, before.count);
-    hand_post_home(room.post);
+    box_control_home(room.control);
     look(&room);
     assert_int_equal(room.sent.count, before.count + 1);
     check_vector(room.sent.last.position, 0, 0, 0, 0, "position");
@@ -346,14 +346,14 @@ static void neutral_and_home(void **state)
     tell(&room, DEVICE_PLUGGED, PAD, "");
     turn_pad(&room, 0);
     turn_pad(&room, 25);
-    hand_post_neutral(room.post);
+    box_control_neutral(room.control);
     look(&room);
     check_tilt(&room, 0);
     turn_pad(&room, -10);
     check_tilt(&room, -10);
     room.own.turn_drag[0] = 1, room.own.move_drag[0] = 0.2;
     look(&room);
-    hand_post_home(room.post);
+    box_control_home(room.control);
     room.own.turn_drag[0] = room.own.move_drag[0] = 0;
     look(&room);
     check_tilt(&room, 0);
@@ -364,45 +364,45 @@ static void neutral_and_home(void **state)
 static void what_may_not_be_opened_is_told(void **state)
 {
     (void)state;
-    HandDevice devices[HAND_POST_DEVICES_MAX];
+    BoxControlDevice devices[BOX_CONTROL_DEVICES_MAX];
     Room room = room_open();
     room_begin(&room);
     tell(&room, DEVICE_REFUSED, PAD, "permission denied; install the rule");
     look(&room);
     assert_true(room.news.words[0].wrong);
     assert_string_equal(room.news.words[0].text, "DualSense: permission denied; install the rule");
-    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_int_equal(box_control_devices(room.control, devices), 1);
     assert_string_equal(devices[0].problem, "permission denied; install the rule");
-    assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6)); /* the window may have it */
+    assert_false(box_control_uses(room.control, 0x054c, 0x0ce6)); /* the window may have it */
     tell(&room, DEVICE_UNPLUGGED, PAD, "");
-    assert_int_equal(hand_post_devices(room.post, devices), 0);
+    assert_int_equal(box_control_devices(room.control, devices), 0);
     look(&room);
     assert_string_equal(room.news.words[0].text, "DualSense is gone");
     tell(&room, DEVICE_REFUSED, PAD, "permission denied; install the rule");
     tell(&room, DEVICE_PLUGGED, PAD, "");
-    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_int_equal(box_control_devices(room.control, devices), 1);
     assert_string_equal(devices[0].problem, "");
-    assert_true(hand_post_claims(room.post, 0x054c, 0x0ce6));
-    assert_false(hand_post_claims(room.post, 0x054c, 0x09cc));
+    assert_true(box_control_uses(room.control, 0x054c, 0x0ce6));
+    assert_false(box_control_uses(room.control, 0x054c, 0x09cc));
     tell(&room, DEVICE_UNPLUGGED, PAD, "");
-    assert_false(hand_post_claims(room.post, 0x054c, 0x0ce6));
-    assert_int_equal(hand_post_devices(room.post, devices), 0);
+    assert_false(box_control_uses(room.control, 0x054c, 0x0ce6));
+    assert_int_equal(box_control_devices(room.control, devices), 0);
     room_close(&room);
 }
 
 static void more_than_there_is_room_for(void **state)
 {
     (void)state;
-    HandDevice devices[HAND_POST_DEVICES_MAX];
+    BoxControlDevice devices[BOX_CONTROL_DEVICES_MAX];
     Room room = room_open();
     room_begin(&room);
     for (int number = 1; number < 30; number++)
         tell(&room, DEVICE_PLUGGED, number, "");
-    assert_int_equal(hand_post_devices(room.post, devices), HAND_POST_DEVICES_MAX);
+    assert_int_equal(box_control_devices(room.control, devices), BOX_CONTROL_DEVICES_MAX);
     for (int number = 1; number < 30; number += 2)
         tell(&room, DEVICE_UNPLUGGED, number, "");
-    assert_int_equal(hand_post_devices(room.post, devices), HAND_POST_DEVICES_MAX / 2);
-    for (int i = 0; i < HAND_POST_DEVICES_MAX / 2; i++)
+    assert_int_equal(box_control_devices(room.control, devices), BOX_CONTROL_DEVICES_MAX / 2);
+    for (int i = 0; i < BOX_CONTROL_DEVICES_MAX / 2; i++)
         assert_int_equal(devices[i].number, 2 * (i + 1)); /* in the order of coming */
     room_close(&room);
 }
@@ -410,17 +410,17 @@ static void more_than_there_is_room_for(void **state)
 static void tuned_in_the_panel(void **state)
 {
     (void)state;
-    HandDevice devices[HAND_POST_DEVICES_MAX];
+    BoxControlDevice devices[BOX_CONTROL_DEVICES_MAX];
     Room room = room_open();
     room_begin(&room);
     tell(&room, DEVICE_PLUGGED, PAD, "");
-    hand_post_tune(room.post, PAD, 0.5, 0.4);
+    box_control_tune(room.control, PAD, 0.5, 0.4);
     turn_pad(&room, 0);
     turn_pad(&room, 20);
     check_tilt(&room, 10);
     tell(&room, DEVICE_UNPLUGGED, PAD, "");
     tell(&room, DEVICE_PLUGGED, PAD, ""); /* the same again */
-    assert_int_equal(hand_post_devices(room.post, devices), 1);
+    assert_int_equal(box_control_devices(room.control, devices), 1);
     check_near(devices[0].map.gain, 0.5, 0, "gain");
     check_near(devices[0].map.dead_zone, 0.4, 0, "dead zone");
     room_close(&room);
@@ -491,7 +491,7 @@ static void a_new_scene_knows_no_older_commands(void **state)
     tell(&room, DEVICE_PLUGGED, PAD, "");
     turn_pad(&room, 10);
     assert_true(room.sent.count > 0);
-    hand_post_open(room.post, take, &room.sent);
+    box_control_open(room.control, take, &room.sent);
     look(&room);
     assert_int_equal(room.news.sent_count, 0);
     room_close(&room);
@@ -504,7 +504,7 @@ static void closed_it_sends_nothing(void **state)
     tell(&room, DEVICE_PLUGGED, CAP, "");
     room.cap.cap[0] = 1;
     report(&room, CAP); /* before any scene */
-    hand_post_open(room.post, take, &room.sent);
+    box_control_open(room.control, take, &room.sent);
     report(&room, CAP); /* before the first picture: nobody knows what is right */
     assert_int_equal(room.sent.count, 0);
     look(&room);
@@ -512,7 +512,7 @@ static void closed_it_sends_nothing(void **state)
     report(&room, CAP);
     assert_true(room.sent.count > 0);
     const uint64_t count = room.sent.count;
-    hand_post_close(room.post);
+    box_control_close(room.control);
     sleep_ms(1);
     report(&room, CAP);
     look(&room);
@@ -538,9 +538,9 @@ static void *draw_on(void *user)
 {
     Room *room = user;
     while (drawing) {
-        HandDevice devices[HAND_POST_DEVICES_MAX];
+        BoxControlDevice devices[BOX_CONTROL_DEVICES_MAX];
         look(room);
-        hand_post_devices(room->post, devices);
+        box_control_devices(room->control, devices);
     }
     return NULL;
 }
@@ -553,7 +553,7 @@ static void none_is_lost_while_the_window_draws(void **state)
     pthread_t window;
     int late = 0;
     Room room = room_open();
-    hand_post_open(room.post, count_command, NULL);
+    box_control_open(room.control, count_command, NULL);
     look(&room);
     tell(&room, DEVICE_PLUGGED, PAD, "");
     drawing = true;
@@ -566,10 +566,10 @@ static void none_is_lost_while_the_window_draws(void **state)
     }
     drawing = false;
     pthread_join(window, NULL);
-    assert_int_equal(hand_post_reports(room.post), REPORTS);
+    assert_int_equal(box_control_reports(room.control), REPORTS);
     assert_int_equal(late, 0);
-    assert_true(hand_post_latency(room.post, 0.5) > 0);
-    assert_true(hand_post_latency(room.post, 0.99) >= hand_post_latency(room.post, 0.5));
+    assert_true(box_control_latency(room.control, 0.5) > 0);
+    assert_true(box_control_latency(room.control, 0.99) >= box_control_latency(room.control, 0.5));
     room_close(&room);
 }
 
@@ -584,10 +584,11 @@ static void each_is_a_command_from_the_bytes_on(void **state)
     Error error = {{0}};
     Room room = room_open();
     commands = 0;
-    hand_post_open(room.post, count_command, NULL);
+    box_control_open(room.control, count_command, NULL);
     look(&room);
     StandInDevice *pad = plug(0, 0x054c, 0x0ce6, false);
-    const DevicesSetup setup = {.port = &stand_in_port, .listener = hand_post_hear, .user = room.post};
+    const DevicesSetup setup = {
+        .port = &stand_in_port, .listener = box_control_device_event, .user = room.control};
     const Report turning = axes_report(LAYOUT_DUALSENSE_USB, (const int[6]){0, 640, 0, 0, 8192, 0}, false);
     Devices *devices = devices_start(&setup, &error);
     assert_non_null(devices);
@@ -597,9 +598,9 @@ static void each_is_a_command_from_the_bytes_on(void **state)
         const double until = wall_ms() + 20000;
         const int before = commands;
         push(pad, &turning);
-        while (hand_post_reports(room.post) <= (uint64_t)i && wall_ms() < until)
+        while (box_control_reports(room.control) <= (uint64_t)i && wall_ms() < until)
             sleep_ms(0.05);
-        assert_int_equal(hand_post_reports(room.post), i + 1);
+        assert_int_equal(box_control_reports(room.control), i + 1);
         while (i > 0 && commands == before &&
                wall_ms() < until) /* the first one has no time before it to turn in */
             sleep_ms(0.05);
@@ -622,7 +623,7 @@ static void at_another_time_it_goes_on_from_there(void **state)
     look(&room);
     room.own.move_drag[0] = 0;
     assert_true(room.sent.count == 1 && room.sent.last.position[0] == 0.1);
-    hand_post_follow(room.post, &(BoxTarget){{0.5, 0.2, 0}, {0, 0, 0, 1}});
+    box_control_set_target(room.control, &(BoxTarget){{0.5, 0.2, 0}, {0, 0, 0, 1}});
     look(&room);
     look(&room);
     assert_int_equal(room.sent.count, 1);
@@ -636,7 +637,7 @@ static void at_another_time_it_goes_on_from_there(void **state)
     turn_pad(&room, 20);
     check_tilt(&room, 20);
     const uint64_t sent = room.sent.count;
-    hand_post_follow(room.post, &(BoxTarget){{0, 0, 0}, {0, 0, 0, 1}});
+    box_control_set_target(room.control, &(BoxTarget){{0, 0, 0}, {0, 0, 0, 1}});
     look(&room);
     assert_int_equal(room.sent.count, sent); /* held as it is, the box is as it was */
     turn_pad(&room, 10);

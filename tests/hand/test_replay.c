@@ -4,10 +4,9 @@
 #include "tests/device/report_fixture.h"
 #include "tests/near.h"
 
-#include "app/hand/hand.h"
-#include "app/held/hand_replay.h"
-#include "app/held/held_devices.h"
-#include "app/session/session.h"
+#include "app/input/box_control.h"
+#include "app/input/hand.h"
+#include "app/run/session.h"
 #include "sim/world/world_state.h"
 
 static const double SIZE[3] = {1, 1, 1};
@@ -81,10 +80,10 @@ static Scene scene_seen_from(const char *from)
     return scene;
 }
 
-static HandReplay *open_replay(const char *source, const char *mapping, const char *from)
+static DeviceReplay *open_replay(const char *source, const char *mapping, const char *from)
 {
     const Scene scene = scene_seen_from(from);
-    HandReplay *replay = hand_replay_open(source, mapping, &scene, &error);
+    DeviceReplay *replay = device_replay_open(source, mapping, &scene, &error);
     if (!replay)
         fail_msg("%s", error.message);
     return replay;
@@ -104,12 +103,12 @@ static void the_target_is_the_tilt_recorded(void **state)
 {
     (void)state;
     write_tilt("tilt", 1);
-    HandReplay *replay = open_replay("file:tilt", NULL, IN_FRONT);
-    check_turn(hand_replay_at(replay, SIZE, 0).orientation, 0, 0, 0);
-    check_turn(hand_replay_at(replay, SIZE, 0.25).orientation, 0, -15, 0.5);
-    check_turn(hand_replay_at(replay, SIZE, 0.6).orientation, 0, -30, 0.5);
-    check_turn(hand_replay_at(replay, SIZE, 50).orientation, 0, -30, 0.5); /* unplugged long since */
-    hand_replay_close(replay);
+    DeviceReplay *replay = open_replay("file:tilt", NULL, IN_FRONT);
+    check_turn(device_replay_target(replay, SIZE, 0).orientation, 0, 0, 0);
+    check_turn(device_replay_target(replay, SIZE, 0.25).orientation, 0, -15, 0.5);
+    check_turn(device_replay_target(replay, SIZE, 0.6).orientation, 0, -30, 0.5);
+    check_turn(device_replay_target(replay, SIZE, 50).orientation, 0, -30, 0.5); /* unplugged long since */
+    device_replay_close(replay);
 }
 
 /* Seen from the right, what leans to the right leans towards -z. */
@@ -117,9 +116,9 @@ static void right_is_that_of_the_camera(void **state)
 {
     (void)state;
     write_tilt("tilt", 1);
-    HandReplay *replay = open_replay("file:tilt", NULL, "[4, 0.5, 0]");
-    check_turn(hand_replay_at(replay, SIZE, 1).orientation, -30, 0, 0.5);
-    hand_replay_close(replay);
+    DeviceReplay *replay = open_replay("file:tilt", NULL, "[4, 0.5, 0]");
+    check_turn(device_replay_target(replay, SIZE, 1).orientation, -30, 0, 0.5);
+    device_replay_close(replay);
 }
 
 /* The same bits however often and in which order one asks. */
@@ -127,17 +126,18 @@ static void the_pose_depends_on_the_time_alone(void **state)
 {
     (void)state;
     write_tilt("tilt", 1);
-    HandReplay *back = open_replay("file:tilt", NULL, IN_FRONT);
+    DeviceReplay *back = open_replay("file:tilt", NULL, IN_FRONT);
     for (int i = 7; i > 0; i--) {
-        HandReplay *often = open_replay("file:tilt", NULL, IN_FRONT);
+        DeviceReplay *often = open_replay("file:tilt", NULL, IN_FRONT);
         const double time = 0.1 * i;
         for (int k = 0; k < 70 * i; k++)
-            hand_replay_at(often, SIZE, 0.0014 * k);
-        const BoxTarget whole = hand_replay_at(back, SIZE, time), parts = hand_replay_at(often, SIZE, time);
+            device_replay_target(often, SIZE, 0.0014 * k);
+        const BoxTarget whole = device_replay_target(back, SIZE, time),
+                        parts = device_replay_target(often, SIZE, time);
         assert_memory_equal(&whole, &parts, sizeof whole);
-        hand_replay_close(often);
+        device_replay_close(often);
     }
-    hand_replay_close(back);
+    device_replay_close(back);
 }
 
 /* A rate, as built in, goes on between two reports, but not without end. */
@@ -145,13 +145,13 @@ static void what_is_held_goes_on(void **state)
 {
     (void)state;
     write_push("push");
-    HandReplay *replay = open_replay("file:push", NULL, IN_FRONT);
-    check_near(hand_replay_at(replay, SIZE, 0.4).position[0], 0, 0, "before");
-    check_near(hand_replay_at(replay, SIZE, 0.9).position[0], 0.4 * HAND_SPEED, 0.02, "a moment later");
-    const double way = hand_replay_at(replay, SIZE, 1.4).position[0];
-    check_near(way, HELD_SILENCE * HAND_SPEED, 0.02, "silent");
-    check_near(hand_replay_at(replay, SIZE, 9).position[0], way, 1e-6, "unplugged");
-    hand_replay_close(replay);
+    DeviceReplay *replay = open_replay("file:push", NULL, IN_FRONT);
+    check_near(device_replay_target(replay, SIZE, 0.4).position[0], 0, 0, "before");
+    check_near(device_replay_target(replay, SIZE, 0.9).position[0], 0.4 * HAND_SPEED, 0.02, "a moment later");
+    const double way = device_replay_target(replay, SIZE, 1.4).position[0];
+    check_near(way, CONTROL_SILENCE * HAND_SPEED, 0.02, "silent");
+    check_near(device_replay_target(replay, SIZE, 9).position[0], way, 1e-6, "unplugged");
+    device_replay_close(replay);
 }
 
 static void a_mapping_is_obeyed(void **state)
@@ -159,9 +159,9 @@ static void a_mapping_is_obeyed(void **state)
     (void)state;
     write_push("push");
     write_text("map.yaml", "spacemouse: {axes: {x: {to: move_y, as: offset}}}\n");
-    HandReplay *replay = open_replay("file:push", "map.yaml", IN_FRONT);
-    check_vector(hand_replay_at(replay, SIZE, 1).position, 0, HAND_SWAY, 0, 1e-6, "pushed");
-    hand_replay_close(replay);
+    DeviceReplay *replay = open_replay("file:push", "map.yaml", IN_FRONT);
+    check_vector(device_replay_target(replay, SIZE, 1).position, 0, HAND_SWAY, 0, 1e-6, "pushed");
+    device_replay_close(replay);
 }
 
 /* Cross: the box goes home, upright, and the pose that the pad then has is the neutral one. */
@@ -177,11 +177,11 @@ static void buttons_of_the_box_are_obeyed(void **state)
     put_pad(file, &time, &degrees, 50, 0.2, 0);
     put_pad(file, &time, &degrees, 0, 0.2, 0);
     fclose(file);
-    HandReplay *replay = open_replay("file:home", NULL, IN_FRONT);
-    check_turn(hand_replay_at(replay, SIZE, 0.49).orientation, 0, -30, 0.5);
-    check_turn(hand_replay_at(replay, SIZE, 0.69).orientation, 0, 0, 0.1);
-    check_turn(hand_replay_at(replay, SIZE, 1.1).orientation, 0, 10, 0.5);
-    hand_replay_close(replay);
+    DeviceReplay *replay = open_replay("file:home", NULL, IN_FRONT);
+    check_turn(device_replay_target(replay, SIZE, 0.49).orientation, 0, -30, 0.5);
+    check_turn(device_replay_target(replay, SIZE, 0.69).orientation, 0, 0, 0.1);
+    check_turn(device_replay_target(replay, SIZE, 1.1).orientation, 0, 10, 0.5);
+    device_replay_close(replay);
 }
 
 static void what_is_wrong_is_told(void **state)
@@ -191,13 +191,13 @@ static void what_is_wrong_is_told(void **state)
     write_tilt("tilt", 0.5);
     write_text("text", "hello\n");
     write_text("map.yaml", "spacemouse: {axes: {q: {to: move_x}}}\n");
-    assert_null(hand_replay_open("file:none", NULL, &scene, &error));
+    assert_null(device_replay_open("file:none", NULL, &scene, &error));
     assert_contains(error.message, "none: cannot be opened");
-    assert_null(hand_replay_open("file:text", NULL, &scene, &error));
+    assert_null(device_replay_open("file:text", NULL, &scene, &error));
     assert_contains(error.message, "text:1: this is no recording of devices");
-    assert_null(hand_replay_open("file:tilt", "map.yaml", &scene, &error));
+    assert_null(device_replay_open("file:tilt", "map.yaml", &scene, &error));
     assert_contains(error.message, "map.yaml:1:");
-    hand_replay_close(NULL);
+    device_replay_close(NULL);
 }
 
 /* As the command line opens it. */

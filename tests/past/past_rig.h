@@ -5,10 +5,10 @@
 
 #include "tests/app/output_fixture.h"
 
+#include "app/run/offscreen.h"
+#include "app/run/session.h"
+#include "app/run/simulator_private.h"
 #include "app/scene/scene_files.h"
-#include "app/session/headless.h"
-#include "app/session/recording_play.h"
-#include "app/session/simulator_state.h"
 #include "sim/gl/backends.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
@@ -41,7 +41,7 @@ static inline void rig_start(Rig *rig, const char *text, SimulatorSetup how)
     must(scene_parse("a.yaml", text, strlen(text), &settings, &rig->scene, NULL, &error));
     must(recording_create(&rig->recording, "a.yaml", text, strlen(text), &settings, &error));
     WorldDef could = rig->scene.world;
-    could.pours = true; /* as beside_simulated_room has it */
+    could.pours = true; /* as compare_simulated_particles has it */
     rig->upload = upload_create(flow_capacity(&could, seed_count(&could, could.spacing)),
                                 PARTICLE_SCALAR(SCALAR_SPEED), &error);
     how.scene = &rig->scene;
@@ -52,9 +52,9 @@ static inline void rig_start(Rig *rig, const char *text, SimulatorSetup how)
     assert_non_null(rig->simulator);
 }
 
-static inline void rig_open(Rig *rig, const char *text, size_t past_bytes)
+static inline void rig_open(Rig *rig, const char *text, size_t history_bytes)
 {
-    rig_start(rig, text, (SimulatorSetup){.past_bytes = past_bytes});
+    rig_start(rig, text, (SimulatorSetup){.history_bytes = history_bytes});
 }
 
 static inline void rig_close(Rig *rig)

@@ -1,7 +1,7 @@
 /* The ring of states alone: its limit of memory, what goes first, and how far a jump is then. */
 #include "tests/app/output_fixture.h"
 
-#include "app/session/past.h"
+#include "app/run/history.h"
 #include "sim/world/world_state.h"
 #include "sim/world/world_struct.h"
 
@@ -16,7 +16,7 @@ static const double DT = 0.01;
 typedef struct Bench {
     Scene scene;
     World *world;
-    Past *past;
+    History *past;
 } Bench;
 
 static void bench_open_text(Bench *bench, const char *said, size_t bytes)
@@ -26,11 +26,11 @@ static void bench_open_text(Bench *bench, const char *said, size_t bytes)
     SceneSettings none = {.count = 0};
     assert_true(scene_parse("a.yaml", said, strlen(said), &none, &bench->scene, NULL, &error));
     bench->world = world_create(&bench->scene.world, &error);
-    bench->past = past_create(bytes);
+    bench->past = history_create(bytes);
     assert_non_null(bench->world);
     assert_non_null(bench->past);
     world_info(bench->world, &info);
-    past_begin(bench->past, &info);
+    history_begin(bench->past, &info);
 }
 
 static void bench_open(Bench *bench, size_t bytes)
@@ -40,7 +40,7 @@ static void bench_open(Bench *bench, size_t bytes)
 
 static void bench_close(Bench *bench)
 {
-    past_destroy(bench->past);
+    history_destroy(bench->past);
     world_destroy(bench->world);
 }
 
@@ -50,22 +50,22 @@ static void frames(Bench *bench, int count, double ms)
     WorldInfo info;
     world_info(bench->world, &info);
     for (int i = 0; i < count; i++) {
-        past_keep(bench->past, bench->world, &bench->scene, 0, false);
-        const PastFigures figures = past_figures(bench->past);
+        history_keep(bench->past, bench->world, &bench->scene, 0, false);
+        const HistoryFigures figures = history_figures(bench->past);
         assert_true(figures.bytes <= figures.bytes_most);
-        const PastPlace last = past_place(bench->past, past_last(bench->past));
+        const HistoryPlace last = history_place(bench->past, history_last(bench->past));
         info.step = last.step + 1;
         info.time = DT * (double)info.step;
-        past_mark(bench->past, &info, ms);
+        history_add_place(bench->past, &info, ms);
     }
 }
 
 /* Frames that a jump takes at most. */
-static uint64_t longest_jump(const Past *past)
+static uint64_t longest_jump(const History *past)
 {
     uint64_t longest = 0;
-    for (uint64_t place = past_first(past); place < past_last(past); place++) {
-        const uint64_t jump = place - past_before(past, place);
+    for (uint64_t place = history_first(past); place < history_last(past); place++) {
+        const uint64_t jump = place - history_state_before(past, place);
         longest = jump > longest ? jump : longest;
     }
     return longest;
@@ -80,10 +80,10 @@ static void states_are_kept_by_the_time_that_frames_take(void **state)
     frames(&bench, 20, 100);
     assert_int_equal(longest_jump(bench.past), 0);
     frames(&bench, 1000, 10); /* fast ones: every fifth */
-    assert_int_equal(longest_jump(bench.past), (uint64_t)(PAST_GAP_MS / 10) - 1);
-    const PastFigures figures = past_figures(bench.past);
+    assert_int_equal(longest_jump(bench.past), (uint64_t)(HISTORY_GAP_MS / 10) - 1);
+    const HistoryFigures figures = history_figures(bench.past);
     assert_true(figures.states > 200 && figures.states < 230 && !figures.dropped);
-    assert_int_equal(past_first(bench.past), 0);
+    assert_int_equal(history_first(bench.past), 0);
     bench_close(&bench);
 }
 
@@ -94,14 +94,15 @@ static void it_thins_out_before_it_forgets(void **state)
     Bench bench;
     bench_open(&bench, 4 << 20);
     frames(&bench, 1500, 12);
-    const PastFigures figures = past_figures(bench.past);
+    const HistoryFigures figures = history_figures(bench.past);
     assert_true(figures.state_bytes > 6000 && figures.state_bytes < 20000); /* of 300 particles */
     frames(&bench, 20000, 12);
-    const Past *past = bench.past;
-    const double reach = past_place(past, past_last(past)).time - past_place(past, past_first(past)).time;
-    assert_true(past_first(past) > 0 && reach > 20); /* s; 14 without */
-    assert_true((double)longest_jump(past) * 12 < PAST_GAP_MOST_MS);
-    assert_false(past_figures(past).dropped); /* more than ten seconds are left */
+    const History *past = bench.past;
+    const double reach =
+        history_place(past, history_last(past)).time - history_place(past, history_first(past)).time;
+    assert_true(history_first(past) > 0 && reach > 20); /* s; 14 without */
+    assert_true((double)longest_jump(past) * 12 < HISTORY_GAP_MOST_MS);
+    assert_false(history_figures(past).dropped); /* more than ten seconds are left */
     bench_close(&bench);
 }
 
@@ -112,11 +113,11 @@ static void what_is_short_is_known(void **state)
     Bench bench;
     bench_open(&bench, sizeof(Scene) + 236000);
     frames(&bench, 100, 60);
-    assert_true(past_first(bench.past) == 0 && !past_figures(bench.past).dropped);
+    assert_true(history_first(bench.past) == 0 && !history_figures(bench.past).dropped);
     assert_true(longest_jump(bench.past) > 2);
     frames(&bench, 1000, 60);
-    assert_true(past_first(bench.past) > 0 && past_figures(bench.past).dropped);
-    assert_true((double)longest_jump(bench.past) * 60 < PAST_GAP_SHORT_MS);
+    assert_true(history_first(bench.past) > 0 && history_figures(bench.past).dropped);
+    assert_true((double)longest_jump(bench.past) * 60 < HISTORY_GAP_SHORT_MS);
     bench_close(&bench);
 }
 
@@ -129,11 +130,12 @@ static void a_state_may_be_too_large(void **state)
     size_t next;
     bench_open(&bench, 10000);
     frames(&bench, 1000, 60);
-    assert_int_equal(past_figures(bench.past).states, 0);
-    assert_true(past_figures(bench.past).dropped);
-    assert_int_equal(past_first(bench.past), past_last(bench.past));
-    assert_int_equal(past_find(bench.past, 0), past_last(bench.past));
-    assert_false(past_load(bench.past, past_last(bench.past), &bench.world, &bench.scene, &next, &error));
+    assert_int_equal(history_figures(bench.past).states, 0);
+    assert_true(history_figures(bench.past).dropped);
+    assert_int_equal(history_first(bench.past), history_last(bench.past));
+    assert_int_equal(history_find(bench.past, 0), history_last(bench.past));
+    assert_false(
+        history_load(bench.past, history_last(bench.past), &bench.world, &bench.scene, &next, &error));
     bench_close(&bench);
 }
 
@@ -143,16 +145,16 @@ static void places_are_found_by_their_time(void **state)
     Bench bench;
     bench_open(&bench, 1 << 24);
     frames(&bench, 100, 60);
-    assert_int_equal(past_find(bench.past, -1), 0);
-    assert_int_equal(past_find(bench.past, 0.305), 30);
-    assert_int_equal(past_find(bench.past, past_place(bench.past, 77).time), 77);
-    assert_int_equal(past_find(bench.past, 1e9), 100);
-    past_cut(bench.past, 40);
-    assert_int_equal(past_last(bench.past), 40);
-    assert_int_equal(past_find(bench.past, 1e9), 40);
-    assert_int_equal(past_before(bench.past, 40), 40);
+    assert_int_equal(history_find(bench.past, -1), 0);
+    assert_int_equal(history_find(bench.past, 0.305), 30);
+    assert_int_equal(history_find(bench.past, history_place(bench.past, 77).time), 77);
+    assert_int_equal(history_find(bench.past, 1e9), 100);
+    history_cut(bench.past, 40);
+    assert_int_equal(history_last(bench.past), 40);
+    assert_int_equal(history_find(bench.past, 1e9), 40);
+    assert_int_equal(history_state_before(bench.past, 40), 40);
     frames(&bench, 10, 60);
-    assert_true(past_last(bench.past) == 50 && past_place(bench.past, 50).step == 50);
+    assert_true(history_last(bench.past) == 50 && history_place(bench.past, 50).step == 50);
     bench_close(&bench);
 }
 
@@ -164,31 +166,31 @@ static void settings_come_with_the_state(void **state)
     Error error = {{0}};
     size_t next = 99;
     bench_open(&bench, 1 << 24);
-    past_keep(bench.past, bench.world, &bench.scene, 3, true);
-    const size_t one = past_figures(bench.past).bytes;
+    history_keep(bench.past, bench.world, &bench.scene, 3, true);
+    const size_t one = history_figures(bench.past).bytes;
     WorldInfo info;
     world_info(bench.world, &info);
-    past_mark(bench.past, &info, 60);
-    past_keep(bench.past, bench.world, &bench.scene, 4, true); /* the same settings, once */
-    const size_t two = past_figures(bench.past).bytes;
+    history_add_place(bench.past, &info, 60);
+    history_keep(bench.past, bench.world, &bench.scene, 4, true); /* the same settings, once */
+    const size_t two = history_figures(bench.past).bytes;
     assert_true(two - one < sizeof(Scene));
-    past_mark(bench.past, &info, 60);
+    history_add_place(bench.past, &info, 60);
     const Scene before = bench.scene;
     bench.scene.world.gravity[1] = -3;
     bench.scene.view.background[2] = 0.25;
     ((unsigned char *)&bench.scene)[sizeof(Scene) - 1] ^= 1; /* its last byte: of no account to the world */
     const Scene changed = bench.scene;
-    past_keep(bench.past, bench.world, &bench.scene, 5, true);
-    assert_in_range(past_figures(bench.past).bytes - two, 1,
+    history_keep(bench.past, bench.world, &bench.scene, 5, true);
+    assert_in_range(history_figures(bench.past).bytes - two, 1,
                     two - one + 400); /* what differs, no whole scene */
-    assert_true(past_load(bench.past, 1, &bench.world, &bench.scene, &next, &error));
+    assert_true(history_load(bench.past, 1, &bench.world, &bench.scene, &next, &error));
     assert_int_equal(next, 4);
     assert_memory_equal(&bench.scene, &before, sizeof before);
-    assert_true(past_load(bench.past, 2, &bench.world, &bench.scene, &next, &error));
+    assert_true(history_load(bench.past, 2, &bench.world, &bench.scene, &next, &error));
     assert_int_equal(next, 5);
     assert_memory_equal(&bench.scene, &changed, sizeof changed);
-    past_begin(bench.past, &info);
-    assert_int_equal(past_figures(bench.past).bytes, sizeof(PastPlace));
+    history_begin(bench.past, &info);
+    assert_int_equal(history_figures(bench.past).bytes, sizeof(HistoryPlace));
     bench_close(&bench);
 }
 
@@ -202,26 +204,26 @@ static void a_state_with_other_solids_comes_back(void **state)
     size_t next = 99;
     WorldInfo info;
     bench_open(&bench, 1 << 24);
-    past_keep(bench.past, bench.world, &bench.scene, 3, true);
+    history_keep(bench.past, bench.world, &bench.scene, 3, true);
     const uint64_t hash = world_hash(bench.world);
     bench.scene.world.solids[0] =
         (SolidDef){.kind = SOLID_SPHERE, .radius = 0.1, .centre = {0.3, 0.8, 0}, .axis = {0, 1, 0}};
     bench.scene.world.solid_count = 1;
     assert_true(world_set_shapes(&bench.world, &bench.scene.world, &error));
     world_info(bench.world, &info);
-    past_mark(bench.past, &info, 60);
+    history_add_place(bench.past, &info, 60);
     bench.world->seen = STEP_TROUBLE_SOLID; /* as where it blew up */
     assert_false(world_sound(bench.world));
 
     World *const now = bench.world;
     const Scene with_it = bench.scene;
     now->initial++; /* has lost one, so that the state is not of these particles */
-    assert_false(past_load(bench.past, 0, &bench.world, &bench.scene, &next, &error));
+    assert_false(history_load(bench.past, 0, &bench.world, &bench.scene, &next, &error));
     now->initial--;
     assert_true(bench.world == now && next == 99 && now->def.solid_count == 1);
     assert_memory_equal(&bench.scene, &with_it, sizeof with_it);
 
-    if (!past_load(bench.past, 0, &bench.world, &bench.scene, &next, &error))
+    if (!history_load(bench.past, 0, &bench.world, &bench.scene, &next, &error))
         fail_msg("%s", error.message);
     assert_int_equal(next, 3);
     assert_int_equal(bench.scene.world.solid_count, 0);
@@ -242,16 +244,16 @@ static void a_state_needs_what_it_takes(void **state)
     Bench bench;
     Error error = {{0}};
     bench_open_text(&bench, jet, 1 << 24);
-    past_keep(bench.past, bench.world, &bench.scene, 0, true); /* the settings, once */
+    history_keep(bench.past, bench.world, &bench.scene, 0, true); /* the settings, once */
     for (int i = 0; i < 20; i++) {
         WorldInfo info;
         assert_true(world_step(bench.world, NULL, &error));
         world_info(bench.world, &info);
-        const size_t before = past_figures(bench.past).bytes;
-        past_mark(bench.past, &info, 60);
-        past_keep(bench.past, bench.world, &bench.scene, 0, true);
-        const PastFigures now = past_figures(bench.past);
-        assert_int_equal(now.bytes - before, now.state_bytes + sizeof(PastPlace));
+        const size_t before = history_figures(bench.past).bytes;
+        history_add_place(bench.past, &info, 60);
+        history_keep(bench.past, bench.world, &bench.scene, 0, true);
+        const HistoryFigures now = history_figures(bench.past);
+        assert_int_equal(now.bytes - before, now.state_bytes + sizeof(HistoryPlace));
     }
     assert_true(world_births_bytes(bench.world) >= 10 * sizeof(Birth));
     bench_close(&bench);

@@ -2,7 +2,7 @@
    commands, and nothing is cut off. */
 #include "tests/render/ui_fixture.h"
 
-#include "app/hand/play_commands.h"
+#include "app/input/play_commands.h"
 #include "app/panel/timeline.h"
 
 typedef struct Line {

@@ -220,11 +220,11 @@ static void open_pair(Rig *leader, Rig *follower, void (*wake)(void))
     rig_start(follower,
               BOX "gravity: [0, -3, 0]\n"
                   "solver: {sound_speed: 15, threads: 1, step: {dt: 0.01, substeps: 5}}\n",
-              (SimulatorSetup){.past_bytes = 64 * MIB, .follows = true});
+              (SimulatorSetup){.history_bytes = 64 * MIB, .follows = true});
     rig_start(
         leader, plain,
         (SimulatorSetup){
-            .past_bytes = 64 * MIB, .wake = wake, .follower_count = 1, .followers = &follower->simulator});
+            .history_bytes = 64 * MIB, .wake = wake, .follower_count = 1, .followers = &follower->simulator});
     rig_ready(leader);
 }
 
@@ -623,7 +623,7 @@ static void time_it(const char *scene)
     simulator_pause(rig.simulator, true);
     rig_rest(&rig);
     const double frame = (wall_ms() - began) / (double)rig.status.frames;
-    const SimulatorPast *past = &rig.status.past;
+    const SimulatorHistory *past = &rig.status.past;
     const double copy = time_of_a_state(&rig), end = past->to;
     const double each = (double)rig.status.frames / (double)past->states;
     printf("%zu particles, %.0f s: frames of %.1f ms, %zu states in %.1f MiB, one in %.1f frames\n",

@@ -2,8 +2,8 @@
 #include "tests/render/fixture.h"
 #include "tests/sim/fixture.h"
 
+#include "app/run/offscreen.h"
 #include "app/scene/scene.h"
-#include "app/session/studio.h"
 #include "render/pbsr/pbsr_def.h"
 #include "sim/gl/backends.h"
 
@@ -37,13 +37,13 @@ static void load(const char *name, Scene *scene)
 
 static void picture_of(const ViewDef *view, const WorldDef *def, World *world, uint8_t *rgb)
 {
-    Studio studio;
+    Offscreen offscreen;
     Error error = {0};
-    if (!studio_open(&studio, view, def, world, WIDE, HIGH, &error) ||
-        !studio_draw(&studio, world, NULL, NULL, &error))
+    if (!offscreen_open(&offscreen, view, def, world, WIDE, HIGH, &error) ||
+        !offscreen_draw(&offscreen, world, NULL, NULL, &error))
         fail_msg("%s", error.message);
-    renderer_read(studio.renderer, rgb);
-    studio_close(&studio);
+    renderer_read(offscreen.renderer, rgb);
+    offscreen_close(&offscreen);
 }
 
 /* What emits has some after a while. */

@@ -4,8 +4,8 @@
 
 #include "tests/app/output_fixture.h"
 
-#include "app/playback/recorded.h"
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
+#include "app/run/playback/playback.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* A recorded run played by a clock that the test turns. */
 #include "tests/playback/recorded_fixture.h"
 
-#include "app/playback/player.h"
+#include "app/run/playback/playback.h"
 #include "sim/base/stage.h"
 
 enum { STEPS = 20 };
@@ -35,11 +35,11 @@ static size_t shown(Player *player)
             player_status(player, &status);
             usleep(500);
             assert_true(wall_ms() < until);
-        } while (!status.reel.answered || (k == 0 && !player_take(player, &particles)));
+        } while (!status.prefetch.answered || (k == 0 && !player_take(player, &particles)));
     }
     assert_true(player_take(player, &particles));
-    assert_int_equal(particles.count, status.reel.index + 1);
-    return status.reel.index;
+    assert_int_equal(particles.count, status.prefetch.index + 1);
+    return status.prefetch.index;
 }
 
 /* So many seconds of the clock, in pictures. */
@@ -79,7 +79,7 @@ static void rest_is_neither_played_nor_polled(void **state)
         player_work(player, now_ms += 10);
         player_status(player, &status);
         usleep(500);
-    } while (!status.reel.answered);
+    } while (!status.prefetch.answered);
     run(player, 2);
     assert_true(isinf(player_work(player, now_ms)));
     player_status(player, &status);

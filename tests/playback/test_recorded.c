@@ -17,7 +17,7 @@ static void assert_same_floats(const char *what, const float *a, const float *b,
             fail_msg("%s: number %zu is %.9g, not %.9g", what, i, (double)a[i], (double)b[i]);
 }
 
-static void assert_same_still(const Still *a, const Still *b, unsigned attributes)
+static void assert_same_still(const StateCopy *a, const StateCopy *b, unsigned attributes)
 {
     const size_t count = b->state.count;
     assert_int_equal(a->state.count, count);
@@ -49,14 +49,14 @@ static void run_and_read(const char *method)
     const Scene scene = tank_scene(setting);
     const unsigned all = columns_scalars(&scene.world);
     Error error = {{0}};
-    Still lived[STEPS] = {{.room = 0}}, read = {.room = 0};
+    StateCopy lived[STEPS] = {{.room = 0}}, read = {.room = 0};
     Recorded recorded;
     World *world = world_create(&scene.world, &error);
     SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     must(world && file, &error);
     for (int k = 0; k < STEPS; k++) {
         must(snapshot_append(file, world, &error), &error);
-        assert_true(still_read(&lived[k], world, all));
+        assert_true(state_copy_read(&lived[k], world, all));
         must(world_step(world, NULL, &error), &error);
     }
     snapshot_close(file);
@@ -65,12 +65,12 @@ static void run_and_read(const char *method)
     for (int k = STEPS; k-- > 0;) {
         must(recorded_read(&recorded, (size_t)k, all, &read, &error), &error);
         assert_same_still(&read, &lived[k], all);
-        still_free(&lived[k]);
+        state_copy_free(&lived[k]);
     }
-    still_free(&read);
+    state_copy_free(&read);
     must(recorded_read(&recorded, 1, PARTICLE_SCALAR(SCALAR_SPEED), &read, &error), &error);
     assert_true(read.arrays.scalar[SCALAR_SPEED] && !read.arrays.scalar[SCALAR_PRESSURE]);
-    still_free(&read);
+    state_copy_free(&read);
     recorded_close(&recorded);
     world_destroy(world);
 }
@@ -235,7 +235,7 @@ static void what_is_missing_is_told(void **state)
     Error error = {{0}};
     Notes notes = {.count = 0};
     Recorded recorded;
-    Still still = {.room = 0};
+    StateCopy still = {.room = 0};
     edit(remove_pressure);
     open_recorded(&recorded, "a.h5part", &notes);
     assert_string_equal(notes.line[0], "a.h5part: has no pressure; what follows from that cannot be shown");
@@ -254,7 +254,7 @@ static void what_is_missing_is_told(void **state)
     must(recorded_read(&recorded, 2, PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1, &still, &error), &error);
     assert_true(still.state.count == 7 && !still.arrays.scalar[SCALAR_PRESSURE] &&
                 still.arrays.scalar[SCALAR_DENSITY]);
-    still_free(&still);
+    state_copy_free(&still);
     recorded_close(&recorded);
     notes.count = 0;
     edit(remove_all_but_places);
@@ -271,7 +271,7 @@ static void what_is_missing_is_told(void **state)
     assert_int_equal(still.state.count, 6);
     assert_true(still.arrays.scalar[SCALAR_BORN][5] == 0);
     assert_true(fabsf(still.arrays.position[3] - 1e-3F) < 1e-9F);
-    still_free(&still);
+    state_copy_free(&still);
     recorded_close(&recorded);
     edit(remove_density_later);
     open_recorded(&recorded, "a.h5part", &notes);
@@ -328,14 +328,14 @@ static void spoilt_particles_are_left_out(void **state)
     (void)state;
     Error error = {{0}};
     Recorded recorded;
-    Still still = {.room = 0};
+    StateCopy still = {.room = 0};
     edit(spoil_particles);
     open_recorded(&recorded, "a.h5part", NULL);
     must(recorded_read(&recorded, 2, ~0U, &still, &error), &error);
     assert_int_equal(still.state.count, 3);
     assert_int_equal(still.arrays.fluid[0], 1);
     assert_int_equal(snapshot_flaws_left_out(&recorded.flaws), 4);
-    still_free(&still);
+    state_copy_free(&still);
     recorded_close(&recorded);
 }
 
@@ -357,13 +357,13 @@ static void a_hostile_size_asks_for_no_memory(void **state)
     (void)state;
     Error error = {{0}};
     Recorded recorded;
-    Still still = {.room = 0};
+    StateCopy still = {.room = 0};
     edit(huge_field);
     open_recorded(&recorded, "a.h5part", NULL);
     assert_false(recorded_read(&recorded, 1, ~0U, &still, &error));
     assert_string_equal(error.message, "a.h5part: Step#1: out of memory for 35184372088832 particles");
     must(recorded_read(&recorded, 2, ~0U, &still, &error), &error);
-    still_free(&still);
+    state_copy_free(&still);
     recorded_close(&recorded);
 }
 
@@ -439,7 +439,7 @@ static void steps_that_are_not_whole(void **state)
     Error error = {{0}};
     Notes notes = {.count = 0};
     Recorded recorded;
-    Still still = {.room = 0};
+    StateCopy still = {.room = 0};
     edit(remove_last_mark);
     open_recorded(&recorded, "a.h5part", &notes);
     assert_int_equal(recorded.steps, 2);
@@ -522,7 +522,7 @@ static void a_file_that_grows(void **state)
     (void)state;
     Error error = {{0}};
     Recorded recorded;
-    Still still = {.room = 0};
+    StateCopy still = {.room = 0};
     const Scene scene = tank_scene(NULL);
     SnapshotWriter *file = snapshot_create("a.h5part", &scene, &error);
     must(file, &error);
@@ -549,7 +549,7 @@ static void a_file_that_grows(void **state)
     unlink("a.h5part");
     assert_false(recorded_follow(&recorded, &error));
     must(recorded_read(&recorded, 299, 0, &still, &error), &error); /* the one that it has open */
-    still_free(&still);
+    state_copy_free(&still);
     recorded_close(&recorded);
 }
 

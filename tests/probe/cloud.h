@@ -4,7 +4,7 @@
 
 #include "tests/sim/fixture.h"
 
-#include "app/metric/cloud.h"
+#include "app/run/measure/metric.h"
 
 enum { CLOUD_MOST = 60000 };
 

@@ -1,7 +1,7 @@
 /* Probes: their places and columns, gauges of height, means over time, the table that goes on. */
 #include "tests/probe/cloud.h"
 
-#include "app/probe/probe_table.h"
+#include "app/run/measure/probe.h"
 
 #include <unistd.h>
 
@@ -39,7 +39,7 @@ static void columns_have_names(void **state)
     assert_string_equal(probes_column(probes, 10)->unit, "N m");
     assert_int_equal(probe_shown(&list.probe[4], shown), 3);
     assert_true(shown[0] == 0 && shown[1] == 1 && shown[2] == 2);
-    assert_true(!probe_list_feels(&(ProbeList){.count = 4}) && probe_list_feels(&list));
+    assert_true(!probe_list_has_forces(&(ProbeList){.count = 4}) && probe_list_has_forces(&list));
     probes_destroy(probes);
 }
 

@@ -1,7 +1,7 @@
 /* Sensors against weighted least squares over all particles, and against fields that are known. */
 #include "tests/probe/cloud.h"
 
-#include "app/probe/sensors.h"
+#include "app/run/measure/probe.h"
 
 static unsigned seed = 1;
 

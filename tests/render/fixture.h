@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "render/particles/upload.h"
 #include "render/renderer.h"
 #include "render/splat/splat_def.h"

@@ -2,7 +2,7 @@
 #include "tests/scene/scene_text.h"
 #include "tests/sim/fixture.h"
 
-#include "app/metric/metric_list.h"
+#include "app/run/measure/metric.h"
 #include "app/scene/keys.h"
 
 static Scene scene;

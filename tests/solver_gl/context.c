@@ -1,5 +1,5 @@
 /* For the solver's tests on a GPU: a context from before main to the end. */
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 #include "sim/gl/backends.h"
 
 #include <stdio.h>

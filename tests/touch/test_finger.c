@@ -2,7 +2,7 @@
    no sentinel; it is part of the saved state. */
 #include "tests/touch/touch_rig.h"
 
-#include "app/session/headless.h"
+#include "app/run/offscreen.h"
 
 static Headless *context;
 

@@ -32,7 +32,7 @@ static void send(Rig *rig, const SolidCommand *solid)
 
 static void move(Rig *rig, int solid, double x, double y, double angle)
 {
-    send(rig, &(SolidCommand){.act = SOLID_ACT_MOVE,
+    send(rig, &(SolidCommand){.act = SOLID_ACTION_MOVE,
                               .solid = solid,
                               .at = {x, y, 0},
                               .turn = {0, 0, sin(0.5 * angle), cos(0.5 * angle)}});
@@ -40,7 +40,7 @@ static void move(Rig *rig, int solid, double x, double y, double angle)
 
 static void put(Rig *rig, int like, double x)
 {
-    send(rig, &(SolidCommand){.act = SOLID_ACT_PUT, .like = like, .at = {x, 0.2, 0}, .size = 0.12});
+    send(rig, &(SolidCommand){.act = SOLID_ACTION_PUT, .like = like, .at = {x, 0.2, 0}, .size = 0.12});
 }
 
 static const WorldDef *def_of(Rig *rig)
@@ -96,7 +96,7 @@ static void it_is_replayed_and_undone(void **state)
             if (i == 4)
                 put(&rig, SOLID_LIKE_BOX, -0.3);
             if (i == 9)
-                send(&rig, &(SolidCommand){.act = SOLID_ACT_TAKE, .solid = 1});
+                send(&rig, &(SolidCommand){.act = SOLID_ACTION_TAKE, .solid = 1});
             rig_step(&rig);
             hash[i] = rig_hash(&rig);
             assert_int_equal(def_of(&rig)->solid_count, i >= 4 && i < 9 ? 2 : 1);
@@ -177,7 +177,7 @@ static void the_box_changes_its_size(void **state)
                 size_to(&rig, 1, 1.3);
             rig_step(&rig);
             const double width = def_of(&rig)->box_size[0],
-                         must = i >= 25 ? 1 : 1 - BOX_BITE * spacing * (i < 20 ? i : 20);
+                         must = i >= 25 ? 1 : 1 - BOX_SHRINK_MOST * spacing * (i < 20 ? i : 20);
             if (fabs(width - must) > 1e-9)
                 fail_msg("%s: the box is %g m wide, not %g", scenes[in[s]].name, width, must);
             none_is_lost(&rig, count, scenes[in[s]].name);

@@ -201,7 +201,7 @@ static void a_session_that_is_done_again(void **state)
     rig_save(&rig, "a.rec");
     rig_close(&rig);
     must(recording_read("a.rec", &script, &error));
-    rig_start(&rig, scenes[0].text, (SimulatorSetup){.past_bytes = 64 * MIB, .script = &script});
+    rig_start(&rig, scenes[0].text, (SimulatorSetup){.history_bytes = 64 * MIB, .script = &script});
     rig_ready(&rig);
     for (int i = 1; i <= 4; i++)
         rig_step(&rig);
@@ -212,7 +212,7 @@ static void a_session_that_is_done_again(void **state)
         rig_step(&rig);
     assert_true(rig.status.script == SCRIPT_SAME && !touched(&rig));
     rig_close(&rig);
-    rig_start(&rig, scenes[0].text, (SimulatorSetup){.past_bytes = 64 * MIB, .script = &script});
+    rig_start(&rig, scenes[0].text, (SimulatorSetup){.history_bytes = 64 * MIB, .script = &script});
     rig_ready(&rig);
     for (int i = 1; i <= 4; i++)
         rig_step(&rig);

@@ -1,8 +1,8 @@
 /* The touch tool: where the finger is under the mouse, when it is sent, and how a recording writes it. */
 #include "tests/sim/fixture.h"
 
-#include "app/recording/recording.h"
-#include "app/touch/touch.h"
+#include "app/input/touch.h"
+#include "app/run/recording/recording.h"
 
 static const double ahead[3] = {0, 0, -1};
 
@@ -14,7 +14,7 @@ static SightRay ray_at(double x, double y)
 static bool asks(TouchTool *tool, Finger *finger)
 {
     const TouchDef def = touch_def_default();
-    return touch_asks(tool, &def, 0.1, finger);
+    return touch_tool_finger(tool, &def, 0.1, finger);
 }
 
 /* In the plane that faces the camera through the place of the press. */
@@ -23,15 +23,15 @@ static void it_keeps_the_depth_of_the_press(void **state)
     (void)state;
     TouchTool tool = {.on = true};
     Finger finger;
-    touch_press(&tool, FINGER_PULL, (double[3]){0.1, 0.2, 0.7});
+    touch_tool_press(&tool, FINGER_PULL, (double[3]){0.1, 0.2, 0.7});
     const SightRay ray = ray_at(0.4, 0.5), beside = {{0, 0, 5}, {1, 0, 0}};
-    assert_true(touch_move(&tool, &ray, ahead, 3));
+    assert_true(touch_tool_move(&tool, &ray, ahead, 3));
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_PULL);
     assert_true(fabs(finger.at[0] - 0.4) < 1e-12 && fabs(finger.at[1] - 0.5) < 1e-12 &&
                 fabs(finger.at[2] - 0.7) < 1e-12 && fabs(finger.radius - 0.5) < 1e-12);
-    assert_false(touch_move(&tool, &beside, ahead, 3)); /* stays where it was */
+    assert_false(touch_tool_move(&tool, &beside, ahead, 3)); /* stays where it was */
     assert_false(asks(&tool, &finger));
-    assert_true(touch_move(&tool, &ray, ahead, 2) && tool.at[2] == 0);
+    assert_true(touch_tool_move(&tool, &ray, ahead, 2) && tool.at[2] == 0);
 }
 
 static void it_is_sent_when_it_changes(void **state)
@@ -40,12 +40,12 @@ static void it_is_sent_when_it_changes(void **state)
     TouchTool tool = {.on = true};
     Finger finger;
     assert_false(asks(&tool, &finger));
-    touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
+    touch_tool_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
     assert_true(asks(&tool, &finger));
     assert_false(asks(&tool, &finger));
-    touch_forget(&tool); /* a new start, under the same drag */
+    touch_tool_reset(&tool); /* a new start, under the same drag */
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_STIR);
-    touch_release(&tool, false);
+    touch_tool_release(&tool, false);
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_NONE);
     assert_false(asks(&tool, &finger));
 }
@@ -57,21 +57,21 @@ static void a_jump_ends_it(void **state)
     (void)state;
     TouchTool tool = {.on = true};
     Finger finger;
-    touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
+    touch_tool_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
     assert_true(asks(&tool, &finger));
-    touch_travel(&tool, 3, false);
+    touch_tool_travel(&tool, 3, false);
     assert_false(asks(&tool, &finger));
-    touch_release(&tool, true);
+    touch_tool_release(&tool, true);
     assert_false(asks(&tool, &finger));
-    touch_travel(&tool, 3, false);
-    touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
+    touch_tool_travel(&tool, 3, false);
+    touch_tool_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
     assert_true(asks(&tool, &finger));
-    touch_travel(&tool, 4, false);
-    touch_release(&tool, false); /* nothing comes after: its end is said, whoever has lifted it */
+    touch_tool_travel(&tool, 4, false);
+    touch_tool_release(&tool, false); /* nothing comes after: its end is said, whoever has lifted it */
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_NONE);
-    touch_travel(&tool, 4, true);
-    touch_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
-    touch_travel(&tool, 5, false); /* by a command of the session that the press has ended */
+    touch_tool_travel(&tool, 4, true);
+    touch_tool_press(&tool, FINGER_STIR, (double[3]){0, 0, 0});
+    touch_tool_travel(&tool, 5, false); /* by a command of the session that the press has ended */
     assert_true(asks(&tool, &finger) && finger.way == (double)FINGER_STIR);
 }
 
@@ -82,7 +82,7 @@ static void the_ring_shows_the_ball(void **state)
     const TouchTool tool = {.at = {1, 2, 3}};
     static const double looks[][3] = {{0, 0, -1}, {0, -1, 0}, {0.6, -0.8, 0}};
     for (int i = 0; i < 3; i++) {
-        const Handle ring = touch_ring(&tool, &def, 0.1, looks[i]);
+        const Handle ring = touch_tool_outline(&tool, &def, 0.1, looks[i]);
         for (int part = 0; part < HANDLE_RING_PARTS; part += 7) {
             double corner[3], r2 = 0, along = 0;
             handle_ring(&ring, part, corner);
@@ -98,10 +98,10 @@ static void the_ring_shows_the_ball(void **state)
 static void the_wheel_keeps_bounds(void **state)
 {
     (void)state;
-    assert_true(fabs(touch_notches(4, 5, 1, 100) - 8) < 0.1 && touch_notches(4, -50, 1, 100) == 1 &&
-                touch_notches(4, 500, 1, 100) == 100 && touch_notches(4, 0, 1, 100) == 4);
+    assert_true(fabs(touch_tool_notches(4, 5, 1, 100) - 8) < 0.1 && touch_tool_notches(4, -50, 1, 100) == 1 &&
+                touch_tool_notches(4, 500, 1, 100) == 100 && touch_tool_notches(4, 0, 1, 100) == 4);
     for (int way = FINGER_STIR; way < FINGER_WAYS; way++) {
-        assert_true(touch_other((FingerWay)way) != (FingerWay)way);
+        assert_true(touch_tool_other((FingerWay)way) != (FingerWay)way);
         assert_int_equal(finger_way_find(finger_way_name((FingerWay)way)), way);
     }
     assert_int_equal(finger_way_find("none"), FINGER_NONE);

@@ -1,0 +1,348 @@
+#include "app/run/compare/panel_pictures.h"
+
+#include "render/frame/overlay.h"
+
+#include <math.h>
+#include <string.h>
+
+void missing_attributes_add(MissingAttributes *missing, const Panels *panels,
+                            const ParticleBuffers *const states[])
+{
+    missing->panels = panels_count(panels);
+    missing->drawn++;
+    for (int i = 0; i < missing->panels; i++) {
+        struct PanelMissing *of = &missing->of[i];
+        const char *words = renderer_lacks(panels_renderer(panels, i));
+        if (words && of->pictures++ == 0) {
+            of->first = states[i]->time;
+            snprintf(of->words, sizeof of->words, "%s", words);
+        }
+    }
+}
+
+void missing_attributes_print(const MissingAttributes *missing, const char *output, FILE *file)
+{
+    for (int i = 0; i < missing->panels; i++) {
+        const struct PanelMissing *of = &missing->of[i];
+        if (of->pictures == 0)
+            continue;
+        fprintf(file, "%s: warning: ", output);
+        if (missing->panels > 1)
+            fprintf(file, "panel %d: ", i + 1);
+        if (missing->drawn > 1)
+            fprintf(file, "%zu of %zu pictures are not as asked, the first at %.4g s: ", of->pictures,
+                    missing->drawn, of->first);
+        fprintf(file, "%s\n", of->words);
+    }
+}
+
+static const size_t KEPT_BYTES = 256U << 20; /* for steps of a run in memory */
+
+/* Returns the index of the session or run among the sources; adds a source if it is new. */
+static int source_find(PanelPictures *pictures, const Session *session, Recorded *recorded)
+{
+    int at = 0;
+    while (at < pictures->source_count &&
+           (pictures->sources[at].session != session || pictures->sources[at].recorded != recorded))
+        at++;
+    if (at == pictures->source_count) {
+        pictures->source_count++;
+        pictures->sources[at] = (PictureSource){.session = session,
+                                                .recorded = recorded,
+                                                .every = INFINITY,
+                                                .watched = -INFINITY,
+                                                .prefetch_watch = {.watched = -INFINITY}};
+    }
+    return at;
+}
+
+/* Adds the needs of a view to its source. */
+static void source_serve(PictureSource *source, const ViewDef *view)
+{
+    double before;
+    source->attributes |= renderer_attributes(view);
+    source->every = fmin(source->every, overlays_every(view, &before));
+    source->before_picture = fmax(source->before_picture, before);
+}
+
+/* Opens the prefetch; the scene's data stays for the panels. */
+static bool open_prefetch(PictureSource *source, Error *error)
+{
+    Recorded taken = *source->recorded;
+    const PrefetchSetup setup = {
+        .recorded = &taken, .attributes = source->attributes, .bytes = KEPT_BYTES, .at_or_after = true};
+    source->prefetch = prefetch_create(&setup, error);
+    if (source->prefetch)
+        source->recorded->reader = NULL;
+    return source->prefetch != NULL;
+}
+
+/* Makes room for the world's present capacity. */
+static bool uploads_fit(PictureSource *source, Error *error)
+{
+    WorldInfo info;
+    world_info(source->session->world, &info);
+    if (info.capacity <= source->room)
+        return true;
+    upload_destroy(source->upload_interpolated);
+    upload_destroy(source->upload);
+    source->upload_interpolated = source->upload = NULL;
+    if (source->interpolates &&
+        !(source->upload_interpolated = upload_create(2 * info.capacity, source->attributes, error)))
+        return false;
+    if (!world_shares(source->session->world) &&
+        !(source->upload = upload_create(info.capacity, upload_of_worlds(source->attributes), error)))
+        return false;
+    source->room = info.capacity;
+    return true;
+}
+
+static bool source_open(PictureSource *source, bool interpolates, Error *error)
+{
+    const Session *session = source->session;
+    if (!session)
+        return open_prefetch(source, error);
+    source->interpolates = interpolates && session->scene.world.step_mode == STEP_FIXED;
+    return uploads_fit(source, error);
+}
+
+static void source_close(PictureSource *source)
+{
+    prefetch_destroy(source->prefetch);
+    state_copy_free(&source->before);
+    state_copy_free(&source->after);
+    state_copy_free(&source->between);
+    upload_destroy(source->upload_interpolated);
+    upload_destroy(source->upload);
+}
+
+bool panel_pictures_open(PanelPictures *pictures, const PicturePanel panels[], int count, bool interpolates,
+                         int width, int height, Error *error)
+{
+    Subject subjects[PANELS_MAX] = {{NULL}};
+    *pictures = (PanelPictures){.panels = NULL};
+    for (int i = 0; i < count; i++) {
+        const PicturePanel *panel = &panels[i];
+        const int known = pictures->source_count;
+        pictures->source_of[i] = source_find(pictures, panel->session, panel->recorded);
+        if (pictures->source_of[i] == known)
+            pictures->sources[known].scene = panel->scene;
+        source_serve(&pictures->sources[pictures->source_of[i]], panel->view);
+        pictures->views[i] = view_in_file(panel->view);
+        subjects[i] = (Subject){&pictures->views[i], panel->session ? &panel->session->scene.world
+                                                                    : &panel->recorded->scene.world};
+        pictures->solids[i] = subjects[i].world->solid_count;
+    }
+    for (int i = 0; i < pictures->source_count; i++)
+        if (!source_open(&pictures->sources[i], interpolates, error))
+            return false;
+    pictures->panels = panels_create(subjects, count, width, height, error);
+    return pictures->panels && (image_create(&pictures->image, width, height) ||
+                                error_set(error, "out of memory for a picture of %d x %d", width, height));
+}
+
+void panel_pictures_close(PanelPictures *pictures)
+{
+    image_destroy(&pictures->image);
+    panels_destroy(pictures->panels);
+    for (int i = 0; i < pictures->source_count; i++)
+        source_close(&pictures->sources[i]);
+    *pictures = (PanelPictures){.panels = NULL};
+}
+
+static PictureSource *source_of(PanelPictures *pictures, const Session *session)
+{
+    return &pictures->sources[source_find(pictures, session, NULL)];
+}
+
+bool panel_pictures_interpolates(const PanelPictures *pictures, const Session *session)
+{
+    for (int i = 0; i < pictures->source_count; i++)
+        if (pictures->sources[i].session == session)
+            return pictures->sources[i].interpolates;
+    return false;
+}
+
+bool panel_pictures_keep(PanelPictures *pictures, const Session *session, Error *error)
+{
+    PictureSource *source = source_of(pictures, session);
+    return state_copy_read(&source->before, session->world, source->attributes) ||
+           error_set(error, "out of memory for a picture between two states");
+}
+
+static bool take_between(PictureSource *source, double time, Error *error)
+{
+    const Session *session = source->session;
+    const unsigned attributes = source->attributes;
+    StateCopy *between = &source->between;
+    if (!uploads_fit(source, error))
+        return false;
+    if (!state_copy_read(&source->after, session->world, attributes) ||
+        !state_copy_reserve(between, source->before.state.count + source->after.state.count, attributes) ||
+        !interpolate_states(&source->before, &source->after, session->scene.world.periodic, time, between))
+        return error_set(error, "out of memory for a picture between two states");
+    return upload_arrays(source->upload_interpolated, &between->arrays, &between->state, error) &&
+           upload_take(source->upload_interpolated, &source->state);
+}
+
+static bool take_present(PictureSource *source, Error *error)
+{
+    World *world = source->session->world;
+    if (!uploads_fit(source, error))
+        return false;
+    if (!world_shares(world))
+        return upload_write(source->upload, world, error) && upload_take(source->upload, &source->state);
+    world_share(world, source->attributes, &source->state);
+    return true;
+}
+
+bool panel_pictures_watch(PanelPictures *pictures, const Session *session, double time, Error *error)
+{
+    PictureSource *source = source_of(pictures, session);
+    const double now = session->info.time;
+    if (isinf(source->every) || now < time - source->before_picture ||
+        now < source->watched + 0.999 * source->every)
+        return true;
+    if (!take_present(source, error))
+        return false;
+    source->watched = now;
+    source->taken = false; /* not drawn */
+    for (int i = 0; i < panels_count(pictures->panels); i++)
+        if (&pictures->sources[pictures->source_of[i]] == source)
+            panels_take(pictures->panels, i, &source->state);
+    return true;
+}
+
+/* A run watched for overlays. */
+typedef struct WatchedSource {
+    const PanelPictures *pictures;
+    PictureSource *source;
+} WatchedSource;
+
+static void see(void *user, const ParticleBuffers *particles)
+{
+    const WatchedSource *watched = user;
+    const PanelPictures *pictures = watched->pictures;
+    for (int i = 0; i < panels_count(pictures->panels); i++)
+        if (&pictures->sources[pictures->source_of[i]] == watched->source)
+            panels_take(pictures->panels, i, particles);
+    watched->source->taken = false; /* not drawn */
+}
+
+static bool watch_recorded(const PanelPictures *pictures, PictureSource *source, double time, Error *error)
+{
+    WatchedSource watched = {pictures, source};
+    PrefetchWatch *watch = &source->prefetch_watch;
+    watch->every = source->every;
+    watch->before = source->before_picture;
+    return prefetch_watch(watch, source->prefetch, time, &(PrefetchObserver){see, &watched}, &source->at,
+                          error);
+}
+
+/* Takes the run's first step at or after `time`, or its last step; the next picture is expected after the
+   same interval. */
+static bool take_recorded(const PanelPictures *pictures, PictureSource *source, double time, bool *fresh,
+                          Error *error)
+{
+    const size_t shown = source->at.index;
+    const double lead = source->taken ? fmax(time - source->watched, 0) : 0;
+    if (!watch_recorded(pictures, source, time, error))
+        return false;
+    prefetch_seek(source->prefetch, time, lead);
+    source->watched = time;
+    if (!prefetch_wait(source->prefetch, &source->at, error))
+        return false;
+    if (source->taken && source->at.index == shown)
+        return true;
+    *fresh = source->taken = true;
+    return prefetch_take(source->prefetch, &source->state) ||
+           error_set(error, "%s: Step#%zu is not shown", source->recorded->path, source->at.index);
+}
+
+/* Takes the state of a picture at `time`. `fresh` is set if the state differs from the last picture's. */
+static bool take(const PanelPictures *pictures, PictureSource *source, double time, bool *fresh, Error *error)
+{
+    const Session *session = source->session;
+    if (!session)
+        return take_recorded(pictures, source, source->scene ? source->scene->info.time : time, fresh, error);
+    const bool between = source->interpolates && source->before.state.count > 0 &&
+                         session->info.time > time + 1e-6 * session->scene.world.dt;
+    if (!between && source->taken && !source->is_interpolated && source->state.step == session->info.step)
+        return true;
+    if (!(between ? take_between(source, time, error) : take_present(source, error)))
+        return false;
+    *fresh = source->taken = true;
+    source->watched = between ? source->watched : session->info.time;
+    source->is_interpolated = between;
+    return true;
+}
+
+bool panel_pictures_take(PanelPictures *pictures, double time, Error *error)
+{
+    for (int i = 0; i < pictures->source_count; i++)
+        if (!take(pictures, &pictures->sources[i], time, &pictures->fresh, error))
+            return false;
+    return true;
+}
+
+/* Updates solids: commands of a recorded session may move, add and remove solids. */
+static bool follow_solids(PanelPictures *pictures, int panel, Error *error)
+{
+    const Session *session = pictures->sources[pictures->source_of[panel]].session;
+    const WorldDef *def = session ? &session->scene.world : NULL;
+    bool changed = def && pictures->solids[panel] != def->solid_count;
+    for (int i = 0; def && i < def->solid_count; i++)
+        changed |= def->solids[i].hand.moved;
+    if (changed)
+        pictures->solids[panel] = def->solid_count;
+    return !changed || panels_set_def(pictures->panels, panel, &pictures->views[panel], def, error);
+}
+
+bool panel_pictures_draw(PanelPictures *pictures, Error *error)
+{
+    const ParticleBuffers *states[PANELS_MAX];
+    if (!pictures->fresh)
+        return true;
+    pictures->fresh = false;
+    for (int i = 0; i < panels_count(pictures->panels); i++) {
+        states[i] = &pictures->sources[pictures->source_of[i]].state;
+        if (!follow_solids(pictures, i, error))
+            return false;
+    }
+    panels_draw(pictures->panels, states, NULL);
+    missing_attributes_add(&pictures->missing, pictures->panels, states);
+    return panels_read(pictures->panels, pictures->image.rgb, error);
+}
+
+double panel_pictures_spread(const PanelPictures *pictures)
+{
+    double first = INFINITY, last = -INFINITY;
+    for (int i = 0; i < pictures->source_count; i++) {
+        if (!pictures->sources[i].session)
+            continue;
+        first = fmin(first, pictures->sources[i].state.time);
+        last = fmax(last, pictures->sources[i].state.time);
+    }
+    return last - first;
+}
+
+static const uint8_t *pixel(const Image *image, int x, int y)
+{
+    return image->rgb + 3 * ((size_t)y * (size_t)image->width + (size_t)x);
+}
+
+bool panel_pictures_same(const PanelPictures *pictures, int a, int b, const Title titles[])
+{
+    const PanelPlace *one = &panels_places(pictures->panels)[a], *other = &panels_places(pictures->panels)[b];
+    bool same = one->width == other->width && one->height == other->height;
+    const int rows_a = title_rows(&titles[a], one->height), rows_b = title_rows(&titles[b], other->height);
+    for (int y = rows_a > rows_b ? rows_a : rows_b; same && y < one->height; y++)
+        same = memcmp(pixel(&pictures->image, one->x, one->y + y),
+                      pixel(&pictures->image, other->x, other->y + y), 3 * (size_t)one->width) == 0;
+    return same;
+}
+
+bool panel_pictures_set_title(PanelPictures *pictures, int panel, const Title *title, Error *error)
+{
+    return panels_set_title(pictures->panels, panel, title, error);
+}

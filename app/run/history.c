@@ -1,0 +1,463 @@
+#include "app/run/history.h"
+
+#include "sim/base/stage.h"
+#include "sim/world/method.h"
+#include "sim/world/world_state.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PIECE = 64 };
+
+/* Bytes of a scene from byte `at` on; 0 beyond the scene's end. */
+typedef struct SettingsPiece {
+    size_t at;
+    unsigned char bytes[PIECE];
+} SettingsPiece;
+
+/* Settings of the states from one change to the next: the pieces that differ from the past's base scene. */
+typedef struct KeptSettings {
+    size_t users, count;
+    SettingsPiece piece[];
+} KeptSettings;
+
+typedef struct KeptState {
+    uint64_t place;
+    size_t next, bytes;
+    double work_ms; /* frame time since the previous state */
+    KeptSettings *settings;
+    WorldState state;
+} KeptState;
+
+struct History {
+    size_t bytes_most, bytes; /* of states, base, settings and places */
+    size_t state_bytes;       /* of the last state */
+    bool dropped;
+    double work_ms;  /* frame time since the last state */
+    int copies;      /* count of copied states */
+    double byte_ms;  /* fastest copy, ms per byte */
+    uint64_t before; /* count of forgotten places */
+    size_t place_count, place_room;
+    HistoryPlace *places;
+    Scene *base;        /* NULL: no base and no states */
+    size_t count, room; /* of the states; the oldest is first */
+    KeptState **kept;
+};
+
+/* Makes room for one more element of `size` bytes. Returns false if memory is short. */
+static bool grow(void **array, size_t count, size_t *room, size_t size)
+{
+    if (count < *room)
+        return true;
+    const size_t more = *room ? 2 * *room : 256;
+    void *grown = realloc(*array, more * size);
+    if (!grown)
+        return false;
+    *array = grown;
+    *room = more;
+    return true;
+}
+
+History *history_create(size_t bytes_most)
+{
+    History *history = calloc(1, sizeof *history);
+    if (!history)
+        return NULL;
+    history->bytes_most = bytes_most;
+    if (grow((void **)&history->places, 0, &history->place_room, sizeof *history->places))
+        return history;
+    free(history);
+    return NULL;
+}
+
+static size_t settings_bytes(const KeptSettings *settings)
+{
+    return sizeof *settings + settings->count * sizeof *settings->piece;
+}
+
+static void settings_release(History *history, KeptSettings *settings)
+{
+    if (!settings || --settings->users > 0)
+        return;
+    history->bytes -= settings_bytes(settings);
+    free(settings);
+}
+
+static void forget_base(History *history)
+{
+    history->bytes -= history->base ? sizeof *history->base : 0;
+    free(history->base);
+    history->base = NULL;
+}
+
+static void kept_free(History *history, KeptState *kept)
+{
+    if (!kept)
+        return;
+    history->bytes -= kept->bytes;
+    settings_release(history, kept->settings);
+    world_state_free(&kept->state);
+    free(kept);
+}
+
+static void forget_states(History *history, size_t from)
+{
+    while (history->count > from)
+        kept_free(history, history->kept[--history->count]);
+}
+
+void history_destroy(History *history)
+{
+    if (!history)
+        return;
+    forget_states(history, 0);
+    forget_base(history);
+    free(history->kept);
+    free(history->places);
+    free(history);
+}
+
+uint64_t history_last(const History *history)
+{
+    return history->before + history->place_count - 1;
+}
+
+uint64_t history_first(const History *history)
+{
+    return history->count > 0 ? history->kept[0]->place : history_last(history);
+}
+
+HistoryPlace history_place(const History *history, uint64_t place)
+{
+    return history->places[place - history->before];
+}
+
+/* Removes unreachable places, once they are half of all. */
+static void forget_places(History *history)
+{
+    const size_t gone = (size_t)(history_first(history) - history->before);
+    if (gone < 128 || 2 * gone < history->place_count)
+        return;
+    history->place_count -= gone;
+    history->before += gone;
+    history->bytes -= gone * sizeof *history->places;
+    memmove(history->places, history->places + gone, history->place_count * sizeof *history->places);
+}
+
+static void add_place(History *history, const WorldInfo *info)
+{
+    if (!grow((void **)&history->places, history->place_count, &history->place_room,
+              sizeof *history->places)) {
+        forget_states(history, 0); /* without memory only the present place remains */
+        history->bytes -= history->place_count * sizeof *history->places;
+        history->before += history->place_count;
+        history->place_count = 0;
+    }
+    history->places[history->place_count++] = (HistoryPlace){info->step, info->time};
+    history->bytes += sizeof *history->places;
+}
+
+void history_begin(History *history, const WorldInfo *info)
+{
+    forget_states(history, 0);
+    forget_base(history);
+    history->bytes = history->place_count = 0;
+    history->before = 0;
+    history->work_ms = 0;
+    history->dropped = false;
+    add_place(history, info);
+}
+
+static size_t bytes_of(size_t particles, const WorldDef *def)
+{
+    const ColumnRows rows = columns_saved(def);
+    size_t bytes = sizeof(KeptState);
+    for (int r = 0; r < rows.count; r++)
+        bytes += (size_t)rows.row[r]->components * column_size(rows.row[r]) * (particles + COLUMN_PAST);
+    return bytes;
+}
+
+static double reach(const History *history)
+{
+    return history_place(history, history_last(history)).time -
+           history_place(history, history_first(history)).time;
+}
+
+/* Removes the state from the list and returns it. */
+static KeptState *take_out(History *history, size_t at)
+{
+    KeptState *out = history->kept[at];
+    history->count--;
+    memmove(history->kept + at, history->kept + at + 1, (history->count - at) * sizeof(KeptState *));
+    return out;
+}
+
+/* Index of the first state whose removal leaves the shortest jump between its neighbours; 0: none may go. */
+static size_t find_needless(const History *history)
+{
+    double least = reach(history) < HISTORY_WANTED_S ? HISTORY_GAP_SHORT_MS : HISTORY_GAP_MOST_MS;
+    size_t needless = 0;
+    for (size_t i = 1; i + 1 < history->count; i++) {
+        const double gap = history->kept[i]->work_ms + history->kept[i + 1]->work_ms;
+        if (gap < least) {
+            least = gap;
+            needless = i;
+        }
+    }
+    return needless;
+}
+
+/* Removes a dispensable state and returns it; NULL: no states. */
+static KeptState *thin_out(History *history)
+{
+    const size_t needless = find_needless(history);
+    if (history->count == 0)
+        return NULL;
+    if (needless > 0)
+        history->kept[needless + 1]->work_ms += history->kept[needless]->work_ms;
+    KeptState *out = take_out(history, needless);
+    history->dropped |= needless == 0 && reach(history) < HISTORY_WANTED_S;
+    return out;
+}
+
+/* Removes states until `more` bytes fit. Returns one removed state for reuse, or NULL. */
+static KeptState *make_room(History *history, size_t more)
+{
+    KeptState *again = NULL;
+    while (history->bytes + more > history->bytes_most && history->count > 0) {
+        kept_free(history, again);
+        again = thin_out(history);
+        history->bytes -= again->bytes;
+        again->bytes = 0;
+    }
+    return again;
+}
+
+void history_add_place(History *history, const WorldInfo *info, double frame_ms)
+{
+    history->work_ms += frame_ms;
+    forget_places(history);
+    add_place(history, info);
+    kept_free(history, make_room(history, 0));
+}
+
+/* Differing padding only costs a piece. */
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+static size_t piece_size(size_t at)
+{
+    return sizeof(Scene) - at < PIECE ? sizeof(Scene) - at : PIECE;
+}
+
+/* Counts the pieces of `scene` that differ from the base; `to` gets the pieces and may be NULL. */
+static size_t differing(const Scene *base, const Scene *scene, SettingsPiece *to)
+{
+    const unsigned char *a = (const unsigned char *)base, *b = (const unsigned char *)scene;
+    size_t count = 0;
+    for (size_t at = 0; at < sizeof *scene; at += PIECE) {
+        if (same_bytes(a + at, b + at, piece_size(at)))
+            continue;
+        if (to) {
+            to[count].at = at;
+            memcpy(to[count].bytes, b + at, piece_size(at));
+        }
+        count++;
+    }
+    return count;
+}
+
+static KeptSettings *settings_new(const History *history, const Scene *scene)
+{
+    const size_t count = differing(history->base, scene, NULL);
+    KeptSettings *settings = calloc(1, sizeof *settings + count * sizeof(SettingsPiece));
+    if (!settings)
+        return NULL;
+    settings->users = 1;
+    settings->count = count;
+    differing(history->base, scene, settings->piece);
+    return settings;
+}
+
+static bool settings_equal(const KeptSettings *a, const KeptSettings *b)
+{
+    return a->count == b->count && same_bytes(a->piece, b->piece, a->count * sizeof(SettingsPiece));
+}
+
+static void settings_apply(const History *history, const KeptSettings *settings, Scene *scene)
+{
+    memcpy(scene, history->base, sizeof *scene);
+    for (size_t i = 0; i < settings->count; i++) {
+        const SettingsPiece *piece = &settings->piece[i];
+        memcpy((unsigned char *)scene + piece->at, piece->bytes, piece_size(piece->at));
+    }
+}
+
+/* Keeps the first scene as base for the following scenes. */
+static bool follow_base(History *history, const Scene *scene)
+{
+    if (history->base)
+        return true;
+    history->base = malloc(sizeof *history->base);
+    if (!history->base)
+        return false;
+    memcpy(history->base, scene, sizeof *scene); /* with padding, for comparisons */
+    history->bytes += sizeof *scene;
+    return true;
+}
+
+static KeptSettings *settings_of(History *history, const Scene *scene)
+{
+    KeptSettings *last = history->count > 0 ? history->kept[history->count - 1]->settings : NULL;
+    KeptSettings *settings = follow_base(history, scene) ? settings_new(history, scene) : NULL;
+    if (settings && last && settings_equal(settings, last)) {
+        free(settings);
+        last->users++;
+        return last;
+    }
+    history->bytes += settings ? settings_bytes(settings) : 0;
+    return settings;
+}
+
+/* Copies take at most a fiftieth of the frame time: a copy of a million particles takes as long as some
+   frames on a GPU. The first copies are slow due to other work, so their times are not used. */
+static bool is_time(const History *history, size_t bytes)
+{
+    static const double FRAMES = 50;
+    static const int ENOUGH = 3;
+    const double copy = history->copies < ENOUGH ? 0 : history->byte_ms * (double)bytes;
+    return history->work_ms >= fmax(HISTORY_GAP_MS, FRAMES * copy);
+}
+
+static void count_copy(History *history, double ms, size_t bytes)
+{
+    const double byte_ms = ms / (double)bytes;
+    history->byte_ms = history->copies == 0 ? byte_ms : fmin(history->byte_ms, byte_ms);
+    history->copies++;
+}
+
+/* Fills `kept` with the present state. */
+static bool fill(History *history, KeptState *kept, World *world, const Scene *scene, size_t next)
+{
+    Error none;
+    const double began = wall_ms();
+    settings_release(history, kept->settings);
+    kept->settings = NULL;
+    if (!grow((void **)&history->kept, history->count, &history->room, sizeof(KeptState *)) ||
+        !world_save(world, &kept->state, &none) || !(kept->settings = settings_of(history, scene)))
+        return false;
+    kept->place = history_last(history);
+    kept->next = next;
+    kept->bytes = bytes_of(kept->state.capacity, &scene->world) + kept->state.births.room * sizeof(Birth);
+    kept->work_ms = history->work_ms;
+    history->bytes += kept->bytes;
+    count_copy(history, wall_ms() - began, kept->bytes);
+    return true;
+}
+
+static bool is_due(const History *history, bool now)
+{
+    if (history->count > 0 && history->kept[history->count - 1]->place == history_last(history))
+        return false;
+    return now || history->count == 0 || is_time(history, history->kept[history->count - 1]->bytes);
+}
+
+void history_keep(History *history, World *world, const Scene *scene, size_t next, bool now)
+{
+    if (!is_due(history, now) || !world_sound(world)) /* waits, so that the copy is timed alone */
+        return;
+    WorldInfo info;
+    world_info(world, &info);
+    history->state_bytes = bytes_of(info.count, &scene->world) + world_births_bytes(world);
+    if (history->count == 0)
+        forget_base(history);
+    const size_t own = history->state_bytes + sizeof(KeptSettings), whole = sizeof(Scene);
+    const size_t needed = own + whole + history->place_count * sizeof *history->places;
+    if (needed > history->bytes_most) { /* too large for even one state */
+        history->dropped = true;
+        return;
+    }
+    KeptState *kept = make_room(history, own + (history->base ? 0 : whole));
+    if (!kept)
+        kept = calloc(1, sizeof *kept);
+    if (!kept || !fill(history, kept, world, scene, next)) {
+        kept_free(history, kept);
+        return;
+    }
+    history->kept[history->count++] = kept;
+    history->work_ms = 0;
+    kept_free(history, make_room(history, 0)); /* in case the new state is larger than the previous one */
+}
+
+uint64_t history_find(const History *history, double time)
+{
+    uint64_t low = history_first(history), high = history_last(history);
+    while (low < high) {
+        const uint64_t middle = low + (high - low + 1) / 2;
+        if (history_place(history, middle).time <= time)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    const bool failed = low == history_last(history) && low > history_first(history) &&
+                        !(history_place(history, low - 1).time < history_place(history, low).time);
+    return low - failed;
+}
+
+/* The last state at or before the place. */
+static const KeptState *kept_before(const History *history, uint64_t place)
+{
+    size_t low = 0, high = history->count;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (history->kept[middle]->place <= place)
+            low = middle;
+        else
+            high = middle;
+    }
+    return history->kept[low];
+}
+
+uint64_t history_state_before(const History *history, uint64_t place)
+{
+    return history->count > 0 ? kept_before(history, place)->place : history_last(history);
+}
+
+bool history_load(const History *history, uint64_t place, World **world, Scene *scene, size_t *next,
+                  Error *error)
+{
+    Scene then;
+    if (history->count == 0)
+        return error_set(error, "no state of the past is kept");
+    const KeptState *kept = kept_before(history, place);
+    settings_apply(history, kept->settings, &then);
+    if (!world_load_shapes(world, &then.world, &kept->state, error))
+        return false;
+    memcpy(scene, &then, sizeof then); /* with padding, for comparisons */
+    *next = kept->next;
+    return true;
+}
+
+void history_cut(History *history, uint64_t place)
+{
+    size_t states = history->count;
+    while (states > 0 && history->kept[states - 1]->place > place)
+        states--;
+    forget_states(history, states);
+    const size_t left = (size_t)(place - history->before) + 1;
+    history->bytes -= (history->place_count - left) * sizeof *history->places;
+    history->place_count = left;
+    history->work_ms = HISTORY_GAP_MS; /* the frame time since the last state is unknown */
+}
+
+HistoryFigures history_figures(const History *history)
+{
+    return (HistoryFigures){.bytes = history->bytes,
+                            .bytes_most = history->bytes_most,
+                            .state_bytes = history->state_bytes,
+                            .states = history->count,
+                            .dropped = history->dropped};
+}
