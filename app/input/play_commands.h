@@ -70,7 +70,7 @@ typedef enum PlayCommand {
     PLAY_MOVE_DRAG,
     PLAY_TURN_DRAG,
     PLAY_GRAVITY_DRAG,
-    PLAY_WALL_DRAG, /* of a handle: app/play/grip.h */
+    PLAY_WALL_DRAG, /* of a handle: app/window/play_private.h */
     PLAY_TOUCH_DRAG,
     PLAY_TOUCH_OTHER,
     PLAY_TOUCH_SIZE,

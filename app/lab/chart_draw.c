@@ -1,7 +1,6 @@
 /* The two charts of `slosh chart`. */
-#include "app/lab/chart.h"
-#include "app/lab/chart_labels.h"
-#include "app/lab/chart_row.h"
+#include "app/bench/gnuplot.h"
+#include "app/lab/error_chart.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,25 +20,25 @@ enum {
 static const double LABEL_FONT = 8, LABEL_HEIGHT = 11;
 
 /* Least and greatest value of the data, as logarithms to base 10. */
-typedef struct Extent {
+typedef struct AxisExtent {
     double low, high;
-} Extent;
+} AxisExtent;
 
-static void extend(Extent *extent, double value)
+static void extend(AxisExtent *extent, double value)
 {
     extent->low = fmin(extent->low, log10(value));
     extent->high = fmax(extent->high, log10(value));
 }
 
 /* Extents of the drawn rows: computing time, error, spacing. */
-typedef struct Extents {
-    Extent time, error, spacing;
-} Extents;
+typedef struct AxisExtents {
+    AxisExtent time, error, spacing;
+} AxisExtents;
 
-static Extents extents_of(const ChartRows *rows)
+static AxisExtents extents_of(const ChartRows *rows)
 {
-    const Extent none = {(double)INFINITY, -(double)INFINITY};
-    Extents all = {none, none, none};
+    const AxisExtent none = {(double)INFINITY, -(double)INFINITY};
+    AxisExtents all = {none, none, none};
     for (int i = 0; i < rows->count; i++) {
         const ChartRow *row = &rows->row[i];
         if (!chart_drawn(row))
@@ -52,13 +51,13 @@ static Extents extents_of(const ChartRows *rows)
 }
 
 /* Returns the data's extent, extended by `before` and `behind` powers of ten. */
-static Extent axis_of(Extent data, double before, double behind)
+static AxisExtent axis_of(AxisExtent data, double before, double behind)
 {
-    return (Extent){data.low - before, data.high + behind};
+    return (AxisExtent){data.low - before, data.high + behind};
 }
 
 /* Axes of less than two decades get tics at 1, 2 and 5 of each. */
-static void put_axis(const char *name, Extent axis, FILE *gnuplot)
+static void put_axis(const char *name, AxisExtent axis, FILE *gnuplot)
 {
     static const double few[] = {1, 2, 5}, many[] = {1, 1.5, 2, 3, 4, 5, 7};
     const double length = axis.high - axis.low;
@@ -100,20 +99,20 @@ static int put_lines(const ChartRows *rows, FILE *gnuplot, int opener[LINES_MAX]
 
 /* The panel of the cost, as needed to place labels. */
 typedef struct CostPanel {
-    Extent time, error;
+    AxisExtent time, error;
     int height; /* of the picture, px */
     LabelField field;
 } CostPanel;
 
 static double x_of(const CostPanel *panel, const ChartRow *row)
 {
-    const Extent *time = &panel->time;
+    const AxisExtent *time = &panel->time;
     return PANEL_LEFT + PANEL_WIDTH * (log10(row->seconds) - time->low) / (time->high - time->low);
 }
 
 static double y_of(const CostPanel *panel, const ChartRow *row)
 {
-    const Extent *error = &panel->error;
+    const AxisExtent *error = &panel->error;
     return PANEL_TOP + PANEL_HEIGHT * (error->high - log10(row->error)) / (error->high - error->low);
 }
 
@@ -132,14 +131,14 @@ static int front_of(const ChartRows *rows, const ChartRow *front[CHART_ROWS_MAX]
     return count;
 }
 
-static void put_label(int number, const CostPanel *panel, const ChartRow *row, const Box *place,
+static void put_label(int number, const CostPanel *panel, const ChartRow *row, const LabelBox *place,
                       const char *text, FILE *gnuplot)
 {
     const double x = x_of(panel, row), y = y_of(panel, row);
     const double to_x = fmin(fmax(x, place->left), place->right),
                  to_y = fmin(fmax(y, place->top), place->bottom);
     fprintf(gnuplot, "set label %d ", number);
-    chart_quote(gnuplot, text);
+    gnuplot_quote(gnuplot, text);
     fprintf(gnuplot, " at screen %.5f,%.5f center noenhanced font ',%g'\n",
             0.5 * (place->left + place->right) / WIDTH,
             1 - 0.5 * (place->top + place->bottom) / panel->height, LABEL_FONT);
@@ -167,7 +166,7 @@ static int put_labels(CostPanel *panel, const ChartRow *const front[], int count
     for (int i = 0; i < count; i++) {
         const ChartRow *row = front[i];
         char text[CHART_NAME];
-        Box place;
+        LabelBox place;
         snprintf(text, sizeof text, "%s, %s%s%s, %zu, %s", row->method, row->backend, *row->swept ? ", " : "",
                  row->swept, row->particles, row->step);
         if (label_place(&panel->field, x_of(panel, row), y_of(panel, row), label_width(text, LABEL_FONT),
@@ -185,7 +184,7 @@ static void put_legend(const char *text, FILE *gnuplot)
     char cut[LEGEND_MOST + 1];
     const bool longer = strlen(text) > LEGEND_MOST;
     snprintf(cut, sizeof cut, "%.*s%s", longer ? LEGEND_MOST - 3 : LEGEND_MOST, text, longer ? "..." : "");
-    chart_quote(gnuplot, cut);
+    gnuplot_quote(gnuplot, cut);
 }
 
 /* Returns the first line with the same method, backend and swept values. */
@@ -279,7 +278,7 @@ static void put_title(const ChartWords *words, int height, FILE *gnuplot)
     const char *const lines[] = {words->title, words->error, words->note};
     for (int i = 0; i < 3; i++) {
         fprintf(gnuplot, "set label %d ", 97 + i);
-        chart_quote(gnuplot, lines[i]);
+        gnuplot_quote(gnuplot, lines[i]);
         fprintf(gnuplot, " at screen 0.5,%g center noenhanced font ',%d' textcolor '%s'\n",
                 1 - (i ? 22.0 + 15 * i : 18.0) / height, i ? 8 : 11, i ? "#5a6672" : "#2a3440");
     }
@@ -303,7 +302,7 @@ static void plot_both(const ChartRows *rows, const int opener[], int lines, doub
                       FILE *gnuplot)
 {
     static CostPanel panel;
-    Extents extents = extents_of(rows);
+    AxisExtents extents = extents_of(rows);
     put_panel(0, height, gnuplot);
     if (lines == 0) {
         fputs("unset logscale\nset label 1 'no error more than 0' at graph 0.1,0.5\nplot 0 notitle\n",
@@ -330,11 +329,11 @@ static void plot_both(const ChartRows *rows, const int opener[], int lines, doub
 
 bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, const char *path, Error *error)
 {
-    Chart chart = {.gnuplot = NULL};
+    Gnuplot chart = {.gnuplot = NULL};
     int opener[LINES_MAX], height = LEGEND + 3 * LINE_HEIGHT; /* two more legend lines: front and floor */
     for (int i = 0; i < rows->count; i++)
         height += chart_opens_line(rows, i) ? LINE_HEIGHT : 0;
-    if (!chart_begin(&chart, path, WIDTH, height, error))
+    if (!gnuplot_begin(&chart, path, WIDTH, height, error))
         return false;
     FILE *gnuplot = chart.gnuplot;
     const int lines = put_lines(rows, gnuplot, opener);
@@ -342,5 +341,5 @@ bool chart_draw(const ChartRows *rows, const ChartWords *words, double floor, co
     put_title(words, height, gnuplot);
     plot_both(rows, opener, lines, floor, height, gnuplot);
     fputs("unset multiplot\n", gnuplot);
-    return chart_end(&chart, error);
+    return gnuplot_end(&chart, error);
 }

@@ -1,11 +1,213 @@
-#include "app/lab/chart_plan.h"
-
-#include "app/lab/chart.h"
+#include "app/bench/cases/case.h"
+#include "app/bench/gnuplot.h"
+#include "app/cli/args/args.h"
+#include "app/lab/error_chart.h"
+#include "app/run/measure/metric.h"
+#include "app/scene/scene.h"
 #include "sim/gl/timer.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+static const double DEFAULT_TIME = 2; /* s, of a scene */
+
+bool chart_subject_find(const Args *args, ChartSubject *subject, Scene *scene, Notes *notes, Error *error)
+{
+    const char *command = args->row->name;
+    SceneSettings settings = args->settings;
+    Error no_case, no_scene;
+    settings.purpose = SCENE_FOR_CHART;
+    *subject = (ChartSubject){.of = case_find(args->scenes[0], &no_case),
+                              .scene = args->scenes[0],
+                              .time = args->time_given ? args->time : DEFAULT_TIME,
+                              .settings = &args->settings};
+    if (subject->time <= 0)
+        return error_set(error, "slosh %s: --time must be more than 0", command);
+    if (subject->of && args->time_given)
+        return error_set(error, "slosh %s: the case %s has a time of its own; leave --time out", command,
+                         subject->of->name);
+    const CaseSetup setup = {.of = subject->of,
+                             .level = CASE_DEFAULT,
+                             .method = subject->of ? subject->of->methods[0].name : NULL,
+                             .settings = &settings};
+    if (subject->of)
+        return case_scene(&setup, scene, error);
+    if (scene_load(args->scenes[0], &settings, scene, notes, &no_scene))
+        return true;
+    const char *near = case_suggest(args->scenes[0]);
+    char *hint = strstr(no_scene.message, "; did you mean '");
+    if (near && hint)
+        *hint = 0; /* one hint is enough */
+    return near ? error_set(error, "%.700s; did you mean the case '%s'?", no_scene.message, near)
+                : error_set(error, "%s", no_scene.message);
+}
+
+void chart_error_name(const ChartSubject *subject, const Scene *scene, char name[256])
+{
+    size_t used = 0;
+    if (subject->of) {
+        snprintf(name, 256, "%s", subject->of->metrics[0].name);
+        return;
+    }
+    for (int m = 0; m < scene->metric_count && used < 200; m++)
+        used += (size_t)snprintf(name + used, 256 - used, "%s%s",
+                                 m == 0                         ? ""
+                                 : m + 1 == scene->metric_count ? " and "
+                                                                : ", ",
+                                 metric_kinds[scene->metrics[m]].name);
+    if (used < 256)
+        snprintf(name + used, 256 - used, ", rms over range");
+}
+
+const char *chart_set_value(const SceneSettings *settings, const char *key)
+{
+    const size_t length = strlen(key);
+    const char *value = NULL;
+    for (int i = 0; i < settings->count; i++)
+        if (strncmp(settings->set[i], key, length) == 0 && settings->set[i][length] == '=')
+            value = settings->set[i] + length + 1;
+    return value;
+}
+
+static const char SPACING[] = "particles.spacing";
+
+static bool begins(const char *text, const char *with)
+{
+    return strncmp(text, with, strlen(with)) == 0;
+}
+
+int sweep_names(const Args *args, const char *key, const char *names[SWEEP_NAMES_MAX])
+{
+    int count = 0;
+    const char *one = chart_set_value(&args->settings, key);
+    for (int s = 0; s < args->sweep_count; s++)
+        for (int v = 0; strcmp(args->sweeps[s].key, key) == 0 && v < args->sweeps[s].count; v++)
+            if (count < SWEEP_NAMES_MAX)
+                names[count++] = args->sweeps[s].values[v];
+    if (count == 0 && one)
+        names[count++] = one;
+    return count;
+}
+
+/* True if the plan sweeps the key as methods, backends or spacings. */
+static bool has_own_place(const char *key)
+{
+    return strcmp(key, "solver.method") == 0 || strcmp(key, "solver.backend") == 0 ||
+           strcmp(key, SPACING) == 0;
+}
+
+static bool can_take(const Sweep *sweep, Error *error)
+{
+    if (strcmp(sweep->key, "particles") == 0)
+        return error_set(error, "slosh chart: --sweep particles has no place here; use --sweep %s=A,B,...",
+                         SPACING);
+    if (begins(sweep->key, "view.") || begins(sweep->key, "hand.") || strcmp(sweep->key, "title") == 0 ||
+        strcmp(sweep->key, "metrics") == 0)
+        return error_set(error, "slosh chart: --sweep %.60s changes no run; sweep what a simulation reads",
+                         sweep->key);
+    return true;
+}
+
+/* Takes the sweeps of the command line. Returns false with the reason for a key not possible in a chart.
+   The caller must check if the scene can be read with the values. */
+static bool chart_sweeps_take(const Args *args, ChartSweeps *sweeps, Error *error)
+{
+    *sweeps = (ChartSweeps){.count = 0};
+    for (int s = 0; s < args->sweep_count; s++) {
+        const Sweep *sweep = &args->sweeps[s];
+        if (!can_take(sweep, error))
+            return false;
+        if (has_own_place(sweep->key))
+            continue;
+        const int k = sweeps->count++;
+        sweeps->key[k] = sweep->key;
+        sweeps->values[k] = sweep->count;
+        for (int v = 0; v < sweep->count; v++)
+            if (snprintf(sweeps->text[k][v], SWEPT_TEXT, "--sweep %s=%s", sweep->key, sweep->values[v]) >=
+                SWEPT_TEXT)
+                return error_set(error, "slosh chart: a value of --sweep %.60s is too long", sweep->key);
+    }
+    return true;
+}
+
+/* Returns the count of combinations; 1 without sweeps. */
+static int chart_sweeps_combinations(const ChartSweeps *sweeps)
+{
+    int all = 1;
+    for (int k = 0; k < sweeps->count && all <= CHART_ROWS_MAX; k++)
+        all *= sweeps->values[k];
+    return all;
+}
+
+/* Returns true if the key has an effect on the scene, as read with a method; else `why` has the reason. */
+static bool chart_sweeps_effect(ChartSweeps *sweeps, int key, const Scene *scene, char why[NOTE_SIZE])
+{
+    static Notes notes;
+    notes.count = 0;
+    scene_advise_key(scene, sweeps->key[key], &notes);
+    snprintf(why, NOTE_SIZE, "%s", notes.count > 0 ? notes.line[0] : "");
+    sweeps->effective[key] |= notes.count == 0;
+    return notes.count == 0;
+}
+
+/* Adds the settings of a combination to the job; keys without effect (see `effect`) are skipped. Returns
+   false if the combination differs from an earlier combination only in keys without effect. */
+static bool chart_sweeps_set(const ChartSweeps *sweeps, const bool effect[CHART_SWEEPS], int combination,
+                             ChartJob *job)
+{
+    int value[CHART_SWEEPS];
+    bool anew = true;
+    job->set_count = 0;
+    for (int k = sweeps->count - 1; k >= 0; k--) {
+        value[k] = combination % sweeps->values[k];
+        combination /= sweeps->values[k];
+        anew &= effect[k] || value[k] == 0;
+    }
+    for (int k = 0; k < sweeps->count; k++)
+        if (effect[k])
+            job->set[job->set_count++] = sweeps->text[k][value[k]];
+    return anew;
+}
+
+/* Fails if a key has no effect with any method. */
+static bool chart_sweeps_check(const ChartSweeps *sweeps, Error *error)
+{
+    for (int k = 0; k < sweeps->count; k++)
+        if (!sweeps->effective[k])
+            return error_set(error,
+                             "slosh chart: --sweep %.60s changes nothing: no method of the chart reads it",
+                             sweeps->key[k]);
+    return true;
+}
+
+static int descending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
+}
+
+/* Fills in the spacings of --sweep particles.spacing as multiples of the scene's spacing, coarsest first.
+   Returns their count, 0 without the sweep; -1 with the reason if a value is no number above 0, or there
+   are too many. */
+static int chart_sweeps_spacings(const Args *args, double spacing, double coarsenings[CHART_SPACINGS],
+                                 Error *error)
+{
+    int count = 0;
+    for (int s = 0; s < args->sweep_count; s++)
+        for (int v = 0; strcmp(args->sweeps[s].key, SPACING) == 0 && v < args->sweeps[s].count; v++) {
+            const double length = strtod(args->sweeps[s].values[v], NULL);
+            if (count == CHART_SPACINGS || !(length > 0)) {
+                error_set(error, "slosh chart: --sweep %s takes up to %d lengths above 0, not '%.60s'",
+                          SPACING, CHART_SPACINGS, args->sweeps[s].values[v]);
+                return -1;
+            }
+            coarsenings[count++] = length / spacing;
+        }
+    qsort(coarsenings, (size_t)count, sizeof *coarsenings, descending);
+    return count;
+}
 
 static const double coarsenings[] = {2, 1.5, 1}; /* whole layers of fills often stay whole */
 static const double FINEST = 0.5;                /* spacing of the reference, times the finest of these */
@@ -259,7 +461,7 @@ static void keep_notes_of_all(ChartPlan *plan)
 bool chart_plan_make(const Args *args, ChartPlan *plan, Error *error)
 {
     *plan = (ChartPlan){.args = args};
-    if (!chart_table_name(args->output, plan->csv, error) ||
+    if (!gnuplot_table_name(args->output, plan->csv, error) ||
         !chart_subject_find(args, &plan->subject, &plan->scene, &plan->notes, error))
         return false;
     if (!plan_sweeps(plan, error) || !plan_jobs(plan, error))

@@ -1,8 +1,7 @@
-#include "app/lab/chart_run.h"
-
 #include "app/base/program.h"
-#include "app/lab/case_watch.h"
-#include "app/lab/run_key.h"
+#include "app/bench/validate.h"
+#include "app/lab/error_chart.h"
+#include "app/lab/run_table.h"
 #include "app/run/measure/outcome.h"
 #include "app/run/measure/probe.h"
 #include "sim/base/stage.h"

@@ -4,6 +4,7 @@
 #define APP_RUN_SESSION_H
 
 #include "app/base/program.h"
+#include "app/cli/args/args.h"
 #include "app/files/snapshot.h"
 #include "app/input/box_control.h"
 #include "app/run/measure/metric.h"
@@ -12,7 +13,6 @@
 #include "app/run/offscreen.h"
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
-#include "app/session/args.h"
 #include "sim/base/error.h"
 #include "sim/world/reading.h"
 #include "sim/world/world.h"

@@ -2,12 +2,13 @@
 
    Only one window at a time. All functions except window_wake must be called on the main thread. Positions
    are in framebuffer pixels from left and top, for any display scale. */
-#ifndef SLOSH_WINDOW_H
-#define SLOSH_WINDOW_H
+#ifndef APP_WINDOW_WINDOW_H
+#define APP_WINDOW_WINDOW_H
 
 #include "sim/base/error.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 typedef struct Window Window;
@@ -83,5 +84,19 @@ typedef struct WindowGamepad {
     unsigned buttons;
 } WindowGamepad;
 bool window_gamepad(const Window *window, WindowGamepad *gamepad);
+
+/* A reproducible hand: shakes the box with mouse events at fixed times, independent of the window's
+   polling. */
+
+/* Zero-initialise before use. */
+typedef struct WindowShake {
+    double began_ms; /* wall time; 0: not started */
+    size_t events;   /* count of events returned so far */
+} WindowShake;
+
+/* Returns the next event due at `now_ms` in a window of width x height; false if none is due yet. The script
+   is a Shift drag with 125 events per second: to and fro across the picture, faster than the box may follow,
+   and up and down. */
+bool window_shake_next(WindowShake *script, double now_ms, int width, int height, WindowEvent *event);
 
 #endif

@@ -1,5 +1,5 @@
 /* slosh bench --ablate: which terms a scene has, and what is made of figures. */
-#include "app/ablate/ablate.h"
+#include "app/lab/ablate.h"
 
 #include <math.h>
 #include <setjmp.h>

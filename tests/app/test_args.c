@@ -1,9 +1,9 @@
 /* The command line: what it becomes, and the words for what it cannot be. */
 #include "tests/scene/scene_text.h"
 
-#include "app/lab/bench_table.h"
-#include "app/session/args_table.h"
-#include "app/session/sweep.h"
+#include "app/bench/bench_table.h"
+#include "app/cli/cli.h"
+#include "app/cli/sweep.h"
 #include "sim/gl/backends.h"
 
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static bool parse(const char *line)
     for (char *word = strtok(words, " "); word && argc < WORDS_MAX; word = strtok(NULL, " "))
         argv[argc++] = word;
     error.message[0] = 0;
-    return args_parse(argc, argv, &args, &error);
+    return args_parse(&cli_table, argc, argv, &args, &error);
 }
 
 static void accept(const char *line)
@@ -240,15 +240,15 @@ static void too_many_are_refused(void **state)
         argv[argc++] = "--set";
         argv[argc++] = "a=1";
     }
-    assert_true(args_parse(argc - 2, argv, &args, &error));
-    assert_false(args_parse(argc, argv, &args, &error));
+    assert_true(args_parse(&cli_table, argc - 2, argv, &args, &error));
+    assert_false(args_parse(&cli_table, argc, argv, &args, &error));
     assert_non_null(strstr(error.message, "more than 64 settings"));
     char huge[4096];
     memset(huge, 'x', sizeof huge);
     memcpy(huge, "a=", 2);
     huge[sizeof huge - 1] = 0;
     argv[3] = huge;
-    assert_false(args_parse(4, argv, &args, &error));
+    assert_false(args_parse(&cli_table, 4, argv, &args, &error));
     assert_non_null(strstr(error.message, "--set: too long"));
 }
 
@@ -281,7 +281,7 @@ static char *help_of(Command command)
     char *text = NULL;
     size_t size;
     FILE *file = open_memstream(&text, &size);
-    args_help(command, file);
+    cli_help(command, file);
     fclose(file);
     return text;
 }
@@ -362,11 +362,11 @@ static void help_lists_what_is_taken_and_nothing_else(void **state)
 {
     (void)state;
     int taken = 0, refused = 0;
-    for (const CommandRow *row = command_rows; row->name; row++) {
+    for (const CommandRow *row = cli_table.commands; row->name; row++) {
         if (row->command == COMMAND_HELP)
             continue;
         char *help = help_of(row->command);
-        for (const OptionRow *option = option_rows; option->name; option++) {
+        for (const OptionRow *option = cli_table.options; option->name; option++) {
             char listed[64];
             snprintf(listed, sizeof listed, "\n  %s ", option->name);
             if (takes(row, option) != (strstr(help, listed) != NULL))
@@ -386,8 +386,8 @@ static void help_names_what_there_is(void **state)
 {
     (void)state;
     char *bench = help_of(COMMAND_BENCH), *play = help_of(COMMAND_PLAY);
-    for (int i = 0; table_choice(i); i++)
-        assert_non_null(strstr(bench, table_choice(i)));
+    for (int i = 0; bench_table_choice(i); i++)
+        assert_non_null(strstr(bench, bench_table_choice(i)));
     assert_non_null(strstr(play, "the equations of the solver: mueller, wcsph, dfsph, pbf\n"));
     assert_non_null(strstr(play, "pixels (1280x720)\n"));
     assert_non_null(strstr(bench, "pixels (512x512)\n"));

@@ -1,7 +1,7 @@
 /* Published tables beside made-up measurements: each figure stands in its row. */
 #include "tests/sim/fixture.h"
 
-#include "app/lab/bench_table.h"
+#include "app/bench/bench_table.h"
 #include "sim/gl/backends.h"
 
 static BenchResult made_up(size_t particles, const char *view, const char *backend)
@@ -23,10 +23,10 @@ static char *printed(const char *name, const BenchResult *results, size_t count)
     Error error = {{0}};
     char *text = NULL;
     size_t size = 0;
-    const Table *table = table_find(name, &error);
+    const BenchTable *table = bench_table_find(name, &error);
     assert_non_null(table);
     FILE *file = open_memstream(&text, &size);
-    if (!table_print(table, results, count, file, &error))
+    if (!bench_table_print(table, results, count, file, &error))
         fail_msg("%s", error.message);
     fclose(file);
     return text;
@@ -104,21 +104,21 @@ static void cases_are_all_views_and_backends(void **state)
 {
     (void)state;
     Error error;
-    Sweep sweeps[TABLE_SWEEPS + 1];
-    assert_int_equal(table_sweeps(table_find("paper003-spheres", &error), sweeps), 3);
+    Sweep sweeps[BENCH_TABLE_SWEEPS + 1];
+    assert_int_equal(bench_table_sweeps(bench_table_find("paper003-spheres", &error), sweeps), 3);
     assert_string_equal(sweeps[0].key, "view.kind");
     assert_true(sweeps[0].count >= 2 && sweeps[1].count == 4 && sweeps[2].count == 3);
-    assert_int_equal(table_sweeps(table_find("paper002-passes", &error), sweeps), 1);
+    assert_int_equal(bench_table_sweeps(bench_table_find("paper002-passes", &error), sweeps), 1);
     const char *const *scenes;
-    assert_int_equal(table_scenes(table_find("paper003-raycast", &error), &scenes), 1);
-    assert_int_equal(table_scenes(table_find("paper002-passes", &error), &scenes), 4);
+    assert_int_equal(bench_table_scenes(bench_table_find("paper003-raycast", &error), &scenes), 1);
+    assert_int_equal(bench_table_scenes(bench_table_find("paper002-passes", &error), &scenes), 4);
     assert_string_equal(scenes[1], "scenes/papers/goop_on_bust.yaml");
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "splat") == 0);
-    assert_int_equal(table_sweeps(table_find("paper003-voxelize", &error), sweeps), 3);
+    assert_int_equal(bench_table_sweeps(bench_table_find("paper003-voxelize", &error), sweeps), 3);
     assert_true(strcmp(sweeps[2].key, "view.volume.method") == 0 && sweeps[2].count == 7);
-    assert_int_equal(table_sweeps(table_find("paper003-raycast", &error), sweeps), 3);
+    assert_int_equal(bench_table_sweeps(bench_table_find("paper003-raycast", &error), sweeps), 3);
     assert_true(sweeps[0].count == 1 && strcmp(sweeps[0].values[0], "volume") == 0 && sweeps[2].count == 3);
-    assert_null(table_find("paper9", &error));
+    assert_null(bench_table_find("paper9", &error));
 }
 
 static int setup(void **state)

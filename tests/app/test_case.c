@@ -2,7 +2,7 @@
    the start that fills cannot say. */
 #include "tests/sim/fixture.h"
 
-#include "app/case/case.h"
+#include "app/bench/cases/case.h"
 #include "app/scene/scene.h"
 
 enum { LAYERS = 100 };

@@ -1,7 +1,7 @@
 /* Names of points: not over each other, not over points, not beyond the frame, near where there is room. */
 #include "tests/sim/fixture.h"
 
-#include "app/lab/chart_labels.h"
+#include "app/bench/gnuplot.h"
 
 static LabelField field;
 
@@ -15,7 +15,7 @@ static double random_part(void)
 static void lone_name_stands_to_the_right(void **state)
 {
     (void)state;
-    Box place;
+    LabelBox place;
     field = (LabelField){.frame = {0, 0, 400, 300}};
     label_field_point(&field, 100, 100);
     assert_true(label_place(&field, 100, 100, 80, 11, &place));
@@ -29,7 +29,7 @@ static void lone_name_stands_to_the_right(void **state)
 static void a_line_is_kept_off(void **state)
 {
     (void)state;
-    Box place;
+    LabelBox place;
     field = (LabelField){.frame = {0, 0, 400, 300}};
     label_field_line(&field, 100, 100, 300, 100);
     assert_true(label_place(&field, 100, 100, 80, 11, &place));
@@ -43,7 +43,7 @@ static void names_of_many_points_do_not_overlap(void **state)
 {
     (void)state;
     enum { N = 60 };
-    static Box place[N];
+    static LabelBox place[N];
     for (int round = 0; round < 50; round++) {
         double x[N], y[N];
         int placed = 0;
@@ -60,7 +60,7 @@ static void names_of_many_points_do_not_overlap(void **state)
             assert_true(place[i].left >= 50 && place[i].right <= 500 && place[i].top >= 20 &&
                         place[i].bottom <= 390);
             for (int k = 0; k < i; k++)
-                assert_false(boxes_overlap(&place[i], &place[k]));
+                assert_false(label_boxes_overlap(&place[i], &place[k]));
             for (int k = 0; k < N; k++)
                 assert_false(x[k] > place[i].left && x[k] < place[i].right && y[k] > place[i].top &&
                              y[k] < place[i].bottom);

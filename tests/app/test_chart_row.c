@@ -2,7 +2,7 @@
 #include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
-#include "app/lab/chart_row.h"
+#include "app/lab/error_chart.h"
 
 #include <unistd.h>
 

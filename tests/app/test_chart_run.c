@@ -1,7 +1,7 @@
 /* Settings of a chart's runs: what a row says is what its scene has. */
 #include "tests/sim/fixture.h"
 
-#include "app/lab/chart_run.h"
+#include "app/lab/error_chart.h"
 #include "sim/gl/backends.h"
 
 #include <math.h>

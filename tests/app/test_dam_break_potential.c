@@ -11,7 +11,7 @@
    dam-break-pressure.csv, which go on where the fluid meets an end wall, a mirror too from then on. */
 #include "tests/sim/fixture.h"
 
-#include "app/case/reference.h"
+#include "app/bench/cases/case.h"
 
 #include <complex.h>
 

@@ -3,7 +3,8 @@
 #include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
-#include "app/fit/fit_plan.h"
+#include "app/cli/cli.h"
+#include "app/lab/fit.h"
 #include "sim/gl/backends.h"
 
 #include <math.h>
@@ -116,7 +117,7 @@ static void start(const char *asked_for, const char *amount)
                      "--quiet",
                      "--threads",
                      "1"};
-    if (!args_parse(sizeof words / sizeof *words, words, &args, &error) ||
+    if (!args_parse(&cli_table, sizeof words / sizeof *words, words, &args, &error) ||
         !fit_plan_make(&args, &plan, &error) || !fit_runs_begin(&plan.axes, csv, true, &plan.runs, &error))
         fail_msg("%s", error.message);
     if (!fit_runs_floor(&plan.runs) || !fit_runs_reference(&plan.runs))

@@ -1,7 +1,7 @@
 /* The search of `slosh fit` against all settings, over made-up costs and errors. */
 #include "tests/sim/fixture.h"
 
-#include "app/fit/fit_search.h"
+#include "app/lab/fit.h"
 
 #include <math.h>
 
@@ -210,14 +210,14 @@ static void nothing_within(void **state)
     Toy toy = {.order = 1};
     const FitGoal errors = {1e-4, INFINITY}, costs = {INFINITY, 1e-9};
     assert_true(ratio(&toy, &errors) == 1);
-    const int nearest = fit_nearest(&ladder, &errors);
+    const int nearest = fit_closest(&ladder, &errors);
     assert_true(nearest >= 0);
     for (int i = 0; i < ladder.count; i++)
         assert_false(ladder.tries[i].figures.error < ladder.tries[nearest].figures.error);
     assert_true(ratio(&toy, &costs) == 1);
     toy.broken = 100;
     assert_true(ratio(&toy, &errors) == 1);
-    assert_int_equal(fit_nearest(&ladder, &errors), -1);
+    assert_int_equal(fit_closest(&ladder, &errors), -1);
 }
 
 /* Where each step but the shortest breaks a line is tried with that. */

@@ -1,7 +1,7 @@
 /* What validate measures, of particles set by hand, and what it makes of rows of points. */
 #include "tests/sim/fixture.h"
 
-#include "app/case/case.h"
+#include "app/bench/cases/case.h"
 #include "app/run/measure/metric.h"
 #include "sim/world/world.h"
 
@@ -231,8 +231,8 @@ static void cases_are_whole(void **state)
     }
     assert_null(case_find("no_such", &error));
     assert_non_null(strstr(error.message, "dam_break"));
-    assert_string_equal(case_near("dam_brake"), "dam_break");
-    assert_null(case_near("no_such"));
+    assert_string_equal(case_suggest("dam_brake"), "dam_break");
+    assert_null(case_suggest("no_such"));
     near(figure_relative(1.1, 1).error, 0.1, 1e-9);
     near(figure_scaled(-0.5, 0, 2).error, 0.25, 1e-9);
     assert_true(case_tolerance(case_list[0], 0, CASE_DEFAULT, "mueller") >

@@ -1,9 +1,9 @@
 /* What is told of a scene that is no error. */
 #include "app/scene/scene.h"
 
-#include "app/play/scene.h"
 #include "app/scene/keys.h"
 #include "app/scene/yaml/yaml.h"
+#include "app/window/model.h"
 #include "sim/gl/backends.h"
 #include "sim/world/world.h"
 #include "tests/scene/scene_text.h"

@@ -5,9 +5,9 @@
 #include "tests/sim/toy_method.h"
 
 #include "app/input/play_commands.h"
-#include "app/panel/panel.h"
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
+#include "app/window/panel/panel.h"
 #include "render/frame/view.h"
 #include "render/pbsr/pbsr_def.h"
 
@@ -18,7 +18,7 @@ static const char *const sections[] = {"History", "Stages", "Accuracy",       "C
                                        "Trails",  "Film",   "Begin anew with"}; /* View is open */
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
-/* Live keys that have no widget, and why: see elsewhere in app/panel/scene.c. */
+/* Live keys that have no widget, and why: see elsewhere in app/window/panel/panel_keys.c. */
 static const char *const without_widget[] = {"view.camera.from", "view.camera.to", "view.camera.fov"};
 
 /* A session: the scene is changed as the window would change it. */
@@ -39,7 +39,7 @@ typedef struct Session {
     double gain, dead_zone;
     size_t opened;    /* scenes */
     double particles; /* the last ones */
-    char again[64];
+    char restart[64];
 } Session;
 
 static void take(Session *session, const PanelEvents *events)
@@ -53,8 +53,8 @@ static void take(Session *session, const PanelEvents *events)
     }
     if (events->particles > 0)
         session->particles = events->particles;
-    if (*events->again)
-        memcpy(session->again, events->again, sizeof session->again);
+    if (*events->restart)
+        memcpy(session->restart, events->restart, sizeof session->restart);
     for (int i = 0; i < events->setting_count; i++) {
         Error error = {{0}};
         session->settings++;
@@ -519,9 +519,9 @@ static void test_the_scene_begins_anew(void **state)
     Desk *desk = session_open(&session, "two_oils", 700, TALL, 13);
     desk_click_at(desk, "Begin anew with", 0.3F);
     desk_click_at(desk, "again.honey", 0.5F);
-    assert_string_equal(session.again, "preset=honey:0");
+    assert_string_equal(session.restart, "preset=honey:0");
     desk_click_at(desk, "again.fast", 0.5F);
-    assert_string_equal(session.again, "preset=fast");
+    assert_string_equal(session.restart, "preset=fast");
     desk_click_at(desk, "again.particles", 0.75F);
     assert_true(session.particles > 1234000 && session.particles < 16 * 1234000);
     assert_int_equal(session.settings, 0);

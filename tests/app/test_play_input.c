@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "app/play/input.h"
+#include "app/window/input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -16,8 +16,8 @@
 
 enum { HEIGHT = 400 };
 
-static AskQueue asks;
-static Input input;
+static ActionQueue asks;
+static PlayInput input;
 
 static int begin(void **state)
 {
@@ -29,7 +29,7 @@ static int begin(void **state)
 
 static void take(WindowEvent event)
 {
-    input_take(&input, &event, HEIGHT, &asks);
+    input_event(&input, &event, HEIGHT, &asks);
 }
 
 static WindowEvent key(int number, bool down)
@@ -58,18 +58,18 @@ static WindowEvent move(double x, double y)
     return (WindowEvent){.kind = WINDOW_MOVE, .x = x, .y = y, .when_ms = 8};
 }
 
-static Ask next(AskKind kind)
+static Action next(ActionKind kind)
 {
-    Ask ask;
-    assert_true(ask_next(&asks, &ask));
+    Action ask;
+    assert_true(action_next(&asks, &ask));
     assert_int_equal(ask.kind, kind);
     return ask;
 }
 
 static void no_more(void)
 {
-    Ask ask;
-    assert_false(ask_next(&asks, &ask));
+    Action ask;
+    assert_false(action_next(&asks, &ask));
 }
 
 /* A file that is dropped between two keys only waits, and is opened between what they ask for. */
@@ -84,10 +84,10 @@ static void what_is_asked_waits_in_its_order(void **state)
     take(key(GLFW_KEY_C, false));
     take((WindowEvent){.kind = WINDOW_CLOSE});
     assert_int_equal(asks.count, 4);
-    assert_int_equal(next(ASK_COMMAND).command, PLAY_NEXT_SCALAR);
-    assert_string_equal(next(ASK_OPEN).text, "dropped.yaml");
-    assert_int_equal(next(ASK_COMMAND).command, PLAY_NEXT_COLORMAP);
-    next(ASK_CLOSE);
+    assert_int_equal(next(ACTION_COMMAND).command, PLAY_NEXT_SCALAR);
+    assert_string_equal(next(ACTION_OPEN_SCENE).text, "dropped.yaml");
+    assert_int_equal(next(ACTION_COMMAND).command, PLAY_NEXT_COLORMAP);
+    next(ACTION_CLOSE_WINDOW);
     no_more();
 }
 
@@ -99,10 +99,10 @@ static void camera_moves_add_up_until_another_comes(void **state)
     take(move(120, 60));
     take(key(GLFW_KEY_C, true));
     take(move(140, 60));
-    next(ASK_GRAB);
-    const Ask first = next(ASK_TURN);
-    next(ASK_COMMAND);
-    const Ask second = next(ASK_TURN);
+    next(ACTION_GRAB_CAMERA);
+    const Action first = next(ACTION_TURN_CAMERA);
+    next(ACTION_COMMAND);
+    const Action second = next(ACTION_TURN_CAMERA);
     assert_true(first.amount[0] > 0 && first.amount[0] == second.amount[0]);
     assert_true(first.amount[1] == 2 * second.amount[0] && second.amount[1] == 0);
     no_more();
@@ -112,17 +112,17 @@ static void a_full_queue_keeps_what_it_has_and_counts_the_rest(void **state)
 {
     (void)state;
     for (int round = 0; round < 3; round++) { /* round the ring */
-        for (int i = 0; i < ASKS_MAX + 5; i++)
-            ask_command(&asks, i == 0 ? PLAY_PAUSE : PLAY_STEP);
-        assert_int_equal(asks.count, ASKS_MAX);
-        assert_int_equal(ask_lost(&asks), 5);
-        assert_int_equal(ask_lost(&asks), 0); /* it is said once */
-        assert_int_equal(next(ASK_COMMAND).command, PLAY_PAUSE);
-        for (int i = 1; i < ASKS_MAX; i++)
-            assert_int_equal(next(ASK_COMMAND).command, PLAY_STEP);
+        for (int i = 0; i < ACTIONS_MAX + 5; i++)
+            action_add_command(&asks, i == 0 ? PLAY_PAUSE : PLAY_STEP);
+        assert_int_equal(asks.count, ACTIONS_MAX);
+        assert_int_equal(actions_lost(&asks), 5);
+        assert_int_equal(actions_lost(&asks), 0); /* it is said once */
+        assert_int_equal(next(ACTION_COMMAND).command, PLAY_PAUSE);
+        for (int i = 1; i < ACTIONS_MAX; i++)
+            assert_int_equal(next(ACTION_COMMAND).command, PLAY_STEP);
         no_more();
-        ask_command(&asks, PLAY_STEP);
-        next(ASK_COMMAND);
+        action_add_command(&asks, PLAY_STEP);
+        next(ACTION_COMMAND);
     }
 }
 
@@ -162,12 +162,12 @@ static void a_right_click_is_no_drag(void **state)
         no_more();
         if (drag) {
             take(move(110, 100));
-            next(ASK_GRAB);
-            next(ASK_PAN);
+            next(ACTION_GRAB_CAMERA);
+            next(ACTION_PAN_CAMERA);
         }
         take(button(GLFW_MOUSE_BUTTON_RIGHT, 0, false));
         if (!drag)
-            assert_int_equal(next(ASK_COMMAND).command, PLAY_TRAIL);
+            assert_int_equal(next(ACTION_COMMAND).command, PLAY_TRAIL);
         no_more();
     }
 }
@@ -182,12 +182,12 @@ static void what_is_held_moves_the_box(void **state)
     take(move(130, 80));
     take(key(GLFW_KEY_RIGHT, true));
     assert_true(input_busy(&input));
-    assert_true(input_hand(&input, &pad, 0.5, &hand, &asks) == 8);
+    assert_true(input_fill_hand(&input, &pad, 0.5, &hand, &asks) == 8);
     assert_true(hand.move_drag[0] == 15 && hand.move_drag[1] == 10);
     assert_true(hand.move_rate[0] == 1 && hand.move_offset[0] > 0.9);
-    assert_int_equal(next(ASK_COMMAND).command, PLAY_BOX_HOME);
+    assert_int_equal(next(ACTION_COMMAND).command, PLAY_BOX_HOME);
     hand = (HandInput){.dt = 0};
-    assert_true(input_hand(&input, &pad, 0.5, &hand, &asks) == 0);
+    assert_true(input_fill_hand(&input, &pad, 0.5, &hand, &asks) == 0);
     assert_true(hand.move_drag[0] == 0 && hand.move_rate[0] == 1);
     no_more(); /* the button is still down */
 }
@@ -206,7 +206,7 @@ static void a_trigger_touches(void **state)
     assert_true(input.drag == PLAY_TOUCH_DRAG && input.pressed == 0.5);
     input_press(&input, -1);
     assert_true(input.drag == PLAY_TOUCH_OTHER && input.pressed == 1);
-    input_hand(&input, &pad, 0.5, &hand, &asks);
+    input_fill_hand(&input, &pad, 0.5, &hand, &asks);
     assert_true(hand.tilt_offset[0] == 0);
     input_press(&input, 0);
     assert_int_equal(input.drag, PLAY_NONE);
@@ -217,7 +217,7 @@ static void a_trigger_touches(void **state)
     assert_int_equal(input.drag, PLAY_TOUCH_DRAG);
     take(button(GLFW_MOUSE_BUTTON_LEFT, 0, false));
     input.touching = false;
-    input_hand(&input, &pad, 0.5, &hand, &asks);
+    input_fill_hand(&input, &pad, 0.5, &hand, &asks);
     assert_true(hand.tilt_offset[0] > 0.9);
 }
 
@@ -230,7 +230,7 @@ static void a_lost_focus_lets_go_once(void **state)
     take(key(GLFW_KEY_UP, true));
     take(lost);
     take(lost);
-    next(ASK_LET_GO);
+    next(ACTION_STOP_BOX);
     no_more();
     assert_false(input_busy(&input));
 }
@@ -242,8 +242,8 @@ static void a_held_key_says_so(void **state)
     take(key(GLFW_KEY_PERIOD, true));
     take(held_key(GLFW_KEY_PERIOD));
     take(held_key(GLFW_KEY_R));
-    assert_false(next(ASK_COMMAND).held);
-    assert_true(next(ASK_COMMAND).held);
+    assert_false(next(ACTION_COMMAND).held);
+    assert_true(next(ACTION_COMMAND).held);
     no_more();
 }
 

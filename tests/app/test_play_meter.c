@@ -1,27 +1,27 @@
 /* What the window measures of itself, against what was put in; and the script that shakes the box. */
 #include "tests/near.h"
 
-#include "app/meter/meter.h"
-#include "app/window/shake.h"
+#include "app/window/frame_times.h"
+#include "app/window/window.h"
 
 #include <math.h>
 
 static void pictures_a_second(void **state)
 {
     (void)state;
-    PlayMeter meter = {0};
-    float history[METER_HISTORY];
+    FrameTimes meter = {0};
+    float history[FRAME_TIMES_HISTORY];
     for (int i = 0; i < 101; i++)
-        meter_picture(&meter, 1000 + 20.0 * i, 0);
+        frame_times_picture(&meter, 1000 + 20.0 * i, 0);
     assert_int_equal(meter.pictures, 101);
     assert_true(fabs(meter.pictures_per_second - 50) < 0.5);
-    assert_int_equal(meter_history(&meter, history), 100);
+    assert_int_equal(frame_times_history(&meter, history), 100);
     for (int i = 0; i < 100; i++)
         assert_true(fabsf(history[i] - 20) < 1e-3F);
     for (int i = 0; i < 200; i++) /* the ring keeps the last ones, in order */
-        meter_picture(&meter, 3000 + i + 0.001 * i * i, 0);
-    assert_int_equal(meter_history(&meter, history), METER_HISTORY);
-    for (int i = 1; i < METER_HISTORY; i++)
+        frame_times_picture(&meter, 3000 + i + 0.001 * i * i, 0);
+    assert_int_equal(frame_times_history(&meter, history), FRAME_TIMES_HISTORY);
+    for (int i = 1; i < FRAME_TIMES_HISTORY; i++)
         assert_true(history[i] > history[i - 1]);
 }
 
@@ -29,17 +29,17 @@ static void pictures_a_second(void **state)
 static void pauses_are_left_out(void **state)
 {
     (void)state;
-    PlayMeter meter = {0};
-    float history[METER_HISTORY];
+    FrameTimes meter = {0};
+    float history[FRAME_TIMES_HISTORY];
     for (int i = 0; i < 61; i++)
-        meter_picture(&meter, 1000 + 20.0 * i, 0);
-    meter_rest(&meter, true);
-    meter_picture(&meter, 2300, 0);
-    meter_picture(&meter, 29000, 0);
-    meter_picture(&meter, 29300, 0);
-    meter_rest(&meter, false);
-    meter_picture(&meter, 29320, 0);
-    assert_int_equal(meter_history(&meter, history), 61);
+        frame_times_picture(&meter, 1000 + 20.0 * i, 0);
+    frame_times_pause(&meter, true);
+    frame_times_picture(&meter, 2300, 0);
+    frame_times_picture(&meter, 29000, 0);
+    frame_times_picture(&meter, 29300, 0);
+    frame_times_pause(&meter, false);
+    frame_times_picture(&meter, 29320, 0);
+    assert_int_equal(frame_times_history(&meter, history), 61);
     for (int i = 0; i < 61; i++)
         assert_true(fabsf(history[i] - 20) < 1e-3F);
     assert_true(fabs(meter.pictures_per_second - 50) < 0.5);
@@ -49,49 +49,49 @@ static void pauses_are_left_out(void **state)
 static void events_wait_for_their_picture(void **state)
 {
     (void)state;
-    PlayMeter meter = {0};
-    meter_event(&meter, 100, 1);
-    meter_event(&meter, 110, 2);
-    meter_event(&meter, 115, 3);
-    meter_picture(&meter, 120, 0);
+    FrameTimes meter = {0};
+    frame_times_event(&meter, 100, 1);
+    frame_times_event(&meter, 110, 2);
+    frame_times_event(&meter, 115, 3);
+    frame_times_picture(&meter, 120, 0);
     assert_int_equal(meter.latencies, 0);
-    meter_picture(&meter, 150, 2);
+    frame_times_picture(&meter, 150, 2);
     assert_int_equal(meter.latencies, 2);
-    meter_picture(&meter, 180, 2);
+    frame_times_picture(&meter, 180, 2);
     assert_int_equal(meter.latencies, 2);
-    meter_picture(&meter, 210, 9);
+    frame_times_picture(&meter, 210, 9);
     assert_int_equal(meter.latencies, 3);
-    assert_true(meter_latency(&meter, 0) == 40);
-    assert_true(meter_latency(&meter, 0.5) == 50);
-    assert_true(meter_latency(&meter, 1) == 95);
-    meter_event(&meter, 220, 10);
-    meter_forget(&meter);
-    meter_picture(&meter, 300, 10);
+    assert_true(frame_times_latency(&meter, 0) == 40);
+    assert_true(frame_times_latency(&meter, 0.5) == 50);
+    assert_true(frame_times_latency(&meter, 1) == 95);
+    frame_times_event(&meter, 220, 10);
+    frame_times_forget_events(&meter);
+    frame_times_picture(&meter, 300, 10);
     assert_int_equal(meter.latencies, 3);
 }
 
 static void more_than_it_holds(void **state)
 {
     (void)state;
-    PlayMeter meter = {0};
-    assert_true(meter_latency(&meter, 0.5) == 0);
-    for (int i = 0; i < 2 * METER_WAITING_MAX; i++)
-        meter_event(&meter, 0, (uint64_t)i + 1);
-    meter_picture(&meter, 7, 4 * METER_WAITING_MAX);
-    assert_int_equal(meter.latencies, METER_WAITING_MAX);
-    for (int i = 0; i < METER_SAMPLES_MAX + 50; i++) {
-        meter_event(&meter, i, (uint64_t)i + 1);
-        meter_picture(&meter, i + 3, (uint64_t)i + 1);
+    FrameTimes meter = {0};
+    assert_true(frame_times_latency(&meter, 0.5) == 0);
+    for (int i = 0; i < 2 * FRAME_TIMES_WAITING_MAX; i++)
+        frame_times_event(&meter, 0, (uint64_t)i + 1);
+    frame_times_picture(&meter, 7, 4 * FRAME_TIMES_WAITING_MAX);
+    assert_int_equal(meter.latencies, FRAME_TIMES_WAITING_MAX);
+    for (int i = 0; i < FRAME_TIMES_SAMPLES_MAX + 50; i++) {
+        frame_times_event(&meter, i, (uint64_t)i + 1);
+        frame_times_picture(&meter, i + 3, (uint64_t)i + 1);
     }
-    assert_true(meter_latency(&meter, 0) == 3 && meter_latency(&meter, 1) == 3);
+    assert_true(frame_times_latency(&meter, 0) == 3 && frame_times_latency(&meter, 1) == 3);
 }
 
 static void the_process_has_an_age(void **state)
 {
     (void)state;
-    const double age = meter_process_age_ms();
+    const double age = process_age_ms();
     assert_true(age >= 0 && age < 60000);
-    assert_true(meter_process_age_ms() >= age);
+    assert_true(process_age_ms() >= age);
 }
 
 /* 125 events a second, with the times at which they were due; a drag with Shift, within the picture. */

@@ -1,7 +1,7 @@
 /* slosh stability: trials that are kept. */
 #include "tests/scratch.h"
 
-#include "app/stability/stable_row.h"
+#include "app/lab/stability.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
 #include "tests/scratch.h"
 #include "tests/sim/fixture.h"
 
-#include "app/lab/validate_report.h"
+#include "app/bench/validate.h"
 
 #include <unistd.h>
 
@@ -14,10 +14,10 @@ static const Case swing = {
                 {"shape", "", .no_verdict = true}},
 };
 
-static Figure shape = {0.5, 1, 0.5};
+static CaseFigure shape = {0.5, 1, 0.5};
 static Outcome outcome = {.kind = OUTCOME_HOLDS};
 
-static CaseResult *result_of(Figure frequency, Figure width)
+static CaseResult *result_of(CaseFigure frequency, CaseFigure width)
 {
     static CaseResult result;
     result = (CaseResult){.of = &swing, .level = CASE_DEFAULT};
@@ -43,7 +43,7 @@ static void printed(const CaseResult *result, char text[4096])
     all_of(file, text);
 }
 
-static const Figure none = {(double)NAN, 20.9, (double)NAN}, good = {1.02, 1, 0.02}, bad = {1.2, 1, 0.2};
+static const CaseFigure none = {(double)NAN, 20.9, (double)NAN}, good = {1.02, 1, 0.02}, bad = {1.2, 1, 0.2};
 
 static void a_figure_without_a_value_is_words(void **state)
 {
@@ -68,9 +68,9 @@ static void what_has_no_verdict_is_no_miss(void **state)
 {
     (void)state;
     char text[4096];
-    shape = (Figure){(double)NAN, 1, (double)NAN};
+    shape = (CaseFigure){(double)NAN, 1, (double)NAN};
     printed(result_of(good, good), text);
-    shape = (Figure){0.5, 1, 0.5};
+    shape = (CaseFigure){0.5, 1, 0.5};
     assert_non_null(strstr(text, "shape"));
     assert_null(strstr(text, "missed"));
 }

@@ -1,8 +1,7 @@
 /* slosh chart --views: errors of pictures, the plan, rows that are kept. */
 #include "tests/scratch.h"
 
-#include "app/gallery/picture_error.h"
-#include "app/gallery/view_plan.h"
+#include "app/lab/view_benchmark.h"
 
 #include "sim/base/color.h"
 

@@ -5,7 +5,7 @@
 
 #include <cmocka.h>
 
-#include "app/panel/widget_input.h"
+#include "app/window/input.h"
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>

@@ -2,7 +2,7 @@
    behind is no part of what is measured. */
 #include "tests/sim/fixture.h"
 
-#include "app/case/run.h"
+#include "app/bench/cases/case.h"
 #include "app/run/offscreen.h"
 #include "sim/gl/backends.h"
 

@@ -4,6 +4,7 @@
 #include "tests/device/report_fixture.h"
 #include "tests/near.h"
 
+#include "app/cli/cli.h"
 #include "app/input/box_control.h"
 #include "app/input/hand.h"
 #include "app/run/session.h"
@@ -206,7 +207,7 @@ static void open_session(Session *session, const char *threads)
     static Args args;
     char *argv[] = {"slosh",    "run",       "a.yaml",    "-o",           "a.h5part",
                     "--device", "file:tilt", "--threads", (char *)threads};
-    if (!args_parse((int)(sizeof argv / sizeof *argv), argv, &args, &error) ||
+    if (!args_parse(&cli_table, (int)(sizeof argv / sizeof *argv), argv, &args, &error) ||
         session_open(session, &args, &error) != 0)
         fail_msg("%s", error.message);
 }

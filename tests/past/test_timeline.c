@@ -3,7 +3,7 @@
 #include "tests/render/ui_fixture.h"
 
 #include "app/input/play_commands.h"
-#include "app/panel/timeline.h"
+#include "app/window/panel/panel.h"
 
 typedef struct Line {
     TimelineData data;

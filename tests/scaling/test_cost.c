@@ -2,7 +2,7 @@
  * follows. */
 #include "tests/near.h"
 
-#include "app/scaling/cost.h"
+#include "app/lab/scaling.h"
 
 #include <string.h>
 

@@ -3,7 +3,7 @@
 #include "sim/wcsph/wcsph.h"
 #include "tests/scene/scene_text.h"
 
-#include "app/case/run.h"
+#include "app/bench/cases/case.h"
 #include "app/scene/keys.h"
 #include "sim/world/world.h"
 

@@ -1,8 +1,7 @@
 /* The search on made-up fluids; the table of its trials. */
 #include "tests/sim/fixture.h"
 
-#include "app/stability/stable_row.h"
-#include "app/stability/stable_search.h"
+#include "app/lab/stability.h"
 
 /* It holds up to `limit`, and in the band [low, high]; `silent` rungs above the limit nothing finds; of rungs
    above `mixed` below the limit one start fails, `bad`. */

@@ -1,7 +1,7 @@
 /* The stiffest wave of the lattice: against sums over displaced particles, and against worlds that grow. */
 #include "tests/sim/fixture.h"
 
-#include "app/stability/stable_limits.h"
+#include "app/lab/stability.h"
 #include "sim/kernel/sound_wave.h"
 #include "sim/wcsph/wcsph.h"
 

@@ -54,49 +54,36 @@ RENDER |= {name: "frame particles plane" for name in [*VIEWS, *OVERLAYS]}
 RENDER[""] = " ".join(["frame particles derived plane probe ui clear coarse", *VIEWS, *OVERLAYS])
 APP = {
     "base": "",
-    "metric": "base",
-    "probe": "base metric",
-    "outcome": "base metric",
+    "run/measure": "base",
     "scene/yaml": "base",
     "scene/import": "base scene/yaml",
-    "scene": "base metric probe scene/yaml scene/import",
-    "recording": "base scene/yaml scene",
-    "hand": "base scene",
-    "touch": "base scene recording hand",
-    "device": "base scene/yaml scene recording hand",
-    "held": "base scene hand device",
+    "scene": "base run/measure scene/yaml scene/import",
+    "run/recording": "base scene/yaml scene",
+    "input/device": "base run/recording",
+    "input": "base scene/yaml scene run/recording input/device",
     "files": "base scene/yaml scene",
-    "session": "base metric probe outcome scene recording hand held files",
-    "playback": "base scene/yaml scene files session",
-    "scaling": "base",
-    "beside": "base scene recording files session playback",
-    "shelf": "base scene/yaml scene files session beside",
-    "case": "base metric probe scene",
-    "lab": "base metric probe outcome scene held session case",
-    "stability": "base outcome scene session lab",
-    "fit": "base metric outcome scene/yaml scene session case lab",
-    "ablate": "base metric outcome scene lab",
-    "gallery": "base scene session lab",
-    "window": "",
-    "watch": "base",
-    "meter": "base session lab",
-    "panel": "probe scene hand held session shelf window",
-    "play": "base scene/yaml scene/import scene recording hand touch device held files session playback beside shelf lab window watch meter panel",
-    "manual": "base scene session",
-    "film": "base scene recording files session playback beside",
-    "dist": "base probe scene files session scaling lab",
-    "command": "base metric probe outcome scene/yaml scene recording hand device held files session playback beside shelf case lab stability fit ablate gallery meter play manual film",
+    "cli/args": "base scene files",  # the command line as data, for all parts below the commands
+    "run/playback": "base scene/yaml scene files",
+    "run": "base run/measure scene run/recording input files cli/args",
+    "run/compare": "base scene run/recording files run/playback run",
+    "bench/cases": "base run/measure scene",
+    "bench": "base run/measure scene input cli/args run bench/cases",
+    "lab": "base run/measure scene/yaml scene cli/args run bench bench/cases",
+    "window/panel": "run/measure scene input run",
+    "window": "base scene/yaml scene/import scene run/recording input/device input files run/playback run run/compare cli/args bench window/panel",
+    "cli": "base run/measure scene/yaml scene run/recording input/device input files run/playback run run/compare cli/args bench bench/cases lab window",
+    "ranks": "base run/measure scene files run cli/args bench lab cli",
 }
 FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("sim/dist", {"": ""}, ["sim"]),
           ("render", RENDER, ["sim", "sim/gl"]), ("app", APP, ["sim", "sim/gl", "sim/dist", "render"])]
-DRAWS_NOTHING = {"base", "metric", "probe", "scene/yaml", "scene/import", "recording", "device", "window"}  # rooms of app without render and sim/gl
+DRAWS_NOTHING = {"base", "run/measure", "scene/yaml", "scene/import", "run/recording", "input/device"}  # rooms of app without render and sim/gl
 
 
-# What names methods beside their folders and app/case: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
-METHOD_LISTS = ["app/command/new.c", "sim/world/method.c", "app/scene/presets.c", "app/command/info.c"]
+# What names methods beside their folders and app/bench/cases: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
+METHOD_LISTS = ["app/cli/new.c", "sim/world/method.c", "app/scene/presets.c", "app/cli/info.c"]
 
-# What names views beside their folders and app/case: lists.
-VIEW_LISTS = ["render/views.c", "app/lab/bench_table.c"]
+# What names views beside their folders and app/bench/cases: lists.
+VIEW_LISTS = ["render/views.c", "app/bench/bench_table.c"]
 
 # What names overlays beside their folders: the list.
 OVERLAY_LISTS = ["render/overlays.c"]
@@ -125,7 +112,7 @@ def may():
             if floor == "sim/gl":
                 own.append("sim/gl")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
-            down = [where for where in down if where != "sim/dist" or room == "dist"]  # no other command needs MPI
+            down = [where for where in down if where != "sim/dist" or room == "ranks"]  # no other command needs MPI
             own_shaders = f"sim/{room}" if floor == "sim" else room
             blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
             allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks]
@@ -216,7 +203,7 @@ class Layers(unittest.TestCase):
             guard = re.search(r"^#ifndef (\w+)\n#define \1$", path.read_text(), re.M)
             owners[guard and guard[1]].append(str(path.relative_to(ROOT)))
         owners.pop(None, None)  # lists that are included more than once
-        self.assertGreater(len(owners), 400)
+        self.assertGreater(len(owners), 200)
         self.assertEqual({guard: names for guard, names in owners.items() if len(names) > 1}, {})
 
     def test_a_view_is_named_in_its_folder_and_in_lists(self):
@@ -226,7 +213,7 @@ class Layers(unittest.TestCase):
         found = []
         for path in paths:
             name = str(path.relative_to(ROOT))
-            if name in VIEW_LISTS or name.startswith("app/case/"):
+            if name in VIEW_LISTS or name.startswith("app/bench/cases/"):
                 continue
             for view in views - {path.parent.name}:
                 word = (rf'\b(view_{view}|{view}_(def|keys|usual))\b|\bview\.{view}\b|"render/{view}/|'
@@ -251,7 +238,7 @@ class Layers(unittest.TestCase):
         word = re.compile("|".join(methods), re.I)
         named = {str(path.relative_to(ROOT)) for path in paths
                  if path.parent.name not in methods and word.search(path.read_text())}
-        self.assertEqual(sorted(name for name in named if not name.startswith("app/case/")), sorted(METHOD_LISTS))
+        self.assertEqual(sorted(name for name in named if not name.startswith("app/bench/cases/")), sorted(METHOD_LISTS))
 
     def test_a_views_shaders_are_its_own(self):
         seen, found = 0, []

@@ -1,0 +1,443 @@
+#include "app/bench/bench_table.h"
+
+#include "app/bench/cases/case.h"
+#include "app/bench/gnuplot.h"
+#include "render/frame/view.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#define BIT(stage) (1U << (stage))
+
+/* Bits of all solver stages. */
+#define X(NAME, name, part) | ((part) == PART_SIM ? BIT(STAGE_##NAME) : 0U)
+enum { SIM = 0U STAGE_LIST(X) };
+#undef X
+
+static const BenchTable tables[] = {
+    {.name = "paper001",
+     .help =
+         "points a second: sampling of surfaces, and rendering by the view pbsr (Tanaka et al. 2012, section "
+         "5); give it --size 1024x1024; --particles N: so many points of each field",
+     .scene = "scenes/papers/surfaces.yaml",
+     .settings = {"view.pbsr.moving=8", "view.pbsr.repeat=64"},
+     .reference = "scenes/reference/paper001-points.csv",
+     .view = "pbsr",
+     .points = true},
+    {.name = "paper003-spheres",
+     .help = "simulation and rendering by spheres, CPU and GPU (SIBGRAPI 2010, Table II and Figure 5)",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1"},
+     .particles = {"1024", "2048", "4096", "8192"},
+     .reference = "scenes/reference/paper003-spheres.csv",
+     .shares = true,
+     .columns = {{"simulation", SIM}, {"rendering", 0}}},
+    {.name = "paper003-substeps",
+     .help = "one step of 0.01 s a picture against ten of 0.001 s (SIBGRAPI 2010, Figure 6)",
+     .scene = "scenes/substeps.yaml",
+     .settings = {"solver.step.dt=0.01"},
+     .particles = {"8192"},
+     .substeps = {"1", "10"},
+     .columns = {{"simulation", SIM}, {"rendering", 0}}},
+    {.name = "paper002-passes",
+     .help =
+         "the passes of splatting, frames and particles a second over its animations, while the camera turns "
+         "(Adams et al. 2006, Table 1); give it --size 640x480; --particles N: smaller ones",
+     .scenes = {"scenes/papers/melting.yaml", "scenes/papers/goop_on_bust.yaml", "scenes/papers/mixing.yaml",
+                "scenes/papers/mixing.yaml"},
+     .seconds = 1.5,
+     .settings = {"view.radius=1", "view.splat.drops=false"}, /* no neighbours there */
+     .particles = {"110000", "18000", "59000", "63000"},
+     .asked = {NULL, "20000", "118000", "126000"},
+     .reference = "scenes/reference/paper002-passes.csv",
+     .view = "splat",
+     .percent = true,
+     .columns = {{"visibility", BIT(STAGE_VISIBILITY)},
+                 {"blend", BIT(STAGE_BLEND)},
+                 {"shade", BIT(STAGE_SHADE)}}},
+    {.name = "paper003-raycast",
+     .help =
+         "simulation, volume and raycasting (SIBGRAPI 2010, Table I and Figure 5), by the paper's geometry "
+         "shader; 128 x 128 x 128 cells in a cube, as its CPU has, or with --set view.volume.cells=512 cells as "
+         "fine as its GPU's 128 x 512 x 512",
+     .scene = "scenes/papers/cube.yaml",
+     .settings = {"solver.step.dt=0.0012", "solver.step.substeps=1", "view.volume.method=geometry"},
+     .particles = {"1024", "2048", "4096", "8192"},
+     .reference = "scenes/reference/paper003-raycast.csv",
+     .view = "volume",
+     .backends = true,
+     .shares = true,
+     .columns = {{"simulation", SIM},
+                 {"voxelize", BIT(STAGE_VOXELIZE)},
+                 {"raycast", BIT(STAGE_RAYCAST)},
+                 {"rendering", 0}}},
+    {.name = "paper003-voxelize",
+     .help =
+         "the ways to the volume side by side; `direct` lists the particles and sums where the slice is drawn",
+     .scene = "scenes/dam_break.yaml",
+     .settings = {"view.volume.show=slice"},
+     .particles = {"1024", "8192"},
+     .view = "volume",
+     .sweep = "view.volume.method",
+     .values = {"geometry", "layers", "planes", "scatter", "gather", "slabs", "direct"},
+     .columns = {{"voxelize", BIT(STAGE_VOXELIZE)}, {"slice", BIT(STAGE_SHADE)}}},
+};
+
+const char *bench_table_choice(int index)
+{
+    return index < (int)(sizeof tables / sizeof *tables) ? tables[index].name : NULL;
+}
+
+const BenchTable *bench_table_find(const char *name, Error *error)
+{
+    char all[sizeof error->message] = "";
+    for (size_t i = 0; i < sizeof tables / sizeof *tables; i++) {
+        if (strcmp(tables[i].name, name) == 0)
+            return &tables[i];
+        snprintf(all + strlen(all), sizeof all - strlen(all), "\n  %-18s %s", tables[i].name, tables[i].help);
+    }
+    error_set(error, "there is no table '%.60s'; these are there:%s", name, all);
+    return NULL;
+}
+
+size_t bench_table_scenes(const BenchTable *table, const char *const **scenes)
+{
+    size_t count = 0;
+    *scenes = table->scene ? &table->scene : table->scenes;
+    while (!table->scene && table->scenes[count])
+        count++;
+    return table->scene ? 1 : count;
+}
+
+static void add(Sweep *sweep, const char *value)
+{
+    if (sweep->count < ARGS_SWEEP_VALUES_MAX)
+        sweep->values[sweep->count++] = value;
+}
+
+int bench_table_sweeps(const BenchTable *table, Sweep sweeps[BENCH_TABLE_SWEEPS + 1])
+{
+    int count = 0;
+    Sweep *views = &sweeps[count++];
+    *views = (Sweep){.key = "view.kind"};
+    for (int i = 0; view_at(i); i++)
+        if (!table->view || strcmp(table->view, view_at(i)->name) == 0)
+            add(views, view_at(i)->name);
+    if (table->points)
+        return count;
+    if (table->scene) {
+        Sweep *particles = &sweeps[count++];
+        *particles = (Sweep){.key = "particles"};
+        for (int i = 0; table->particles[i]; i++)
+            add(particles, table->particles[i]);
+    }
+    if (table->substeps[0]) {
+        Sweep *substeps = &sweeps[count++];
+        *substeps = (Sweep){.key = "solver.step.substeps"};
+        for (int i = 0; table->substeps[i]; i++)
+            add(substeps, table->substeps[i]);
+    }
+    if (table->sweep) {
+        Sweep *values = &sweeps[count++];
+        *values = (Sweep){.key = table->sweep};
+        for (int i = 0; table->values[i]; i++)
+            add(values, table->values[i]);
+    }
+    if (table->view && !table->backends)
+        return count;
+    Sweep *backends = &sweeps[count++];
+    *backends = (Sweep){.key = "solver.backend"};
+    for (const Named *backend = world_backends(); backend->name; backend++)
+        add(backends, backend->name);
+    return count;
+}
+
+/* Returns the time of a column in the median frame, ms. */
+static double bench_table_value(const BenchTable *table, const BenchResult *result, int column)
+{
+    unsigned named = 0;
+    double sum = 0;
+    for (int c = 0; table->columns[c].title; c++)
+        named |= table->columns[c].stages;
+    const unsigned wanted = table->columns[column].stages ? table->columns[column].stages : ~named;
+    for (unsigned s = 0; s < STAGE_COUNT; s++)
+        sum += wanted & BIT(s) ? result->stages[s].median_ms : 0;
+    return sum;
+}
+
+/* Returns a row's name beside its view: the value of the table's sweep, or the backend. */
+static const char *bench_table_row_name(const BenchTable *table, const BenchResult *result)
+{
+    const char *value = table->sweep ? strrchr(result->swept, '=') : NULL;
+    return value ? value + 1 : result->backend;
+}
+
+/* Prints values in ms with their shares. `times` false: published shares only, without times. */
+static void print_values(const double *values, int columns, bool times, FILE *file)
+{
+    double all = 0;
+    for (int c = 0; c < columns; c++)
+        all += values[c];
+    for (int c = 0; c < columns; c++) {
+        if (times)
+            fprintf(file, " %9.3f", values[c]);
+        else
+            fprintf(file, " %9s", "");
+        fprintf(file, " %5.1f %%", all > 0 ? 100 * values[c] / all : 0);
+    }
+    if (times)
+        fprintf(file, " %9.3f", all);
+    else
+        fprintf(file, " %9s", "");
+}
+
+static int column_count(const BenchTable *table)
+{
+    int columns = 0;
+    while (table->columns[columns].title)
+        columns++;
+    return columns;
+}
+
+/* Prints coverage, and fragments per covered pixel of each column with a single counted stage. */
+static void print_counts(const BenchTable *table, const BenchResult *r, FILE *file)
+{
+    fprintf(file, " %8.1f %%", 100 * r->counts.coverage);
+    for (int c = 0; table->columns[c].title; c++)
+        for (unsigned s = 0; s < STAGE_COUNT; s++)
+            if (table->columns[c].stages == BIT(s) && r->counts.fragments[s] > 0)
+                fprintf(file, " %6.1f", r->counts.fragments[s]);
+}
+
+/* Prints frames per second, and millions of particles per second. */
+static void print_rate(double rate, size_t particles, FILE *file)
+{
+    fprintf(file, " %9.1f %9.2f", rate, 1e-6 * rate * (double)particles);
+}
+
+static void print_result(const BenchTable *table, const BenchResult *r, FILE *file)
+{
+    double values[BENCH_TABLE_COLUMNS];
+    char text[OUTCOME_TEXT];
+    const int columns = column_count(table);
+    if (*r->failure.message) {
+        fprintf(file, "%9zu %8s  %-9s %-22s %s\n", r->particles, "-", r->view, bench_table_row_name(table, r),
+                outcome_text(&r->outcome, text));
+        return;
+    }
+    for (int c = 0; c < columns; c++)
+        values[c] = bench_table_value(table, r, c);
+    fprintf(file, "%9zu %8d  %-9s %-22s", r->particles, r->substeps, r->view, bench_table_row_name(table, r));
+    print_values(values, columns, true, file);
+    if (table->percent)
+        print_rate(r->render_ms > 0 ? 1e3 / r->render_ms : 0, r->particles, file);
+    if (r->counts.counted)
+        print_counts(table, r, file);
+    fputc('\n', file);
+}
+
+/* Prints the published rows with the same particle count. The paper has one step per frame. */
+static void print_published(const BenchTable *table, const Reference *reference, size_t particles, FILE *file)
+{
+    double values[BENCH_TABLE_COLUMNS];
+    const int columns = column_count(table);
+    for (int row = 0; row < reference->rows; row++) {
+        if ((size_t)reference_number(reference, row, "particles") != particles)
+            continue;
+        for (int c = 0; c < columns; c++)
+            values[c] =
+                (table->percent ? 1 : 1e3) * reference_number(reference, row, table->columns[c].title);
+        char label[64];
+        snprintf(label, sizeof label, "%s, published", reference_text(reference, row, "engine"));
+        fprintf(file, "%9zu %8s  %-9s %-22s", particles, table->percent ? "" : "1",
+                table->view ? table->view : view_at(0)->name, label);
+        print_values(values, columns, !table->percent, file);
+        if (table->percent)
+            print_rate(reference_number(reference, row, "rate"), particles, file);
+        fputc('\n', file);
+    }
+}
+
+size_t bench_table_particles(const BenchTable *table, size_t scene)
+{
+    const char *asked = table->asked[scene] ? table->asked[scene] : table->particles[scene];
+    return strtoul(asked, NULL, 10);
+}
+
+static size_t asked_for(const BenchTable *table, int group)
+{
+    return strtoul(table->particles[group], NULL, 10);
+}
+
+/* Returns the first result with figures, else the first result. */
+static const BenchResult *any_measured(const BenchResult *results, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!*results[i].failure.message)
+            return &results[i];
+    return results;
+}
+
+bool bench_table_print(const BenchTable *table, const BenchResult *results, size_t count, FILE *file,
+                       Error *error)
+{
+    static Reference reference;
+    const BenchResult *any = any_measured(results, count);
+    if (table->reference && !reference_load(table->reference, &reference, error))
+        return false;
+    fprintf(file, "%s: %s\n", table->name, table->help);
+    if (table->reference)
+        fprintf(file, "published: %s\n", reference.notes);
+    if (count > 0)
+        fprintf(file, "here: %s; %s with %d thread%s; %d x %d; medians of %d frame%s, ms\n\n", any->renderer,
+                bench_processor(), any->threads, plural((size_t)any->threads), any->width, any->height,
+                any->frames, plural((size_t)any->frames));
+    fprintf(file, "%9s %8s  %-9s %-22s", "particles", "substeps", "view",
+            table->sweep ? strrchr(table->sweep, '.') + 1 : "backend");
+    for (int c = 0; table->columns[c].title; c++)
+        fprintf(file, " %17s", table->columns[c].title);
+    fprintf(file, " %9s%s%s\n", "total", table->percent ? "  frames/s  M part./s" : "",
+            count > 0 && any->counts.counted ? "   coverage  fragments a covered pixel" : "");
+    size_t last = 0;
+    int group = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (table->reference && (!table->scene || results[i].particles != last) && table->particles[group] &&
+            strcmp(results[i].view, table->view ? table->view : view_at(0)->name) == 0)
+            print_published(table, &reference, asked_for(table, group++), file);
+        last = results[i].particles;
+        print_result(table, &results[i], file);
+    }
+    fputc('\n', file);
+    return true;
+}
+
+/* The charts of published tables. */
+
+enum { WIDTH = 820, HEIGHT = 460, LINES_MAX = 32, BAR = 72, MARGINS = 230 }; /* px; bars have names below */
+
+/* True if an earlier result has the same view and backend. */
+static bool seen_before(const BenchResult *results, size_t at)
+{
+    for (size_t i = 0; i < at; i++)
+        if (strcmp(results[i].view, results[at].view) == 0 &&
+            strcmp(results[i].backend, results[at].backend) == 0)
+            return true;
+    return false;
+}
+
+static double share(const BenchTable *table, const BenchResult *r)
+{
+    double all = 0;
+    for (int c = 0; table->columns[c].title; c++)
+        all += bench_table_value(table, r, c);
+    return all > 0 ? 100 * bench_table_value(table, r, 0) / all : 0;
+}
+
+static void label(FILE *gnuplot, const char *name, const char *words)
+{
+    char text[384];
+    snprintf(text, sizeof text, "%s%s", name, words);
+    gnuplot_quote(gnuplot, text);
+}
+
+/* Writes one data block per line of the chart; returns the count of lines. */
+static int share_data(const BenchTable *table, const BenchResult *results, size_t count, FILE *gnuplot)
+{
+    int lines = 0;
+    for (size_t i = 0; i < count && lines < LINES_MAX; i++) {
+        if (seen_before(results, i))
+            continue;
+        fprintf(gnuplot, "$line%d << EOD\n", lines++);
+        for (size_t k = i; k < count; k++)
+            if (!*results[k].failure.message && strcmp(results[k].view, results[i].view) == 0 &&
+                strcmp(results[k].backend, results[i].backend) == 0)
+                fprintf(gnuplot, "%zu %.4f\n", results[k].particles, share(table, &results[k]));
+        fputs("EOD\n", gnuplot);
+    }
+    return lines;
+}
+
+static void published_data(const BenchTable *table, const Reference *reference, const char *engine,
+                           FILE *gnuplot)
+{
+    fprintf(gnuplot, "$%s << EOD\n", engine);
+    for (int row = 0; row < reference->rows; row++) {
+        double all = 0;
+        if (strcmp(reference_text(reference, row, "engine"), engine) != 0)
+            continue;
+        for (int c = 0; table->columns[c].title; c++)
+            all += reference_number(reference, row, table->columns[c].title);
+        fprintf(gnuplot, "%s %.4f\n", reference_text(reference, row, "particles"),
+                100 * reference_number(reference, row, table->columns[0].title) / all);
+    }
+    fputs("EOD\n", gnuplot);
+}
+
+static void draw_shares(const BenchTable *table, const BenchResult *results, size_t count,
+                        const Reference *reference, FILE *gnuplot)
+{
+    int line = 0;
+    published_data(table, reference, "CPU", gnuplot);
+    published_data(table, reference, "GPU", gnuplot);
+    share_data(table, results, count, gnuplot);
+    fputs("set logscale x 2\nset yrange [0:100]\nset xlabel 'particles'\n"
+          "set ylabel 'share of the frame that is simulation, %'\n"
+          "plot $CPU with linespoints lw 2 dt 2 lc '#8795a3' pt 4 title 'CPU, published', "
+          "$GPU with linespoints lw 2 dt 2 lc '#8795a3' pt 6 title 'GPU, published'",
+          gnuplot);
+    for (size_t i = 0; i < count && line < LINES_MAX; i++) {
+        char words[80];
+        if (seen_before(results, i))
+            continue;
+        fprintf(gnuplot, ", $line%d with linespoints lw 2 lt %d pt 7 title ", line, line + 1);
+        line++;
+        snprintf(words, sizeof words, ", %s", results[i].view);
+        label(gnuplot, results[i].backend, words);
+    }
+    fputc('\n', gnuplot);
+}
+
+/* Draws stacked bars, one per result. */
+static void draw_times(const BenchTable *table, const BenchResult *results, size_t count, FILE *gnuplot)
+{
+    fputs("$bars << EOD\n", gnuplot);
+    for (size_t i = 0; i < count; i++) {
+        if (*results[i].failure.message)
+            continue;
+        if (table->sweep)
+            fprintf(gnuplot, "\"%s\\n%zu\"", bench_table_row_name(table, &results[i]), results[i].particles);
+        else
+            fprintf(gnuplot, "\"%s\\n%s\\n%d x %g s\"", results[i].backend, results[i].view,
+                    results[i].substeps, results[i].dt_substep);
+        for (int c = 0; table->columns[c].title; c++)
+            fprintf(gnuplot, " %.4f", bench_table_value(table, &results[i], c));
+        fputc('\n', gnuplot);
+    }
+    fputs("EOD\nset style data histograms\nset style histogram rowstacked\nset style fill solid noborder\n"
+          "set boxwidth 0.7\nset bmargin 5\nset yrange [0:*]\nset ylabel 'time of a frame, ms'\nplot ",
+          gnuplot);
+    for (int c = 0; table->columns[c].title; c++) {
+        fprintf(gnuplot, "%s$bars using %d%s lt %d title ", c ? ", " : "", c + 2, c ? "" : ":xtic(1)", c + 1);
+        label(gnuplot, table->columns[c].title, "");
+    }
+    fputc('\n', gnuplot);
+}
+
+bool bench_table_draw(const BenchTable *table, const BenchResult *results, size_t count, const char *path,
+                      Error *error)
+{
+    static Reference reference;
+    Gnuplot chart = {.gnuplot = NULL};
+    const int bars = table->shares ? 0 : MARGINS + BAR * (int)count, width = bars > WIDTH ? bars : WIDTH;
+    if ((table->reference && !reference_load(table->reference, &reference, error)) ||
+        !gnuplot_begin(&chart, path, width, HEIGHT, error))
+        return false;
+    fputs("set title ", chart.gnuplot);
+    label(chart.gnuplot, count > 0 ? results[0].renderer : "", "");
+    fputc('\n', chart.gnuplot);
+    if (table->shares)
+        draw_shares(table, results, count, &reference, chart.gnuplot);
+    else
+        draw_times(table, results, count, chart.gnuplot);
+    return gnuplot_end(&chart, error);
+}

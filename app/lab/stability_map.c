@@ -1,0 +1,728 @@
+#include "app/base/file.h"
+#include "app/bench/gnuplot.h"
+#include "app/lab/stability.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Returns the largest stable step, s; NaN if none holds. */
+static double stable_largest(const StableCellFound *found);
+
+static void find_cell(const StablePlan *plan, int number, const StableRows *rows, StableCellFound *found)
+{
+    static Scene scene;
+    Error error = {{0}};
+    *found = (StableCellFound){.cell = stable_cell(plan, number), .ratio = (double)NAN};
+    found->searched = stable_scene(plan, found->cell, NULL, &scene, &error) &&
+                      stable_recall(plan, number, rows, &found->search, &error);
+    snprintf(found->why, sizeof found->why, "%.255s", error.message);
+    if (!found->searched)
+        return;
+    stable_limits(&scene.world, &found->limits);
+    if (isfinite(found->limits.sound))
+        found->ratio = stable_largest(found) / found->limits.lattice;
+}
+
+bool stable_map_make(const StablePlan *plan, const StableRows *rows, StableMap *map, Error *error)
+{
+    const int count = stable_cells(plan);
+    *map = (StableMap){.plan = plan, .found = calloc((size_t)count, sizeof *map->found)};
+    if (!map->found)
+        return error_set(error, "no memory for the map");
+    for (; map->count < count; map->count++)
+        find_cell(plan, map->count, rows, &map->found[map->count]);
+    return true;
+}
+
+void stable_map_free(StableMap *map)
+{
+    free(map->found);
+    map->found = NULL;
+}
+
+static double stable_largest(const StableCellFound *found)
+{
+    return found->searched && found->search.end != STABLE_NEVER ? stable_step(found->search.rung)
+                                                                : (double)NAN;
+}
+
+/* True if a sample above a failing step holds, or a sample below a holding step fails: halving may have
+   missed another limit. */
+static bool stable_uneven(const StableCellFound *found)
+{
+    return found->searched && found->search.again > found->search.rung;
+}
+
+/* Returns the count of failing samples above the largest step, undetected by the sentinel. */
+static int stable_silent(const StableCellFound *found)
+{
+    int silent = 0;
+    for (int i = 0; i < STABLE_ABOVE && found->searched && found->search.end != STABLE_NEVER; i++)
+        silent += found->search.above[i].silent;
+    return silent;
+}
+
+static bool same(const StableCellFound *a, const StableCellFound *b)
+{
+    return a->searched == b->searched &&
+           (!a->searched || (a->search.end == b->search.end && a->search.rung == b->search.rung));
+}
+
+int stable_idle_axis(const StableMap *map)
+{
+    const StablePlan *plan = map->plan;
+    for (int a = 0; a < plan->axis_count; a++) {
+        bool alike = true;
+        const int stride = a == 0 ? stable_points(plan, 1) : 1;
+        for (int n = 0; n < map->count; n++)
+            if (map->found[n].cell.at[a] > 0)
+                alike &= same(&map->found[n], &map->found[n - stride]);
+        if (alike)
+            return a;
+    }
+    return -1;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+StableSpread stable_spread(const StableMap *map, int series)
+{
+    StableSpread spread = {.least = (double)NAN, .median = (double)NAN, .most = (double)NAN};
+    static double ratios[STABLE_POINTS * STABLE_POINTS];
+    for (int n = 0; n < map->count; n++) {
+        const StableCellFound *found = &map->found[n];
+        if (found->cell.series != series || !found->searched)
+            continue;
+        spread.cells++;
+        spread.never += found->search.end == STABLE_NEVER;
+        spread.always += found->search.end == STABLE_ALWAYS;
+        spread.uneven += stable_uneven(found);
+        spread.silent += stable_silent(found) > 0;
+        if (isfinite(found->ratio) && found->search.end == STABLE_FOUND)
+            ratios[spread.ratios++] = found->ratio;
+    }
+    if (spread.ratios > 0) {
+        qsort(ratios, (size_t)spread.ratios, sizeof *ratios, ascending);
+        spread.least = ratios[0];
+        spread.median = ratios[spread.ratios / 2];
+        spread.most = ratios[spread.ratios - 1];
+    }
+    return spread;
+}
+
+/* Fills in words such as "blown up", or "squeezed (silent)" for a failure undetected by the sentinel. */
+static const char *found_word(const StableFound *found, char word[64])
+{
+    if (found->kind == OUTCOME_NONE)
+        return "-";
+    snprintf(word, 64, "%s%s", outcome_word(found->kind), found->silent ? " (silent)" : "");
+    return word;
+}
+
+static void print_ms(double seconds, FILE *file)
+{
+    if (isfinite(seconds))
+        fprintf(file, " %9.4g", 1000 * seconds);
+    else
+        fprintf(file, " %9s", "-");
+}
+
+static void print_cell(const StableMap *map, const StableCellFound *found, FILE *file)
+{
+    const StablePlan *plan = map->plan;
+    char word[64];
+    for (int a = 0; a < plan->axis_count; a++)
+        fprintf(file, "%12s ", plan->axis[a].text[found->cell.at[a]]);
+    if (!found->searched) {
+        fprintf(file, " not searched: %s\n", found->why);
+        return;
+    }
+    const StableSearch *search = &found->search;
+    const StableLimits *l = &found->limits;
+    print_ms(stable_largest(found), file);
+    print_ms(l->sound, file);
+    print_ms(l->friction, file);
+    print_ms(l->courant, file);
+    print_ms(l->force, file);
+    print_ms(l->viscous, file);
+    if (isfinite(found->ratio))
+        fprintf(file, " %8.2f  ", found->ratio);
+    else
+        fprintf(file, " %8s  ", "-");
+    if (search->end == STABLE_ALWAYS)
+        fprintf(file, "holds at every step tried, up to %.3g ms", 1000 * stable_step(search->rung));
+    if (search->end == STABLE_NEVER)
+        fprintf(file, "holds at no step tried, down to %.3g ms: ", 1000 * stable_step(search->rung));
+    for (int i = 0; i < STABLE_ABOVE && search->end != STABLE_ALWAYS; i++)
+        fprintf(file, "%s%s", i ? ", " : "", found_word(&search->above[i], word));
+    if (stable_uneven(found))
+        fprintf(file, "; uneven: holds from some start up to %.3g ms", 1000 * stable_step(search->again));
+    fputc('\n', file);
+}
+
+static void print_spread(const StableMap *map, int series, FILE *file)
+{
+    const StableSpread spread = stable_spread(map, series);
+    if (spread.ratios > 0)
+        fprintf(file, "measured / theory: %.2f to %.2f, median %.2f, of %d cells\n", spread.least,
+                spread.most, spread.median, spread.ratios);
+    if (spread.never > 0)
+        fprintf(file, "%d of %d cells hold at no step tried\n", spread.never, spread.cells);
+    if (spread.always > 0)
+        fprintf(file, "%d of %d cells hold at every step tried\n", spread.always, spread.cells);
+    if (spread.silent > 0)
+        fprintf(
+            file,
+            "%d of %d cells have steps up to twice the largest that holds whose trouble the sentinel does not find\n",
+            spread.silent, spread.cells);
+    if (spread.uneven > 0)
+        fprintf(file, "%d of %d cells are uneven: a longer step holds from some start\n", spread.uneven,
+                spread.cells);
+}
+
+/* Returns "viscosity" of "fluids[0].viscosity". */
+static const char *last_part(const char *key)
+{
+    const char *dot = strrchr(key, '.');
+    return dot ? dot + 1 : key;
+}
+
+void stable_print(const StableMap *map, FILE *file)
+{
+    const StablePlan *plan = map->plan;
+    for (int s = 0; s < plan->series_count; s++) {
+        fprintf(file, "%s, %s; ms, and what is at", plan->series[s].method, plan->series[s].backend);
+        for (int i = 0; i < STABLE_ABOVE; i++)
+            fprintf(file, "%s %.2f", i ? "," : "", stable_step(stable_above[i]));
+        fprintf(file, " times the step\n");
+        for (int a = 0; a < plan->axis_count; a++)
+            fprintf(file, "%12.12s ", last_part(plan->axis[a].key));
+        fprintf(file, " %9s %9s %9s %9s %9s %9s %8s  %s\n", "holds", "sound", "friction", "courant", "force",
+                "viscous", "ratio", "above");
+        for (int n = 0; n < map->count; n++)
+            if (map->found[n].cell.series == s)
+                print_cell(map, &map->found[n], file);
+        print_spread(map, s, file);
+    }
+}
+
+static json_t *step_limits_json(const StableLimits *l)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "sound", number_json(l->sound), "friction",
+                     number_json(l->friction), "lattice", number_json(l->lattice), "courant",
+                     number_json(l->courant), "force", number_json(l->force), "viscous",
+                     number_json(l->viscous));
+}
+
+static json_t *above_json(const StableSearch *search)
+{
+    json_t *above = json_array();
+    for (int i = 0; i < STABLE_ABOVE; i++) {
+        const StableFound *found = &search->above[i];
+        const int rung = stable_sample(search, i);
+        if (found->kind != OUTCOME_NONE)
+            json_array_append_new(above, json_pack("{s:f, s:s, s:b}", "step", stable_step(rung), "outcome",
+                                                   outcome_word(found->kind), "silent", found->silent));
+    }
+    return above;
+}
+
+static json_t *cell_json(const StableMap *map, const StableCellFound *found)
+{
+    static const char *const ends[] = {"found", "holds at no step", "holds at every step"};
+    const StablePlan *plan = map->plan;
+    json_t *at = json_array();
+    for (int a = 0; a < plan->axis_count; a++)
+        json_array_append_new(at, json_real(plan->axis[a].value[found->cell.at[a]]));
+    if (!found->searched)
+        return json_pack("{s:o, s:n, s:s}", "at", at, "holds", "not_searched", found->why);
+    return json_pack("{s:o, s:o, s:s, s:f, s:o, s:o, s:o, s:b}", "at", at, "holds",
+                     number_json(stable_largest(found)), "end", ends[found->search.end], "last_tried",
+                     stable_step(found->search.rung), "above", above_json(&found->search), "theory",
+                     step_limits_json(&found->limits), "ratio", number_json(found->ratio), "uneven",
+                     stable_uneven(found));
+}
+
+static json_t *series_json(const StableMap *map, int series)
+{
+    const StableSeries *of = &map->plan->series[series];
+    const StableSpread spread = stable_spread(map, series);
+    json_t *cells = json_array();
+    for (int n = 0; n < map->count; n++)
+        if (map->found[n].cell.series == series)
+            json_array_append_new(cells, cell_json(map, &map->found[n]));
+    return json_pack("{s:s, s:s, s:{s:o, s:o, s:o}, s:i, s:o}", "method", of->method, "backend", of->backend,
+                     "ratio", "least", number_json(spread.least), "median", number_json(spread.median),
+                     "most", number_json(spread.most), "silent_cells", spread.silent, "cells", cells);
+}
+
+static json_t *axes_json(const StablePlan *plan)
+{
+    json_t *axes = json_array();
+    for (int a = 0; a < plan->axis_count; a++) {
+        const StableAxis *axis = &plan->axis[a];
+        json_t *values = json_array();
+        for (int i = 0; i < axis->count; i++)
+            json_array_append_new(values, json_real(axis->value[i]));
+        json_array_append_new(axes,
+                              json_pack("{s:s, s:s, s:b, s:o}", "key", axis->key, "unit", axis->row->unit,
+                                        "logarithmic", axis->logarithmic, "values", values));
+    }
+    return axes;
+}
+
+bool stable_write_json(const StableMap *map, const char *failure, const char *path, Error *error)
+{
+    const StablePlan *plan = map->plan;
+    json_t *maps = json_array();
+    for (int s = 0; s < plan->series_count; s++)
+        json_array_append_new(maps, series_json(map, s));
+    json_t *all = json_pack("{s:s, s:f, s:s, s:o, s:o, s:s*}", "stability", plan->scene_name, "time",
+                            plan->time, "step", "mode fixed, a frame a step, the first trouble ends it",
+                            "axes", axes_json(plan), "maps", maps, "error", failure);
+    const bool written = json_file_write(all, path, error);
+    json_decref(all);
+    return written;
+}
+
+/* Draws the map of `slosh stability`: each cell's largest stable step, and the failures above. Over one
+   axis: the steps, with the limits of theory. */
+
+enum {
+    PANEL_LEFT = 78,
+    PANEL_WIDTH = 450,
+    PANEL_PITCH = 560,
+    PANEL_TOP = 84,
+    PANEL_HEIGHT = 370,
+    LEGEND = 512, /* from the top of a row of panels */
+    LINE_HEIGHT = 14,
+    WIDTH_OF_ONE = 640
+};
+
+static const char *const kind_colours[OUTCOME_COUNT] = {
+    [OUTCOME_NONE] = "#8795a3",     [OUTCOME_HOLDS] = "#4f9d69", [OUTCOME_NOISY] = "#c9a227",
+    [OUTCOME_BOILS] = "#d98cb3",    [OUTCOME_FAST] = "#8e44ad",  [OUTCOME_SQUEEZED] = "#5b5ea6",
+    [OUTCOME_CLUMPS] = "#7a4f2a",   [OUTCOME_LEAKS] = "#35a7a0", [OUTCOME_DIVERGES] = "#e07a3f",
+    [OUTCOME_BLOWN_UP] = "#c0392b",
+};
+
+typedef struct Drawing {
+    const StableMap *map;
+    FILE *gnuplot;
+    int width, height;  /* px */
+    int row;            /* height of a row of panels with legends, px */
+    double least, most; /* of the steps that hold, s */
+} Drawing;
+
+typedef struct CellPlace {
+    int series;
+    double left, top; /* of the panel's field, px */
+} CellPlace;
+
+static void find_range(Drawing *d)
+{
+    d->least = (double)INFINITY;
+    d->most = 0;
+    for (int n = 0; n < d->map->count; n++) {
+        const double step = stable_largest(&d->map->found[n]);
+        d->least = isfinite(step) ? fmin(d->least, step) : d->least;
+        d->most = isfinite(step) ? fmax(d->most, step) : d->most;
+    }
+}
+
+/* Colour from pale to blue by the logarithm of the step. */
+static void colour_of(const Drawing *d, double step, char colour[8])
+{
+    static const int pale[3] = {0xf6, 0xf3, 0xe4}, deep[3] = {0x5f, 0xa3, 0xc9};
+    const double range = log(d->most / d->least), part = range > 0 ? log(step / d->least) / range : 1;
+    int rgb[3];
+    for (int k = 0; k < 3; k++)
+        rgb[k] = (int)lround(pale[k] + part * (deep[k] - pale[k]));
+    snprintf(colour, 8, "#%02x%02x%02x", (unsigned)rgb[0], (unsigned)rgb[1], (unsigned)rgb[2]);
+}
+
+static void axis_title(const StableAxis *axis, char title[160])
+{
+    snprintf(title, 160, "%.95s%s%.32s", axis->key, *axis->row->unit ? ", " : "", axis->row->unit);
+}
+
+static void put_axis_title(const Drawing *d, const char *which, const StableAxis *axis)
+{
+    char title[160];
+    axis_title(axis, title);
+    fprintf(d->gnuplot, "set %slabel ", which);
+    gnuplot_quote(d->gnuplot, title);
+    fputs(" noenhanced\n", d->gnuplot);
+}
+
+static void put_place(const Drawing *d, const CellPlace *place)
+{
+    const double left = place->left, top = place->top, w = d->width, h = d->height;
+    fprintf(d->gnuplot,
+            "set lmargin at screen %.5f\nset rmargin at screen %.5f\nset tmargin at screen %.5f\n"
+            "set bmargin at screen %.5f\nset key at screen %.5f,%.5f left top Left reverse noenhanced "
+            "maxcols 1 samplen 2 font ',9'\n",
+            left / w, (left + PANEL_WIDTH) / w, 1 - top / h, 1 - (top + PANEL_HEIGHT) / h, left / w,
+            1 - (top + LEGEND - PANEL_TOP) / h);
+}
+
+/* Writes the method above its panel, and the ratios of measured to theoretical steps. */
+static void put_heading(const Drawing *d, const CellPlace *place)
+{
+    const StableSeries *series = &d->map->plan->series[place->series];
+    const StableSpread spread = stable_spread(d->map, place->series);
+    char text[160];
+    size_t used = (size_t)snprintf(text, sizeof text, "%s, %s", series->method, series->backend);
+    if (spread.ratios > 0)
+        snprintf(text + used, sizeof text - used, ": measured / theory %.2f to %.2f, median %.2f",
+                 spread.least, spread.most, spread.median);
+    fprintf(d->gnuplot, "set label 90 ");
+    gnuplot_quote(d->gnuplot, text);
+    fprintf(d->gnuplot, " at screen %.5f,%.5f left noenhanced font ',9' textcolor '#2a3440'\n",
+            place->left / d->width, 1 - (place->top - 12) / d->height);
+}
+
+/* ---- kinds of outcome above the largest stable step ---- */
+
+static bool has_marks(const Drawing *d, int series, OutcomeKind kind, bool silent)
+{
+    bool any = false;
+    for (int n = 0; n < d->map->count; n++)
+        for (int i = 0; i < STABLE_ABOVE; i++) {
+            const StableCellFound *found = &d->map->found[n];
+            any |= found->searched && found->cell.series == series && found->search.above[i].kind == kind &&
+                   found->search.above[i].silent == silent;
+        }
+    return any;
+}
+
+/* Plots the kinds present in a panel from data blocks `block`N, silent failures as open squares. */
+static void plot_kinds(const Drawing *d, int series, const char *block)
+{
+    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+        for (int silent = 0; silent < 2; silent++)
+            if (has_marks(d, series, (OutcomeKind)kind, silent))
+                fprintf(d->gnuplot,
+                        ", $%s%d%s using 1:2 with points pt %d ps 0.7 lw 1.5 lc rgb '%s' title '%s%s'", block,
+                        kind, silent ? "s" : "", silent ? 4 : 5, kind_colours[kind],
+                        outcome_word((OutcomeKind)kind),
+                        silent                  ? ", which the sentinel does not find"
+                        : kind == OUTCOME_HOLDS ? " again"
+                                                : "");
+}
+
+/* ---- two axes ---- */
+
+/* Tics in the middle of cells, as many as fit. */
+static void put_cell_tics(const Drawing *d, const char *which, const StableAxis *axis, double room)
+{
+    double widest = 0;
+    for (int i = 0; i < axis->count; i++)
+        widest = fmax(widest, which[0] == 'x' ? label_width(axis->text[i], 11) : 14);
+    const int each = (int)fmax(1, ceil((widest + 4) * axis->count / room));
+    fprintf(d->gnuplot, "set %stics (", which);
+    for (int i = 0; i < axis->count; i += each)
+        fprintf(d->gnuplot, "%s'%.4g' %g", i ? ", " : "", axis->value[i], i + 0.5);
+    fputs(")\n", d->gnuplot);
+}
+
+/* Text of a cell: the ratio to theory, or the step in ms for methods without a theoretical limit. */
+static void cell_text(const StableCellFound *found, char text[16])
+{
+    const double step = stable_largest(found);
+    const char *more = found->search.end == STABLE_ALWAYS ? ">" : "";
+    if (!found->searched)
+        snprintf(text, 16, "?");
+    else if (found->search.end == STABLE_NEVER)
+        snprintf(text, 16, "none");
+    else if (isfinite(found->ratio))
+        snprintf(text, 16, "%s%.2f%s", more, found->ratio, stable_uneven(found) ? "*" : "");
+    else
+        snprintf(text, 16, "%s%.3g%s", more, 1000 * step, stable_uneven(found) ? "*" : "");
+}
+
+static void put_cells(const Drawing *d, const CellPlace *place)
+{
+    const StablePlan *plan = d->map->plan;
+    const double wide = (double)PANEL_WIDTH / plan->axis[0].count,
+                 high = (double)PANEL_HEIGHT / plan->axis[1].count;
+    int label = 100;
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        const double step = stable_largest(found);
+        const int x = found->cell.at[0], y = found->cell.at[1];
+        char colour[8] = "#e3e6ea", text[16];
+        if (found->cell.series != place->series)
+            continue;
+        if (isfinite(step))
+            colour_of(d, step, colour);
+        fprintf(
+            d->gnuplot,
+            "set object rectangle from first %d,%d to %d,%d fc rgb '%s' fs solid 1 border lc rgb '#ffffff' back\n",
+            x, y, x + 1, y + 1, colour);
+        cell_text(found, text);
+        if (label_width(text, 9) + 2 < wide && high > 26)
+            fprintf(d->gnuplot,
+                    "set label %d '%s' at first %g,%g center noenhanced font ',9' textcolor '#2a3440'\n",
+                    label++, text, x + 0.5, y + 0.66);
+    }
+}
+
+/* Writes the marks of the samples: in a row at the foot of the cell, the shortest step on the left. */
+static void put_marks(const Drawing *d, const CellPlace *place, OutcomeKind kind, bool silent)
+{
+    fprintf(d->gnuplot, "$marks%d%s << EOD\n", (int)kind, silent ? "s" : "");
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        for (int i = 0; i < STABLE_ABOVE && found->searched && found->cell.series == place->series; i++)
+            if (found->search.above[i].kind == kind && found->search.above[i].silent == silent)
+                fprintf(d->gnuplot, "%g %g\n", found->cell.at[0] + (i + 1.0) / (STABLE_ABOVE + 1),
+                        found->cell.at[1] + 0.25);
+    }
+    fputs("EOD\n", d->gnuplot);
+}
+
+static void plot_map(const Drawing *d, const CellPlace *place)
+{
+    const StablePlan *plan = d->map->plan;
+    fprintf(d->gnuplot, "set xrange [0:%d]\nset yrange [0:%d]\n", plan->axis[0].count, plan->axis[1].count);
+    put_cell_tics(d, "x", &plan->axis[0], PANEL_WIDTH);
+    put_cell_tics(d, "y", &plan->axis[1], PANEL_HEIGHT);
+    put_axis_title(d, "x", &plan->axis[0]);
+    put_axis_title(d, "y", &plan->axis[1]);
+    put_cells(d, place);
+    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+        for (int silent = 0; silent < 2; silent++)
+            if (has_marks(d, place->series, (OutcomeKind)kind, silent))
+                put_marks(d, place, (OutcomeKind)kind, silent);
+    fputs("plot -1 notitle", d->gnuplot);
+    plot_kinds(d, place->series, "marks");
+    fputc('\n', d->gnuplot);
+}
+
+/* ---- one axis ---- */
+
+typedef double OfLimits(const StableLimits *limits);
+
+static double of_sound(const StableLimits *limits)
+{
+    return limits->sound;
+}
+
+static double of_friction(const StableLimits *limits)
+{
+    return limits->friction;
+}
+
+static double of_courant(const StableLimits *limits)
+{
+    return limits->courant;
+}
+
+static double of_force(const StableLimits *limits)
+{
+    return limits->force;
+}
+
+static double of_viscous(const StableLimits *limits)
+{
+    return limits->viscous;
+}
+
+static const struct LimitLine {
+    const char *name, *style;
+    OfLimits *of;
+} limit_lines[] = {
+    {"sound on the lattice, 2 / omega", "lw 1.5 lc '#2a6f97'", of_sound},
+    {"friction on the lattice", "lw 1.5 lc '#b0457b'", of_friction},
+    {"Courant, 0.4 l / c", "lw 1.2 dt 2 lc '#2a6f97'", of_courant},
+    {"force, 0.25 sqrt(l / g)", "lw 1.2 dt 3 lc '#4f9d69'", of_force},
+    {"viscous, 0.125 l^2 / nu", "lw 1.2 dt 2 lc '#b0457b'", of_viscous},
+};
+enum { LIMIT_LINES = sizeof limit_lines / sizeof *limit_lines };
+
+/* Writes the steps of all samples of a kind, ms. */
+static void put_steps(const Drawing *d, int series, OutcomeKind kind, bool silent)
+{
+    fprintf(d->gnuplot, "$steps%d%s << EOD\n", (int)kind, silent ? "s" : "");
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        const StableSearch *search = &found->search;
+        if (found->cell.series != series || !found->searched)
+            continue;
+        for (int i = 0; i < STABLE_ABOVE; i++)
+            if (search->above[i].kind == kind && search->above[i].silent == silent) {
+                fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]],
+                        1000 * stable_step(stable_sample(search, i)));
+            }
+    }
+    fputs("EOD\n", d->gnuplot);
+}
+
+/* Writes one limit's line; returns the count of its points inside the frame. */
+static int put_limit(const Drawing *d, int series, int limit, double highest)
+{
+    int lines = 0;
+    fprintf(d->gnuplot, "$limit%d << EOD\n", limit);
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        const double step = found->searched ? limit_lines[limit].of(&found->limits) : (double)INFINITY;
+        if (found->cell.series == series && isfinite(step)) {
+            fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]], 1000 * step);
+            lines += step <= highest;
+        }
+    }
+    fputs("EOD\n", d->gnuplot);
+    return lines;
+}
+
+static int put_largest(const Drawing *d, int series)
+{
+    int lines = 0;
+    fputs("$largest << EOD\n", d->gnuplot);
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        if (found->cell.series == series && isfinite(stable_largest(found))) {
+            fprintf(d->gnuplot, "%.9g %.9g\n", d->map->plan->axis[0].value[found->cell.at[0]],
+                    1000 * stable_largest(found));
+            lines++;
+        }
+    }
+    fputs("EOD\n", d->gnuplot);
+    return lines;
+}
+
+/* Range: the trials and a factor of two around; theory may lie outside. */
+static double put_line_ranges(const Drawing *d, int series)
+{
+    const StableAxis *axis = &d->map->plan->axis[0];
+    const double from = axis->value[0], to = axis->value[axis->count - 1], margin = 0.05 * (to - from);
+    double low = (double)INFINITY, high = 0;
+    for (int n = 0; n < d->map->count; n++) {
+        const StableCellFound *found = &d->map->found[n];
+        if (found->cell.series != series || !found->searched)
+            continue;
+        const double step = stable_step(found->search.rung), lattice = found->limits.lattice;
+        low = fmin(low, fmin(step, found->limits.courant));
+        high = fmax(high, fmax(2 * step, isfinite(lattice) ? lattice : 0));
+    }
+    if (high > 0)
+        fprintf(d->gnuplot, "set yrange [%.9g:%.9g]\n", 500 * low, 2000 * high);
+    if (axis->logarithmic)
+        fprintf(d->gnuplot, "set logscale x\nset xrange [%.9g:%.9g]\n", from / 1.15, to * 1.15);
+    else
+        fprintf(d->gnuplot, "set xrange [%.9g:%.9g]\n", from - margin, to + margin);
+    return 2 * high;
+}
+
+static void plot_line(const Drawing *d, const CellPlace *place)
+{
+    const StableAxis *axis = &d->map->plan->axis[0];
+    int limits[LIMIT_LINES];
+    fputs("set logscale y\nset format xy '%g'\n", d->gnuplot);
+    const double highest = put_line_ranges(d, place->series);
+    put_axis_title(d, "x", axis);
+    fputs("set ylabel 'step, ms'\n", d->gnuplot);
+    for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+        for (int silent = 0; silent < 2; silent++)
+            put_steps(d, place->series, (OutcomeKind)kind, silent);
+    for (int i = 0; i < LIMIT_LINES; i++)
+        limits[i] = put_limit(d, place->series, i, highest);
+    const int largest = put_largest(d, place->series);
+    fputs("plot 1 / 0 notitle", d->gnuplot);
+    for (int i = 0; i < LIMIT_LINES; i++)
+        if (limits[i] > 0)
+            fprintf(d->gnuplot, ", $limit%d using 1:2 with lines %s title '%s'", i, limit_lines[i].style,
+                    limit_lines[i].name);
+        else
+            fprintf(d->gnuplot, ", 1 / 0 with lines %s title '%s: beyond, or none'", limit_lines[i].style,
+                    limit_lines[i].name);
+    if (largest > 0)
+        fprintf(
+            d->gnuplot,
+            ", $largest using 1:2 with linespoints pt 7 ps 0.7 lw 2 lc rgb '%s' title 'largest step that holds'",
+            kind_colours[OUTCOME_HOLDS]);
+    plot_kinds(d, place->series, "steps");
+    fputc('\n', d->gnuplot);
+}
+
+/* ---- the whole picture ---- */
+
+static void put_titles(const Drawing *d)
+{
+    const StablePlan *plan = d->map->plan;
+    const int most = d->width / 8;
+    char line[2][256];
+    snprintf(line[0], sizeof line[0], "%.80s: the largest step that holds %.3g s", plan->scene_name,
+             plan->time);
+    if (plan->axis_count < 2)
+        snprintf(line[1], sizeof line[1], "squares: what is at 1.09, 1.3, 1.54 and 2 times that step");
+    else
+        snprintf(
+            line[1], sizeof line[1],
+            "colour: %.3g ms (pale) to %.3g ms (blue); number: over that of theory, of methods without sound "
+            "ms; squares: what is at 1.09, 1.3, 1.54 and 2 times the step",
+            1000 * d->least, 1000 * d->most);
+    for (int i = 0; i < 2; i++) {
+        char cut[256];
+        snprintf(cut, sizeof cut, "%.*s", most * (i ? 3 : 2) / 2, line[i]);
+        fprintf(d->gnuplot, "set label %d ", 98 + i);
+        gnuplot_quote(d->gnuplot, cut);
+        fprintf(d->gnuplot, " at screen 0.5,%g center noenhanced font ',%d' textcolor '%s'\n",
+                1 - (i ? 40.0 : 18.0) / d->height, i ? 8 : 11, i ? "#5a6672" : "#2a3440");
+    }
+}
+
+static void draw_series(const Drawing *d, int series)
+{
+    const int row = series / 2, column = series % 2;
+    const CellPlace place = {
+        .series = series, .left = PANEL_LEFT + column * PANEL_PITCH, .top = PANEL_TOP + row * d->row};
+    put_place(d, &place);
+    put_heading(d, &place);
+    if (d->map->plan->axis_count == 2)
+        plot_map(d, &place);
+    else
+        plot_line(d, &place);
+    fputs("unset label\nunset object\nunset logscale\nset yrange [*:*]\n", d->gnuplot);
+}
+
+/* Line count of the longest legend. */
+static int legend_lines(const Drawing *d)
+{
+    int most = 0;
+    for (int s = 0; s < d->map->plan->series_count; s++) {
+        int lines = d->map->plan->axis_count == 2 ? 0 : LIMIT_LINES + 1;
+        for (int kind = OUTCOME_HOLDS; kind < OUTCOME_COUNT; kind++)
+            for (int silent = 0; silent < 2; silent++)
+                lines += has_marks(d, s, (OutcomeKind)kind, silent);
+        most = lines > most ? lines : most;
+    }
+    return most;
+}
+
+bool stable_draw(const StableMap *map, const char *path, Error *error)
+{
+    Gnuplot chart = {.gnuplot = NULL};
+    const int series = map->plan->series_count;
+    Drawing d = {.map = map,
+                 .width = series > 1 ? PANEL_LEFT + PANEL_PITCH + PANEL_WIDTH + 22 : WIDTH_OF_ONE,
+                 .height = 0};
+    d.row = LEGEND + legend_lines(&d) * LINE_HEIGHT + 16;
+    d.height = (series + 1) / 2 * d.row;
+    find_range(&d);
+    if (!gnuplot_begin(&chart, path, d.width, d.height, error))
+        return false;
+    d.gnuplot = chart.gnuplot;
+    fputs("set multiplot\n", d.gnuplot);
+    put_titles(&d);
+    for (int s = 0; s < series; s++)
+        draw_series(&d, s);
+    fputs("unset multiplot\n", d.gnuplot);
+    return gnuplot_end(&chart, error);
+}

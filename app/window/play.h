@@ -1,0 +1,87 @@
+/* Report of a window session, as JSON and for people. */
+#ifndef APP_WINDOW_PLAY_H
+#define APP_WINDOW_PLAY_H
+
+#include "app/cli/args/args.h"
+#include "app/input/mapping.h"
+#include "render/panels.h"
+#include "sim/base/error.h"
+#include "sim/matter/world_def.h"
+#include "sim/world/reading.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+/* Figures of a finished session. */
+typedef struct PlayFigures {
+    char scene[1024], renderer[256];
+    int views, chosen_view;   /* count of shown views; panel of the view described below */
+    char script[16];          /* script_name of a played recorded session */
+    bool recorded;            /* no simulation: no figures of a solver */
+    double times[PANELS_MAX]; /* of the state shown by each view, s */
+    char view[NAME_SIZE], color_by[NAME_SIZE], colormap[NAME_SIZE], backend[NAME_SIZE], method[NAME_SIZE];
+    char view_settings[4096]; /* JSON: present values of the view's keys, see scene_json */
+    char readout[4096];       /* JSON: values under the mouse and at pins in the last picture */
+    int width, height, threads, substeps;
+    double dt;                          /* per frame, s; for mode cfl the mean */
+    SolveFigures solved;                /* of the last scene, since its start */
+    uint64_t limited[STEP_LIMIT_COUNT]; /* its steps, by limiting condition */
+    size_t particles, pictures, scenes_opened;
+    uint64_t step;              /* of the last state */
+    double time;                /* of the last state, s */
+    double simulated_s, wall_s; /* since the first picture, over all scenes and resets */
+    double real_time_factor, pictures_per_second;
+    double first_picture_ms;  /* since process start */
+    double frame_ms;          /* mean time between pictures */
+    double sim_ms, render_ms; /* means per frame of the solver, and per picture */
+    double latency_median_ms, latency_p95_ms;
+    size_t latency_events;
+    size_t video_pictures; /* of the last video */
+    uint64_t device_reports;
+    double report_median_ms, report_p99_ms; /* from a motion device's report to its command */
+    double panel_ms;                        /* mean CPU time of the panel per picture; 0: never shown */
+    double events_ms;                       /* mean CPU time of event handling per picture */
+    double cpus_busy;                       /* CPU time over wall time */
+    double speed, display_scale;
+    bool at_rest;       /* all requests are done and shown; nothing changes without user action */
+    bool finer_to_come; /* the same picture will come in more detail */
+    bool paused, fullscreen, camera_auto, panel, help, scenes;
+    double box_size[3];                         /* of the last picture, m */
+    double box_position[3], box_orientation[4]; /* the hand's part of the pose */
+    double camera_from[3], camera_to[3];
+    int gl_errors;
+    Error failure; /* why the session ended early, if so; without renderer: before the window opened */
+} PlayFigures;
+
+/* Writes an object, with "error" for a failed session. Returns false with the reason if the file can't be
+   written. */
+bool play_figures_write_json(const PlayFigures *figures, const char *path, Error *error);
+
+/* Writes an array, like every `bench --json`. */
+bool play_figures_write_json_array(const PlayFigures *figures, size_t count, const char *path, Error *error);
+
+/* Prints the figures of `bench --play`, and the limiting part. */
+void play_figures_print(const PlayFigures *figures, FILE *file);
+
+/* The live window: simulates a scene on a separate thread, draws the scene, and moves the box by hand. */
+
+typedef struct PlaySetup {
+    const char *scene;
+    const SceneSettings *settings; /* of that scene; scenes opened later use their files */
+    int width, height;             /* of the window, in screen coordinates */
+    const char *record;            /* file for the session at the end; or NULL */
+    size_t history_bytes;          /* memory for states to go back to; 0: none */
+    const Mapping *mapping;        /* of motion devices; NULL: devices are not used */
+    const char *device;            /* --device, or NULL: the plugged in devices */
+    double shake_seconds;          /* more than 0: a script shakes the box for that time, then all ends */
+    const char *json;              /* file for the figures on SIGUSR1; NULL: standard error, for people */
+    bool quiet;
+} PlaySetup;
+
+/* Runs until the user, a signal or the script ends the window. Returns the exit code; errors have been
+   printed. */
+int play(const PlaySetup *setup, PlayFigures *figures);
+
+#endif
