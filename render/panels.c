@@ -1,6 +1,6 @@
 #include "render/panels.h"
 
-#include "render/frame/legend.h"
+#include "render/frame/passes.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
@@ -8,18 +8,18 @@
 #include <string.h>
 
 /* One panel. */
-typedef struct Panel {
+typedef struct PanelView {
     Renderer *renderer;
     ViewDef def;
     WorldDef world;
-} Panel;
+} PanelView;
 
 struct Panels {
     int count, width, height;
     int marked;          /* -1: none */
     double covered_left; /* fraction of the width */
-    PanelPlace places[PANELS_MAX];
-    Panel panels[PANELS_MAX];
+    PanelRect places[PANELS_MAX];
+    PanelView panels[PANELS_MAX];
 };
 
 /* Two equal parts of a length; an odd pixel goes to the line between. */
@@ -30,17 +30,17 @@ static void halve(int from, int length, int begin[2], int size[2])
     begin[1] = from + length - size[1];
 }
 
-bool panels_place(int count, int width, int height, PanelPlace places[PANELS_MAX])
+bool panels_layout(int count, int width, int height, PanelRect places[PANELS_MAX])
 {
     int x[2], y[2], w[2], h[2];
     halve(0, width, x, w);
     halve(0, height, y, h);
-    places[0] = (PanelPlace){0, 0, width, height};
+    places[0] = (PanelRect){0, 0, width, height};
     for (int i = 0; count > 1 && i < count; i++) {
         const int column = count == 2 ? i : count == 3 ? i > 0 : i % 2;
         const int row = count == 3 ? i > 1 : i / 2;
         const bool whole = count == 2 || (count == 3 && i == 0);
-        places[i] = (PanelPlace){x[column], whole ? 0 : y[row], w[column], whole ? height : h[row]};
+        places[i] = (PanelRect){x[column], whole ? 0 : y[row], w[column], whole ? height : h[row]};
     }
     for (int i = 0; i < count; i++)
         if (places[i].width < 1 || places[i].height < 1)
@@ -48,12 +48,12 @@ bool panels_place(int count, int width, int height, PanelPlace places[PANELS_MAX
     return true;
 }
 
-int panels_at(const PanelPlace places[], int count, double x, double y)
+int panels_index_at(const PanelRect places[], int count, double x, double y)
 {
     int nearest = 0;
     double least = INFINITY;
     for (int i = 0; i < count; i++) {
-        const PanelPlace *at = &places[i];
+        const PanelRect *at = &places[i];
         const double dx = fmax(fmax(at->x - x, x - (at->x + at->width)), 0);
         const double dy = fmax(fmax(at->y - y, y - (at->y + at->height)), 0);
         if (dx + dy < least) {
@@ -65,11 +65,11 @@ int panels_at(const PanelPlace places[], int count, double x, double y)
 }
 
 /* A single panel extends under the covered part of the picture; several panels lie beside. */
-static bool place(int count, int width, int height, double covered_left, PanelPlace places[PANELS_MAX],
+static bool place(int count, int width, int height, double covered_left, PanelRect places[PANELS_MAX],
                   Error *error)
 {
     const int beside = count > 1 ? (int)lround(covered_left * width) : 0;
-    if (!panels_place(count, width - beside, height, places))
+    if (!panels_layout(count, width - beside, height, places))
         return error_set(error, "a picture of %d x %d pixels has no room for %d panels; make it larger",
                          width - beside, height, count);
     for (int i = 0; i < count; i++)
@@ -87,7 +87,7 @@ Panels *panels_create(const Subject subjects[], int count, int width, int height
     *panels = (Panels){.count = count, .width = width, .height = height, .marked = -1};
     bool made = place(count, width, height, 0, panels->places, error);
     for (int i = 0; made && i < count; i++) {
-        Panel *panel = &panels->panels[i];
+        PanelView *panel = &panels->panels[i];
         panel->def = *subjects[i].def;
         panel->world = *subjects[i].world;
         panel->renderer = renderer_create(&panel->def, &panel->world, panels->places[i].width,
@@ -118,15 +118,15 @@ void panels_destroy(Panels *panels)
     free(panels);
 }
 
-void panels_mark(Panels *panels, int index)
+void panels_set_marked(Panels *panels, int index)
 {
     panels->marked = index;
 }
 
-void panels_set_more(Panels *panels, bool more)
+void panels_set_continuous(Panels *panels, bool more)
 {
     for (int i = 0; i < panels->count; i++)
-        renderer_set_more(panels_renderer(panels, i), more);
+        renderer_set_continuous(panels_renderer(panels, i), more);
 }
 
 bool panels_unfinished(const Panels *panels)
@@ -142,14 +142,14 @@ int panels_count(const Panels *panels)
     return panels->count;
 }
 
-const PanelPlace *panels_places(const Panels *panels)
+const PanelRect *panels_rects(const Panels *panels)
 {
     return panels->places;
 }
 
 bool panels_set_def(Panels *panels, int index, const ViewDef *def, const WorldDef *world, Error *error)
 {
-    Panel *panel = &panels->panels[index];
+    PanelView *panel = &panels->panels[index];
     if (!renderer_set_def(panel->renderer, def, world, error))
         return false;
     panel->def = *def;
@@ -165,7 +165,7 @@ bool panels_set_title(Panels *panels, int index, const Title *title, Error *erro
 /* Resizes all panels or none. */
 static bool lay_out(Panels *panels, int width, int height, double covered_left, Error *error)
 {
-    PanelPlace places[PANELS_MAX];
+    PanelRect places[PANELS_MAX];
     Error none;
     if (!place(panels->count, width, height, covered_left, places, error))
         return false;
@@ -201,18 +201,18 @@ void panels_set_late(Panels *panels, bool late)
         renderer_set_late(panels->panels[i].renderer, late);
 }
 
-bool panels_behind(const Panels *panels)
+bool panels_are_stale(const Panels *panels)
 {
-    bool behind = false;
+    bool stale = false;
     for (int i = 0; i < panels->count; i++)
-        behind |= renderer_behind(panels->panels[i].renderer);
-    return behind;
+        stale |= renderer_is_stale(panels->panels[i].renderer);
+    return stale;
 }
 
 static double legend_part(const Panels *panels, int index)
 {
-    const Panel *panel = &panels->panels[index];
-    const PanelPlace *at = &panels->places[index];
+    const PanelView *panel = &panels->panels[index];
+    const PanelRect *at = &panels->places[index];
     return legend_width_pixels(&panel->def, &panel->world, at->height) / at->width;
 }
 
@@ -226,7 +226,7 @@ double panels_legend(const Panels *panels)
 
 static void cover(Panels *panels)
 {
-    const Covered covered = {panels->count > 1 ? 0 : panels->covered_left, panels_legend(panels)};
+    const CoveredParts covered = {panels->count > 1 ? 0 : panels->covered_left, panels_legend(panels)};
     for (int i = 0; i < panels->count; i++)
         renderer_set_covered(panels->panels[i].renderer, covered);
 }
@@ -301,9 +301,9 @@ void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer 
         renderer_draw(panels->panels[i].renderer, &with[i], timer);
 }
 
-void panels_take(Panels *panels, int index, const ParticleBuffers *state)
+void panels_add_state(Panels *panels, int index, const ParticleBuffers *state)
 {
-    renderer_take(panels->panels[index].renderer, state, NULL);
+    renderer_add_state(panels->panels[index].renderer, state, NULL);
 }
 
 void panels_range(const Panels *panels, int index, double range[2])
@@ -319,7 +319,7 @@ void panels_curve_ranges(const Panels *panels, int index, double opacity[2], dou
 /* sRGB colour of the line between panels. */
 static void line_color(const Panels *panels, uint8_t rgb[3])
 {
-    const uint32_t ink = legend_ink(&panels->panels[0].def);
+    const uint32_t ink = legend_text_color(&panels->panels[0].def);
     for (int k = 0; k < 3; k++)
         rgb[k] = (uint8_t)(ink >> (24 - 8 * k));
 }
@@ -339,7 +339,7 @@ bool panels_read(const Panels *panels, uint8_t *rgb, Error *error)
     for (size_t i = 0; i < width * height; i++)
         memcpy(rgb + 3 * i, line, 3);
     for (int i = 0; i < panels->count; i++) {
-        const PanelPlace *at = &panels->places[i];
+        const PanelRect *at = &panels->places[i];
         const size_t row = 3 * (size_t)at->width;
         renderer_read(panels->panels[i].renderer, one);
         for (size_t y = 0; y < (size_t)at->height; y++)
@@ -356,7 +356,7 @@ static void fill(const Panels *panels, int x, int y, int width, int height)
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-static void draw_mark(const Panels *panels, const PanelPlace *at)
+static void draw_mark(const Panels *panels, const PanelRect *at)
 {
     enum { THICK = 2 };
     glEnable(GL_SCISSOR_TEST);
@@ -380,7 +380,7 @@ void panels_present(const Panels *panels)
         glClearBufferfv(GL_COLOR, 0, color);
     }
     for (int i = 0; i < panels->count; i++) {
-        const PanelPlace *at = &panels->places[i];
+        const PanelRect *at = &panels->places[i];
         renderer_present(panels->panels[i].renderer, at->x, panels->height - at->y - at->height);
     }
     if (panels->count > 1 && panels->marked >= 0)

@@ -5,22 +5,22 @@
 #ifndef SLOSH_PANELS_H
 #define SLOSH_PANELS_H
 
-#include "render/frame/title.h"
+#include "render/frame/passes.h"
 #include "render/renderer.h"
 
 enum { PANELS_MAX = 4, PANELS_LINE = 2 /* least pixels between two panels */ };
 
 /* Pixels, from the left and the top of the picture. */
-typedef struct PanelPlace {
+typedef struct PanelRect {
     int x, y, width, height;
-} PanelPlace;
+} PanelRect;
 
 /* Two panels: side by side. Three: one at the left, two at the right. Four: two by two. Two or four panels
    have equal sizes. Returns false if the picture is too small. */
-bool panels_place(int count, int width, int height, PanelPlace places[PANELS_MAX]);
+bool panels_layout(int count, int width, int height, PanelRect places[PANELS_MAX]);
 
 /* Index of the panel at x, y, or of the nearest panel. */
-int panels_at(const PanelPlace places[], int count, double x, double y);
+int panels_index_at(const PanelRect places[], int count, double x, double y);
 
 typedef struct Panels Panels;
 
@@ -33,7 +33,7 @@ void panels_destroy(Panels *panels); /* NULL is allowed */
 Renderer *panels_renderer(const Panels *panels, int index);
 
 int panels_count(const Panels *panels);
-const PanelPlace *panels_places(const Panels *panels);
+const PanelRect *panels_rects(const Panels *panels);
 
 /* Effective from the next picture on. Return false on failure and change nothing, as renderer_set_def and
    renderer_resize. */
@@ -48,11 +48,11 @@ bool panels_set_covered(Panels *panels, double left, Error *error);
 /* The fraction of a panel's width that automatic cameras leave free on the right: the widest legend. */
 double panels_legend(const Panels *panels);
 
-/* As renderer_set_late, for all panels. panels_behind: true if renderer_behind is true for any panel. */
+/* As renderer_set_late, for all panels. panels_are_stale: true if renderer_is_stale is true for any panel. */
 void panels_set_late(Panels *panels, bool late);
-bool panels_behind(const Panels *panels);
-/* As renderer_set_more and renderer_unfinished, for all panels. */
-void panels_set_more(Panels *panels, bool more);
+bool panels_are_stale(const Panels *panels);
+/* As renderer_set_continuous and renderer_unfinished, for all panels. */
+void panels_set_continuous(Panels *panels, bool more);
 bool panels_unfinished(const Panels *panels);
 
 /* Draws a state in each panel. Panels that show the same scalar with automatic ranges share one range,
@@ -62,9 +62,9 @@ bool panels_unfinished(const Panels *panels);
 void panels_draw(Panels *panels, const ParticleBuffers *const states[], GlTimer *timer);
 
 /* Gives a state that is not drawn to a panel's overlays that follow particles over time. */
-void panels_take(Panels *panels, int index, const ParticleBuffers *state);
+void panels_add_state(Panels *panels, int index, const ParticleBuffers *state);
 /* Frames one of several panels, from the next panels_present on; -1: none. */
-void panels_mark(Panels *panels, int index);
+void panels_set_marked(Panels *panels, int index);
 
 /* GPU memory of a panel's derived data. A state shown by several panels is derived once, by the first
    panel. */

@@ -1,20 +1,10 @@
 #include "render/renderer.h"
 
-#include "render/clear/caustics.h"
-#include "render/clear/foam.h"
-#include "render/clear/glass.h"
-#include "render/coarse/coarse.h"
-#include "render/derived/derived.h"
-#include "render/derived/ranges.h"
-#include "render/frame/backdrop.h"
-#include "render/frame/edges.h"
-#include "render/frame/legend.h"
-#include "render/frame/over_depth.h"
-#include "render/frame/overlay.h"
-#include "render/frame/shadow.h"
-#include "render/frame/solids.h"
+#include "render/frame/passes.h"
 #include "render/frame/view.h"
-#include "render/probe/picture_probe.h"
+#include "render/particles/derived.h"
+#include "render/picking/picking.h"
+#include "render/water/water.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
@@ -29,36 +19,36 @@
 static const WorldDef unknown;
 
 /* Inputs of the last picture that drawing over the picture needs. */
-typedef struct Drawn {
+typedef struct DrawnPicture {
     Frame frame;
     double time, box_size[3], spacing;
     bool whole; /* the renderer's target holds the whole picture */
-} Drawn;
+} DrawnPicture;
 
 struct Renderer {
     ViewDef said; /* as given by the caller */
     ViewDef def;  /* at the chosen quality */
     WorldDef world;
     bool plain, more;
-    bool late;          /* ranges and legend text of a picture may be of the previous picture: */
-    bool behind;        /* true in this picture, */
-    bool showed_behind; /* true in the last picture */
-    bool flat;          /* Frame.flat of the last picture */
-    Covered covered;
+    bool late;         /* ranges and legend text of a picture may be of the previous picture: */
+    bool stale;        /* true in this picture, */
+    bool showed_stale; /* true in the last picture */
+    bool flat;         /* Frame.flat of the last picture */
+    CoveredParts covered;
     Title title;
     char note[96];
     double range[2], opacity_range[2], size_range[2]; /* ranges of the last picture */
     Target target;
-    Coarse coarse;
-    Drawn drawn;
-    bool presents;  /* a coarse picture is enlarged when presented */
-    OverDepth over; /* empty before the first picture of a view with draw_front */
+    Upscale upscale;
+    DrawnPicture drawn;
+    bool presents;     /* a coarse picture is enlarged when presented */
+    OverlayDepth over; /* empty before the first picture of a view with draw_front */
     unsigned uniforms;
     Derived derived;
     Ranges ranges; /* empty before the first picture with an automatic range */
     Shadow shadow;
     Backdrop backdrop;
-    Edges edges;
+    BoxEdges edges;
     Glass glass;       /* empty before the first def with glass */
     Caustics caustics; /* likewise */
     Foam foam;         /* likewise */
@@ -84,13 +74,13 @@ static Subject subject_of(const Renderer *renderer)
 
 static bool is_coarse(const Renderer *renderer)
 {
-    return renderer->coarse.target.framebuffer != 0;
+    return renderer->upscale.target.framebuffer != 0;
 }
 
 /* The target of drawing. */
 static const Target *drawn_target(const Renderer *renderer)
 {
-    return is_coarse(renderer) ? &renderer->coarse.target : &renderer->target;
+    return is_coarse(renderer) ? &renderer->upscale.target : &renderer->target;
 }
 
 static bool has_letters(const ViewDef *def, const Title *title)
@@ -118,7 +108,7 @@ static bool follow_solids(Renderer *renderer, const WorldDef *world, Error *erro
     if (world->solid_count == 0 || renderer->solids)
         return true;
     renderer->solids = solids_create(error);
-    if (renderer->solids && shadow_follow_solids(&renderer->shadow, true, error))
+    if (renderer->solids && shadow_update_solids(&renderer->shadow, true, error))
         return true;
     solids_destroy(renderer->solids);
     renderer->solids = NULL;
@@ -132,7 +122,7 @@ static void drop_unused_solids(Renderer *renderer)
         return;
     solids_destroy(renderer->solids);
     renderer->solids = NULL;
-    shadow_follow_solids(&renderer->shadow, false, &none);
+    shadow_update_solids(&renderer->shadow, false, &none);
 }
 
 /* Here the fluid counts as a number, not as a colour. */
@@ -179,13 +169,13 @@ unsigned renderer_attributes(const ViewDef *def)
     ParticleWants all = {UINT64_MAX, UINT32_MAX, fluid};
     overlays_want(NULL, &all);
     const ParticleWants wants = def ? wants_of(def) : all;
-    return wants_attributes(&wants);
+    return particle_wants_attributes(&wants);
 }
 
 static bool follow_derived(Renderer *renderer, const ViewDef *def, Error *error)
 {
     const ParticleWants wants = made_for(def);
-    if (!derived_follow(&renderer->derived, &wants, error))
+    if (!derived_update(&renderer->derived, &wants, error))
         return false;
     if (!view_def_ranges(def) || renderer->ranges.find)
         return true;
@@ -210,16 +200,16 @@ static bool create_parts(Renderer *renderer, int width, int height, Error *error
     const ViewDef *def = &renderer->def;
     const Subject subject = subject_of(renderer);
     if (!target_create(&renderer->target, width, height, error) ||
-        !coarse_follow(&renderer->coarse, def->resolution, width, height, error) ||
+        !upscale_update(&renderer->upscale, def->resolution, width, height, error) ||
         !shadow_create(&renderer->shadow, error) || !backdrop_create(&renderer->backdrop, error) ||
-        !edges_create(&renderer->edges, error))
+        !box_edges_create(&renderer->edges, error))
         return false;
     renderer->uniforms = frame_uniforms_create();
     return follow_derived(renderer, def, error) &&
            follow_letters(renderer, has_letters(def, &renderer->title), height, error) &&
            follow_clear(renderer, def, error) && follow_solids(renderer, &renderer->world, error) &&
            (strcmp(def->kind, "none") == 0 || (renderer->view = view_create(&subject, error)) != NULL) &&
-           overlays_follow(&renderer->overlays, &subject, error);
+           overlays_update(&renderer->overlays, &subject, error);
 }
 
 /* A software driver allocates half a kilobyte per particle for each picture, in blocks of 64 KB, and frees
@@ -262,7 +252,7 @@ void renderer_destroy(Renderer *renderer)
     overlays_destroy(&renderer->overlays);
     view_destroy(renderer->view);
     text_destroy(renderer->text);
-    edges_destroy(&renderer->edges);
+    box_edges_destroy(&renderer->edges);
     glass_destroy(&renderer->glass);
     caustics_destroy(&renderer->caustics);
     foam_destroy(&renderer->foam);
@@ -272,9 +262,9 @@ void renderer_destroy(Renderer *renderer)
     ranges_destroy(&renderer->ranges);
     derived_destroy(&renderer->derived);
     glDeleteBuffers(1, &renderer->uniforms);
-    over_depth_destroy(&renderer->over);
+    overlay_depth_destroy(&renderer->over);
     target_destroy(&renderer->target);
-    coarse_destroy(&renderer->coarse);
+    upscale_destroy(&renderer->upscale);
     free(renderer);
 }
 
@@ -284,7 +274,7 @@ static bool make_view(const Renderer *renderer, const Subject *subject, View **v
     const Subject old = subject_of(renderer);
     const bool none = strcmp(subject->def->kind, "none") == 0;
     *view = renderer->view;
-    if (view_same(&old, subject))
+    if (view_is_compatible(&old, subject))
         return !*view || view_accepts(*view, subject, error);
     *view = none ? NULL : view_create(subject, error);
     return *view || none;
@@ -295,7 +285,7 @@ static bool follow_view(Renderer *renderer, const Subject *subject, Error *error
 {
     View *view;
     const bool followed =
-        make_view(renderer, subject, &view, error) && overlays_follow(&renderer->overlays, subject, error);
+        make_view(renderer, subject, &view, error) && overlays_update(&renderer->overlays, subject, error);
     View *gone = followed ? renderer->view : view;
     if (view != renderer->view)
         view_destroy(gone);
@@ -312,18 +302,18 @@ bool renderer_set_def(Renderer *renderer, const ViewDef *said, const WorldDef *w
     const bool followed = follow_derived(renderer, def, error) && follow_clear(renderer, def, error) &&
                           follow_letters(renderer, letters, renderer->target.height, error) &&
                           follow_solids(renderer, subject.world, error) &&
-                          coarse_follow(&renderer->coarse, def->resolution, renderer->target.width,
-                                        renderer->target.height, error) &&
+                          upscale_update(&renderer->upscale, def->resolution, renderer->target.width,
+                                         renderer->target.height, error) &&
                           follow_view(renderer, &subject, error);
     if (followed) {
         const ParticleWants wants = made_for(def);
         renderer->said = *said;
         renderer->def = *def;
         renderer->world = *subject.world;
-        derived_give_back(&renderer->derived, &wants);
+        derived_release(&renderer->derived, &wants);
     }
     drop_unused_solids(renderer);
-    picture_probe_forget(&renderer->probe);
+    picture_probe_clear(&renderer->probe);
     return followed;
 }
 
@@ -335,20 +325,20 @@ bool renderer_resize(Renderer *renderer, int width, int height, Error *error)
     if (!target_create(&target, width, height, error))
         return false;
     if (!follow_letters(renderer, has_letters(&renderer->def, &renderer->title), height, error) ||
-        !coarse_follow(&renderer->coarse, renderer->def.resolution, width, height, error)) {
+        !upscale_update(&renderer->upscale, renderer->def.resolution, width, height, error)) {
         target_destroy(&target);
         return false;
     }
     target_destroy(&renderer->target);
     renderer->target = target;
-    picture_probe_forget(&renderer->probe);
+    picture_probe_clear(&renderer->probe);
     return true;
 }
 
 static void draw_shadow(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
     if (renderer->solids) {
-        solids_place(renderer->solids, particles, frame);
+        solids_update_poses(renderer->solids, particles, frame);
         shadow_begin_solids(&renderer->shadow);
         solids_cast(renderer->solids);
     }
@@ -375,7 +365,7 @@ static bool is_over_all(const Frame *frame)
     return frame->slab > 0;
 }
 
-/* Sets the frame's over_depth, over_lacks and over_coarse. */
+/* Sets the frame's overlay_depth, overlay_depth_missing and overlay_depth_coarse. */
 static void draw_over_depth(Renderer *renderer, const ParticleBuffers *particles, Frame *frame)
 {
     const bool overlays = !is_over_all(frame) && overlays_any(&renderer->overlays);
@@ -383,8 +373,8 @@ static void draw_over_depth(Renderer *renderer, const ParticleBuffers *particles
     if (!draws_front(renderer) || (!overlays && !has_edges(renderer, frame)))
         return;
     Target target;
-    frame->over_lacks = !over_depth_begin(&renderer->over, frame->target, &target);
-    if (frame->over_lacks)
+    frame->overlay_depth_missing = !overlay_depth_begin(&renderer->over, frame->target, &target);
+    if (frame->overlay_depth_missing)
         return;
     depths.target = &target;
     depths.depths = true;
@@ -393,10 +383,10 @@ static void draw_over_depth(Renderer *renderer, const ParticleBuffers *particles
     if (has_edges(renderer, frame))
         GL_STAGE(frame->timer, STAGE_OVERLAY)
         {
-            edges_draw(&renderer->edges, &depths);
+            box_edges_draw(&renderer->edges, &depths);
         }
-    frame->over_depth = target.depth;
-    frame->over_coarse = overlays && overlays_unfinished(&renderer->overlays);
+    frame->overlay_depth = target.depth;
+    frame->overlay_depth_coarse = overlays && overlays_unfinished(&renderer->overlays);
 }
 
 /* Called after the view: draws overlays and edges over the view, then the view's front parts over these. */
@@ -408,7 +398,7 @@ static void draw_overlays(Renderer *renderer, const ParticleBuffers *particles, 
         if (has_edges(renderer, frame))
             GL_STAGE(frame->timer, STAGE_OVERLAY)
             {
-                edges_draw(&renderer->edges, frame);
+                box_edges_draw(&renderer->edges, frame);
             }
         view_draw_front(renderer->view, frame);
     }
@@ -434,15 +424,15 @@ static void draw_words(Renderer *renderer, const Frame *frame, double time)
 /* Enlarges the last coarse picture and adds the parts with full resolution. */
 static void make_whole(Renderer *renderer, GLuint framebuffer)
 {
-    const Drawn *drawn = &renderer->drawn;
-    const Coarse *coarse = &renderer->coarse;
+    const DrawnPicture *drawn = &renderer->drawn;
+    const Upscale *upscale = &renderer->upscale;
     Frame shown = drawn->frame;
     shown.width = renderer->target.width;
     shown.height = renderer->target.height;
-    coarse_enlarge(coarse, framebuffer, shown.width, shown.height);
+    upscale_draw(upscale, framebuffer, shown.width, shown.height);
     frame_uniforms_update(renderer->uniforms, &shown, drawn->box_size, drawn->spacing);
     if (has_edges(renderer, &shown) && !draws_front(renderer))
-        edges_draw_enlarged(&renderer->edges, coarse->edges, &shown, coarse->target.depth);
+        box_edges_draw_upscaled(&renderer->edges, upscale->edges, &shown, upscale->target.depth);
     draw_words(renderer, &shown, drawn->time);
     frame_uniforms_update(renderer->uniforms, &drawn->frame, drawn->box_size,
                           drawn->spacing); /* for probes */
@@ -452,8 +442,8 @@ static void make_whole(Renderer *renderer, GLuint framebuffer)
 /* Draws the parts over the whole picture. */
 static void draw_over(Renderer *renderer, const ParticleBuffers *particles, const Frame *frame)
 {
-    Drawn *drawn = &renderer->drawn;
-    *drawn = (Drawn){.frame = *frame, .time = particles->time, .spacing = particles->spacing};
+    DrawnPicture *drawn = &renderer->drawn;
+    *drawn = (DrawnPicture){.frame = *frame, .time = particles->time, .spacing = particles->spacing};
     memcpy(drawn->box_size, particles->box_size, sizeof drawn->box_size);
     drawn->whole = !is_coarse(renderer) || !renderer->presents;
     if (is_coarse(renderer)) {
@@ -464,7 +454,7 @@ static void draw_over(Renderer *renderer, const ParticleBuffers *particles, cons
     glBindFramebuffer(GL_FRAMEBUFFER, renderer->target.framebuffer); /* an empty view may have bound no
                                                                         framebuffer */
     if (has_edges(renderer, frame) && !draws_front(renderer))
-        edges_draw(&renderer->edges, frame);
+        box_edges_draw(&renderer->edges, frame);
     draw_words(renderer, frame, particles->time);
 }
 
@@ -473,12 +463,12 @@ static bool derives(const ViewDef *def)
 {
     const ParticleWants wants = wants_of(def);
     return view_def_ranges(def) || wants.vectors || wants.scalars >> SCALAR_STATE_COUNT ||
-           wants_attributes(&wants) & PARTICLE_SCALAR(SCALAR_BORN);
+           particle_wants_attributes(&wants) & PARTICLE_SCALAR(SCALAR_BORN);
 }
 
 static DerivedSpace space_of(const Renderer *renderer, const ParticleBuffers *particles)
 {
-    DerivedSpace space = {.flat = frame_slab(particles) > 0};
+    DerivedSpace space = {.flat = frame_slab_depth(particles) > 0};
     memcpy(space.periodic, renderer->world.periodic, sizeof space.periodic);
     return space;
 }
@@ -491,7 +481,7 @@ static void derive(Renderer *renderer, const ParticleWants *wants, ParticleBuffe
 
 static ScalarRange range_of(Renderer *renderer, Scalar scalar, const ParticleBuffers *particles)
 {
-    return renderer->late ? ranges_follow(&renderer->ranges, scalar, particles, &renderer->behind)
+    return renderer->late ? ranges_find_async(&renderer->ranges, scalar, particles, &renderer->stale)
                           : ranges_find(&renderer->ranges, &particles->scalar[scalar], particles->count);
 }
 
@@ -590,7 +580,7 @@ static void draw_view(Renderer *renderer, const ParticleBuffers *particles, Fram
     if (foam)
         draw_foam(renderer, particles, frame);
     if (renderer->def.legend) /* may wait for the GPU */
-        frame->note = view_note(renderer->view, frame->behind);
+        frame->note = view_note(renderer->view, frame->stale);
 }
 
 static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer, ViewCounts *counts)
@@ -602,12 +592,12 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     const Subject subject = subject_of(renderer);
     const double legend = legend_width_pixels(&renderer->def, &renderer->world, shown->height) / shown->width;
     frame_make(&frame, &subject, particles, target, view_radii(kind, &renderer->def, particles),
-               (Covered){renderer->covered.left, fmax(renderer->covered.right, legend)});
+               (CoveredParts){renderer->covered.left, fmax(renderer->covered.right, legend)});
     frame.timer = timer;
     frame.counts = counts;
     frame.plain = renderer->plain;
     frame.more = renderer->more;
-    frame.behind = renderer->late ? &renderer->behind : NULL;
+    frame.stale = renderer->late ? &renderer->stale : NULL;
     frame.floor_light = renderer->shadow.floor_map;
     if (renderer->view)
         view_show(renderer->view, &renderer->def, &frame);
@@ -617,7 +607,7 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     memcpy(renderer->opacity_range, frame.opacity_range, sizeof renderer->opacity_range);
     memcpy(renderer->size_range, frame.size_range, sizeof renderer->size_range);
     frame_uniforms_update(renderer->uniforms, &frame, particles->box_size, particles->spacing);
-    overlays_take(&renderer->overlays, particles, &subject, timer);
+    overlays_add_state(&renderer->overlays, particles, &subject, timer);
     if (renderer->view)
         view_prepare(renderer->view, particles, &frame);
     GL_STAGE(timer, STAGE_SHADOW)
@@ -645,13 +635,13 @@ static void draw(Renderer *renderer, const ParticleBuffers *state, GlTimer *time
     draw_overlays(renderer, particles, &frame);
     GL_STAGE(timer, STAGE_OVERLAY)
     draw_over(renderer, particles, &frame);
-    picture_probe_drawn(&renderer->probe, particles, &frame, renderer->uniforms);
-    renderer->showed_behind = renderer->behind;
+    picture_probe_set(&renderer->probe, particles, &frame, renderer->uniforms);
+    renderer->showed_stale = renderer->stale;
     renderer->flat = frame.flat;
-    renderer->behind = false;
+    renderer->stale = false;
 }
 
-void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
+void renderer_add_state(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer)
 {
     const Subject subject = subject_of(renderer);
     const ParticleWants wants = {.scalars =
@@ -659,14 +649,14 @@ void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *ti
                                                                                     that overlays keep of a
                                                                                     state */
     ParticleBuffers with = *state;
-    if (!overlays_take_any(&renderer->overlays))
+    if (!overlays_keep_states(&renderer->overlays))
         return;
     if ((int)view_color_by(&renderer->def) >= SCALAR_BORN)
         GL_STAGE(timer, STAGE_SCALARS)
         {
             derive(renderer, &wants, &with);
         }
-    overlays_take(&renderer->overlays, &with, &subject, timer);
+    overlays_add_state(&renderer->overlays, &with, &subject, timer);
 }
 
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer)
@@ -674,7 +664,7 @@ void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer
     draw(renderer, particles, timer, NULL);
 }
 
-void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts)
+void renderer_draw_counted(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts)
 {
     *counts = (ViewCounts){0};
     draw(renderer, particles, NULL, counts);
@@ -705,7 +695,7 @@ void renderer_present(Renderer *renderer, int x, int y)
 void renderer_read_depth(const Renderer *renderer, float *depth)
 {
     if (is_coarse(renderer))
-        coarse_enlarge_depth(&renderer->coarse, &renderer->target);
+        upscale_depth(&renderer->upscale, &renderer->target);
     target_read_depth(&renderer->target, depth);
 }
 
@@ -714,7 +704,7 @@ void renderer_set_presents(Renderer *renderer, bool presents)
     renderer->presents = presents;
 }
 
-void renderer_set_covered(Renderer *renderer, Covered covered)
+void renderer_set_covered(Renderer *renderer, CoveredParts covered)
 {
     renderer->covered = covered;
 }
@@ -748,9 +738,9 @@ void renderer_set_late(Renderer *renderer, bool late)
     renderer->late = late;
 }
 
-bool renderer_behind(const Renderer *renderer)
+bool renderer_is_stale(const Renderer *renderer)
 {
-    return renderer->showed_behind;
+    return renderer->showed_stale;
 }
 
 void renderer_set_plain(Renderer *renderer, bool plain)
@@ -758,7 +748,7 @@ void renderer_set_plain(Renderer *renderer, bool plain)
     renderer->plain = plain;
 }
 
-void renderer_set_more(Renderer *renderer, bool more)
+void renderer_set_continuous(Renderer *renderer, bool more)
 {
     const ViewDef said = renderer->said;
     const WorldDef world = renderer->world;
@@ -781,9 +771,9 @@ bool renderer_unfinished(const Renderer *renderer)
            ((renderer->view && view_unfinished(renderer->view)) || overlays_unfinished(&renderer->overlays));
 }
 
-const char *renderer_lacks(const Renderer *renderer)
+const char *renderer_missing(const Renderer *renderer)
 {
-    const char *words = renderer->view ? view_lacks(renderer->view) : NULL;
+    const char *words = renderer->view ? view_missing(renderer->view) : NULL;
     return words || !renderer->derived.lacks ? words : renderer->note;
 }
 
@@ -795,24 +785,24 @@ static void scale_of(const Renderer *renderer, double scale[2])
     scale[1] = (double)drawn->height / renderer->target.height;
 }
 
-bool renderer_may_probe(const Renderer *renderer, const double pixel[2])
+bool renderer_can_probe(const Renderer *renderer, const double pixel[2])
 {
     double scale[2];
     scale_of(renderer, scale);
     const double drawn[] = {scale[0] * pixel[0], scale[1] * pixel[1]};
-    return renderer->view && picture_probe_may(&renderer->probe, renderer->view, &renderer->def, drawn);
+    return renderer->view && picture_probe_can(&renderer->probe, renderer->view, &renderer->def, drawn);
 }
 
-bool renderer_probe(Renderer *renderer, const ViewAsks *asks, ViewProbes *out)
+bool renderer_probe(Renderer *renderer, const ViewProbeRequest *asks, ViewProbeAnswers *out)
 {
     double scale[2];
-    ViewAsks drawn = *asks;
-    *out = (ViewProbes){.count = 0};
+    ViewProbeRequest drawn = *asks;
+    *out = (ViewProbeAnswers){.count = 0};
     scale_of(renderer, scale);
     for (int k = 0; k < 2; k++)
         drawn.pixel[k] *= scale[k];
-    const bool known =
-        renderer->view && picture_probe_ask(&renderer->probe, renderer->view, &renderer->def, &drawn, out);
+    const bool known = renderer->view &&
+                       picture_probe_request(&renderer->probe, renderer->view, &renderer->def, &drawn, out);
     for (int i = 0; i < out->count; i++)
         for (int k = 0; k < 2; k++)
             out->probe[i].pixel[k] /= scale[k];

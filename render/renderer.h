@@ -6,9 +6,9 @@
 #define SLOSH_RENDERER_H
 
 #include "render/frame/camera.h"
-#include "render/frame/counts.h"
-#include "render/frame/title.h"
-#include "render/frame/view_def.h"
+#include "render/frame/frame.h"
+#include "render/frame/passes.h"
+#include "render/frame/picture_def.h"
 #include "sim/base/error.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/gl/timer.h"
@@ -48,11 +48,11 @@ void renderer_derive(Renderer *renderer, ParticleBuffers *particles);
 void renderer_draw(Renderer *renderer, const ParticleBuffers *particles, GlTimer *timer);
 
 /* Gives a state that is not drawn to the overlays that follow particles over time. */
-void renderer_take(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer);
+void renderer_add_state(Renderer *renderer, const ParticleBuffers *state, GlTimer *timer);
 
 /* As renderer_draw; also gets the view's counts, and waits for the counts. `counts` is all 0 if the view
    does not count. */
-void renderer_count(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts);
+void renderer_draw_counted(Renderer *renderer, const ParticleBuffers *particles, ViewCounts *counts);
 
 /* Reads the picture: 3 * width * height bytes of sRGB, rows from the top down. Waits for the GPU. */
 void renderer_read(Renderer *renderer, uint8_t *rgb);
@@ -71,7 +71,7 @@ void renderer_read_depth(const Renderer *renderer, float *depth);
 
 /* From the next picture on, an automatic camera leaves these fractions of the width free, 0 .. 1; on the
    right at least the legend's width. */
-void renderer_set_covered(Renderer *renderer, Covered covered);
+void renderer_set_covered(Renderer *renderer, CoveredParts covered);
 
 /* Effective from the next picture on. Returns false on failure (no font) and changes nothing. */
 bool renderer_set_title(Renderer *renderer, const Title *title, Error *error);
@@ -89,17 +89,17 @@ void renderer_range(const Renderer *renderer, double range[2]);
 void renderer_curve_ranges(const Renderer *renderer, double opacity[2], double size[2]);
 
 /* `late`: from the next picture on, do not wait for ranges and legend text of the picture's own state;
-   both may come from the previous picture, except for the first. renderer_behind: true if the last picture
+   both may come from the previous picture, except for the first. renderer_is_stale: true if the last picture
    used late data; drawing the same state again corrects the picture. */
 void renderer_set_late(Renderer *renderer, bool late);
-bool renderer_behind(const Renderer *renderer);
+bool renderer_is_stale(const Renderer *renderer);
 
 /* True: colours exactly as in the colormap, without light and shadow. */
 void renderer_set_plain(Renderer *renderer, bool plain);
 
 /* True: further pictures follow at once, as in a window. From the next picture on, views and overlays may
    spread work on data that stays over several pictures. False: each picture is complete. */
-void renderer_set_more(Renderer *renderer, bool more);
+void renderer_set_continuous(Renderer *renderer, bool more);
 
 /* True if the last picture was no view into space: Frame.flat. */
 bool renderer_is_flat(const Renderer *renderer);
@@ -109,16 +109,16 @@ bool renderer_unfinished(const Renderer *renderer);
 
 /* What the last picture lacks of the view's settings, in words of one line, valid until the next picture;
    NULL: nothing. */
-const char *renderer_lacks(const Renderer *renderer);
+const char *renderer_missing(const Renderer *renderer);
 
 /* True if the last picture may have a value at a pixel, from the left and the top. */
-bool renderer_may_probe(const Renderer *renderer, const double pixel[2]);
+bool renderer_can_probe(const Renderer *renderer, const double pixel[2]);
 
 /* The values of the last picture under the mouse and at positions (render/frame/view.h). Call after
    renderer_draw, before the state or settings change. Does not wait: on a GPU, answers may be of the
    previous picture, and say so. Returns false if the view has no values. */
-struct ViewAsks;
-struct ViewProbes;
-bool renderer_probe(Renderer *renderer, const struct ViewAsks *asks, struct ViewProbes *out);
+struct ViewProbeRequest;
+struct ViewProbeAnswers;
+bool renderer_probe(Renderer *renderer, const struct ViewProbeRequest *asks, struct ViewProbeAnswers *out);
 
 #endif

@@ -159,7 +159,7 @@ static bool rank_session_open(BenchRun *stand, const BenchSetup *setup, Error *e
                                         stand->world, setup->width, setup->height, error))
         return false;
     if (stand->draws)
-        renderer_set_more(stand->offscreen.renderer, true); /* as in the window */
+        renderer_set_continuous(stand->offscreen.renderer, true); /* as in the window */
     stand->timer = gl_timer_create(setup->clock);
     return stand->timer || error_set(error, "no memory for the clock of the stages");
 }

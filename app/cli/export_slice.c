@@ -5,7 +5,7 @@
 #include "app/files/export.h"
 #include "app/files/snapshot.h"
 #include "app/run/offscreen.h"
-#include "render/plane/plane_kernel.h"
+#include "render/particles/plane.h"
 
 #include <errno.h>
 #include <math.h>

@@ -439,7 +439,7 @@ static json_t *panel_json(const RenderPlan *plan, const Session sessions[],
                           const PanelPictures *panel_pictures, const RenderFigures *figures, int panel)
 {
     const ViewDef *view = plan->views[panel];
-    const PanelPlace *at = &panels_places(panel_pictures->panels)[panel];
+    const PanelRect *at = &panels_rects(panel_pictures->panels)[panel];
     char name[TITLE_SIZE];
     double range[2];
     render_plan_name(plan, panel, name);

@@ -8,7 +8,7 @@
 #include "app/run/offscreen.h"
 #include "app/run/playback/playback.h"
 #include "app/run/session.h"
-#include "render/frame/overlay.h"
+#include "render/frame/view.h"
 #include "render/panels.h"
 #include "sim/base/stage.h"
 
@@ -221,7 +221,7 @@ static void see(void *user, const ParticleBuffers *particles)
     const FileRender *render = watched->render;
     for (int i = 0; i < panels_count(render->panels); i++)
         if (&render->runs[render->run_of[i]] == watched->run)
-            panels_take(render->panels, i, particles);
+            panels_add_state(render->panels, i, particles);
     watched->run->drawn = SIZE_MAX; /* the buffers now hold the seen step */
 }
 

@@ -7,7 +7,7 @@
 #include "app/base/program.h"
 #include "app/files/snapshot.h"
 #include "app/files/surface.h"
-#include "render/plane/plane_sum.h"
+#include "render/particles/plane.h"
 #include "sim/base/scalar.h"
 
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 #include "app/files/export.h"
 #include "app/files/export_formats.h"
 #include "app/scene/yaml/yaml.h"
-#include "render/plane/plane_kernel.h"
+#include "render/particles/plane.h"
 #include "sim/base/key_rows.h"
 
 #include <inttypes.h>

@@ -4,7 +4,7 @@
 #define APP_FILES_SNAPSHOT_H
 
 #include "app/scene/scene.h"
-#include "render/derived/derived.h"
+#include "render/particles/derived.h"
 #include "render/particles/upload.h"
 #include "sim/base/error.h"
 #include "sim/world/reading.h"

@@ -360,7 +360,7 @@ unsigned snapshot_scalar_attributes(Scalar scalar)
 {
     const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
     return (int)scalar < SCALAR_STATE_COUNT ? PARTICLE_SCALAR(scalar)
-                                            : wants_attributes(&wants) & ~PARTICLE_ID;
+                                            : particle_wants_attributes(&wants) & ~PARTICLE_ID;
 }
 
 static void free_arrays(ParticleArrays *arrays)
@@ -413,7 +413,7 @@ static bool derive(Derived *derived, const ParticleWants *wants, const SnapshotS
 {
     DerivedSpace space = {.flat = scene->dimensions == 2};
     memcpy(space.periodic, scene->periodic, sizeof space.periodic);
-    if (!derived_follow(derived, wants, error))
+    if (!derived_update(derived, wants, error))
         return false;
     derived_fill(derived, wants, &space, buffers);
     return buffers->count == 0 || buffers->scalar[scalar].buffer ||
@@ -433,8 +433,8 @@ bool snapshot_buffers_make(SnapshotBuffers *buffers, const SnapshotScene *scene,
     if (made)
         snapshot_arrays(scene, step, volume, &arrays);
     made = made && follow_count(buffers, step->count, attributes, error) &&
-           upload_arrays(buffers->upload, &arrays, &state, error) && upload_take(buffers->upload, out) &&
-           derive(&buffers->derived, &wants, scene, scalar, out, error);
+           upload_write_arrays(buffers->upload, &arrays, &state, error) &&
+           upload_take(buffers->upload, out) && derive(&buffers->derived, &wants, scene, scalar, out, error);
     free_arrays(&arrays);
     return made;
 }

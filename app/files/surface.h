@@ -4,8 +4,8 @@
 
 #include "app/files/snapshot.h"
 #include "app/scene/scene.h"
-#include "render/frame/colormap.h"
-#include "render/frame/solid_mesh.h"
+#include "render/frame/frame.h"
+#include "render/frame/passes.h"
 #include "sim/base/scalar.h"
 
 #include <stdio.h>

@@ -126,7 +126,7 @@ static void hear(void *user, const DeviceEvent *event)
 static HandInput camera_axes(const Scene *scene)
 {
     const BoxState home = {.orientation = {0, 0, 0, 1}};
-    const Orbit orbit = orbit_begin(&scene->view, scene->world.box_size, &home, 16.0 / 9, (Covered){0});
+    const Orbit orbit = orbit_begin(&scene->view, scene->world.box_size, &home, 16.0 / 9, (CoveredParts){0});
     HandInput axes = {.dt = 0};
     orbit_axes(&orbit, axes.right, axes.up, axes.away);
     return axes;

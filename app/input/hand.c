@@ -245,7 +245,7 @@ static void box_centre(const double box_size[3], const BoxState *box, double cen
 }
 
 Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                  Covered covered)
+                  CoveredParts covered)
 {
     Camera camera;
     Orbit orbit = {0};
@@ -332,7 +332,7 @@ void orbit_apply(const Orbit *orbit, ViewDef *def)
         def->camera.to[k] = def->camera.from[k] - orbit->distance * back[k];
     def->camera.fov_deg = orbit->fov_deg;
     def->camera_auto = false;
-    camera_stay(def);
+    camera_stop(def);
 }
 
 void orbit_axes(const Orbit *orbit, double right[3], double up[3], double away[3])

@@ -7,7 +7,7 @@
 #define APP_INPUT_HAND_H
 
 #include "render/frame/camera.h"
-#include "render/frame/view_def.h"
+#include "render/frame/picture_def.h"
 #include "sim/box/box_filter.h"
 
 #include <stdbool.h>
@@ -79,7 +79,7 @@ typedef struct Orbit {
 /* Begins with the picture of camera_make (render/frame/camera.h) for the same arguments, automatic or not.
    The pivot is the box's centre, or the target of the def's own camera. */
 Orbit orbit_begin(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                  Covered covered);
+                  CoveredParts covered);
 
 /* Drags the scene by radians to the right and up; the eye stops short of the poles, and a drag there and
    back ends at its start. All three functions ignore numbers that are not finite. */

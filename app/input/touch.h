@@ -5,7 +5,7 @@
 #define APP_INPUT_TOUCH_H
 
 #include "app/run/recording/sim_command.h"
-#include "render/frame/handle.h"
+#include "render/frame/camera.h"
 #include "sim/matter/world_def.h"
 #include "sim/touch/touch_def.h"
 

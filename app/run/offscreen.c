@@ -150,7 +150,7 @@ bool offscreen_open(Offscreen *offscreen, const ViewDef *view, const WorldDef *d
     if (!offscreen->renderer || world_shares(world))
         return offscreen->renderer;
     world_info(world, &info);
-    offscreen->upload = upload_create(info.capacity, upload_of_worlds(offscreen->attributes), error);
+    offscreen->upload = upload_create(info.capacity, upload_attributes(offscreen->attributes), error);
     return offscreen->upload;
 }
 
@@ -187,6 +187,6 @@ bool offscreen_count(Offscreen *offscreen, World *world, ViewCounts *counts, Err
     ParticleBuffers particles;
     const bool ok = take(offscreen, world, NULL, NULL, &particles, error);
     if (ok)
-        renderer_count(offscreen->renderer, &particles, counts);
+        renderer_draw_counted(offscreen->renderer, &particles, counts);
     return ok;
 }

@@ -41,7 +41,7 @@ void offscreen_close(Offscreen *offscreen); /* a zeroed one is allowed */
    GL stages; both may be NULL. */
 bool offscreen_draw(Offscreen *offscreen, World *world, StageClock *clock, GlTimer *timer, Error *error);
 
-/* Draws again and counts the work of the view's passes: see render/frame/counts.h. */
+/* Draws again and counts the work of the view's passes: see render/frame/frame.h. */
 bool offscreen_count(Offscreen *offscreen, World *world, ViewCounts *counts, Error *error);
 
 #endif

@@ -1,6 +1,5 @@
 #include "app/base/program.h"
 #include "app/scene/scene_private.h"
-#include "render/frame/overlay.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/gl/particle_buffers.h"

@@ -2,7 +2,6 @@
 
 #include "app/run/measure/metric.h"
 #include "app/scene/scene_private.h"
-#include "render/frame/overlay.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/base/key_rows.h"
@@ -244,7 +243,8 @@ static void add_views(void)
     static KeyOwner owners[VIEW_KINDS_MAX];
     for (int i = 0; view_at(i); i++) {
         owners[i] = (KeyOwner){.key = "view.kind", .value = view_at(i)->name};
-        add_rows(view_at(i)->keys, offsetof(Scene, view.of_view) + (size_t)i * sizeof(ViewOwn), &owners[i]);
+        add_rows(view_at(i)->keys, offsetof(Scene, view.of_view) + (size_t)i * sizeof(ViewOwnSettings),
+                 &owners[i]);
     }
 }
 
@@ -256,8 +256,8 @@ static void add_overlays(void)
     for (int i = 0; overlay_list[i]; i++) {
         snprintf(shows[i], sizeof shows[i], "view.%s.show", overlay_list[i]->name);
         owners[i] = (KeyOwner){.key = shows[i], .value = "true"};
-        add_rows(overlay_list[i]->keys, offsetof(Scene, view.of_overlay) + (size_t)i * sizeof(ViewOwn),
-                 &owners[i]);
+        add_rows(overlay_list[i]->keys,
+                 offsetof(Scene, view.of_overlay) + (size_t)i * sizeof(ViewOwnSettings), &owners[i]);
     }
 }
 

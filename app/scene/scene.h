@@ -3,7 +3,7 @@
 #define APP_SCENE_SCENE_H
 
 #include "app/run/measure/probe_def.h"
-#include "render/frame/view_def.h"
+#include "render/frame/picture_def.h"
 #include "render/panels.h"
 #include "sim/base/error.h"
 #include "sim/matter/world_def.h"

@@ -659,7 +659,7 @@ static bool in_world(const Scene *scene, const Change *change, const void *base)
 }
 
 /* Makes ranges automatic whose scalar changed. */
-static void ranges_follow(const Scene *before, Scene *after)
+static void ranges_find_async(const Scene *before, Scene *after)
 {
     const Key *views = scene_key_find("views");
     for (int k = 0; k < KEY_SCALARS; k++) {
@@ -688,7 +688,7 @@ static bool take(YamlTree *tree, const Change *change, Scene *scene, bool *conce
     if (!value_read(tree, change->key, tree_nearest(tree, change->path), change->path, base, change->error) ||
         !check(tree, scene, &after, change->error))
         return false;
-    ranges_follow(scene, &after);
+    ranges_find_async(scene, &after);
     after.world.acceleration |= scene->world.acceleration; /* accelerations stay on once kept */
     if (concerns_world)
         *concerns_world = in_world(&after, change, base);

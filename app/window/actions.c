@@ -2,10 +2,9 @@
 #include "app/input/touch.h"
 #include "app/window/model.h"
 #include "app/window/play_private.h"
-#include "render/frame/colormap.h"
-#include "render/frame/overlay.h"
+#include "render/frame/frame.h"
 #include "render/frame/view.h"
-#include "render/particles/particle_under.h"
+#include "render/picking/picking.h"
 #include "sim/base/scalar.h"
 #include "sim/base/stage.h"
 
@@ -326,7 +325,7 @@ static void choose_trail(Play *play)
                     "what this view shows has no ids here, and nobody knows which particle is which");
         return;
     }
-    if (!particle_under(look.particles, &ray, 0.5 * look.particles->spacing, &id)) {
+    if (!pick_particle(look.particles, &ray, 0.5 * look.particles->spacing, &id)) {
         notice_tell(&play->notice, "there is no particle under the mouse");
         return;
     }

@@ -1,7 +1,7 @@
 /* Input of the hand: mouse, keys, gamepad and motion devices. Moves box and finger at once, through the
    simulator's own queue; all other requests go to the window's queue. */
 #include "app/window/play_private.h"
-#include "render/particles/particle_under.h"
+#include "render/picking/picking.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -92,7 +92,7 @@ static void press(Play *play, const SightRay *ray)
     model_take_state(&play->model); /* a solver on the GPU has since written to the drawn buffers */
     const FingerWay way = play->input.drag == PLAY_TOUCH_OTHER ? touch_tool_other(left) : left;
     if (play->model.has_particles &&
-        particle_place_under(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at) &&
+        pick_position(&play->model.particles, ray, 0.5 * play->model.particles.spacing, at) &&
         way == FINGER_POUR)
         lift(&play->model.particles, &play->model.open.scene.world, at);
     touch_tool_press(tool, way, at);
@@ -191,7 +191,7 @@ void play_put_solid(Play *play, int like)
     if (solid >= 0)
         memcpy(command.at, there, sizeof there);
     else if (play->model.has_particles)
-        particle_place_under(&play->model.particles, &ray, 0.5 * play->model.particles.spacing, command.at);
+        pick_position(&play->model.particles, &ray, 0.5 * play->model.particles.spacing, command.at);
     if (model_solid(&play->model, &command))
         notice_tell(&play->notice, "a solid is put there, above the fluid; touch: hold moves it (Q)");
 }

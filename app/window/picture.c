@@ -56,10 +56,10 @@ static bool replace_panels(PlayPicture *picture, const PlayScene *open, int widt
     panels_destroy(picture->panels);
     picture->panels = panels;
     panels_set_late(panels, !gl_renderer_is_software()); /* whose requests are already finished */
-    panels_set_more(panels, true);
+    panels_set_continuous(panels, true);
     panels_set_presents(panels, true);
     picture->chosen = picture->chosen < count ? picture->chosen : 0;
-    panels_mark(panels, picture->chosen);
+    panels_set_marked(panels, picture->chosen);
     return true;
 }
 
@@ -104,24 +104,25 @@ void picture_set_view(PlayPicture *picture, const PlayScene *open, int chosen, N
         notice_error(notice, error.message);
     const int there = panels_count(picture->panels);
     picture->chosen = chosen < there ? chosen : 0;
-    panels_mark(picture->panels, picture->chosen);
+    panels_set_marked(picture->panels, picture->chosen);
 }
 
-PanelPlace picture_place(const PlayPicture *picture, int panel, double covered_left)
+PanelRect picture_place(const PlayPicture *picture, int panel, double covered_left)
 {
-    PanelPlace places[PANELS_MAX];
+    PanelRect places[PANELS_MAX];
     const int count = picture->panels ? panels_count(picture->panels) : 1;
     const int beside = count > 1 ? (int)lround(covered_left * picture->width) : 0;
-    if (!panels_place(count, picture->width - beside, picture->height, places))
-        return (PanelPlace){0, 0, (int)fmax(picture->width, 1), (int)fmax(picture->height, 1)};
+    if (!panels_layout(count, picture->width - beside, picture->height, places))
+        return (PanelRect){0, 0, (int)fmax(picture->width, 1), (int)fmax(picture->height, 1)};
     places[panel].x += beside;
     return places[panel];
 }
 
 int picture_panel_at(const PlayPicture *picture, double x, double y)
 {
-    return picture->panels ? panels_at(panels_places(picture->panels), panels_count(picture->panels), x, y)
-                           : 0;
+    return picture->panels
+               ? panels_index_at(panels_rects(picture->panels), panels_count(picture->panels), x, y)
+               : 0;
 }
 
 bool picture_follow_size(PlayPicture *picture, const Window *window, Error *error)
@@ -130,11 +131,11 @@ bool picture_follow_size(PlayPicture *picture, const Window *window, Error *erro
     window_size(window, &width, &height);
     if (width == picture->width && height == picture->height)
         return true;
-    PanelPlace places[PANELS_MAX];
+    PanelRect places[PANELS_MAX];
     picture->width = width;
     picture->height = height;
     picture->dirty = true;
-    if (width > 0 && height > 0 && !panels_place(panels_count(picture->panels), width, height, places))
+    if (width > 0 && height > 0 && !panels_layout(panels_count(picture->panels), width, height, places))
         picture->width = 0; /* as if minimised: the window is too small for several views */
     return picture->width < 1 || height < 1 || panels_resize(picture->panels, width, height, error);
 }
@@ -160,12 +161,12 @@ bool picture_visible(const PlayPicture *picture)
 
 bool picture_outdated(const PlayPicture *picture)
 {
-    return picture->panels && panels_behind(picture->panels) && wall_ms() >= picture->begun_ms + SETTLE_MS;
+    return picture->panels && panels_are_stale(picture->panels) && wall_ms() >= picture->begun_ms + SETTLE_MS;
 }
 
 bool picture_at_rest(const PlayPicture *picture)
 {
-    return !picture->dirty && !picture->over && !(picture->panels && panels_behind(picture->panels));
+    return !picture->dirty && !picture->over && !(picture->panels && panels_are_stale(picture->panels));
 }
 
 bool picture_shaders_changed(PlayPicture *picture)

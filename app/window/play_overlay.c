@@ -369,5 +369,5 @@ bool play_overlay_draw(PlayOverlay *overlay, PlayModel *model, const PlayOverlay
     draw_widgets(overlay, model, facts, actions);
     queue_particles(overlay, actions);
     ui_end(overlay->ui);
-    return overlay->input.count > 0 || ui_unsettled(overlay->ui);
+    return overlay->input.count > 0 || ui_needs_redraw(overlay->ui);
 }

@@ -15,7 +15,7 @@
 #include "app/window/panel/panel.h"
 #include "app/window/play.h"
 #include "app/window/scene_browser.h"
-#include "render/frame/handle.h"
+#include "render/frame/camera.h"
 #include "render/frame/text.h"
 #include "render/frame/view.h"
 #include "render/panels.h"
@@ -110,7 +110,7 @@ void camera_moved(const PlayCamera *camera, PlayModel *model);
 /* Restores the camera of the file. */
 void camera_home(PlayCamera *camera, PlayModel *model);
 
-/* The handles in the picture (render/frame/handle.h): the mouse finds, takes and drags handles, keys move the
+/* The handles in the picture (render/frame/camera.h): the mouse finds, takes and drags handles, keys move the
    view's plane in steps. The results are live settings, like the panel's. A held handle keeps the mouse from
    the camera and the box.
 
@@ -124,7 +124,7 @@ void camera_home(PlayCamera *camera, PlayModel *model);
 /* A panel's mapping of the newest state to the screen. */
 typedef struct PanelViewport {
     int panel;
-    PanelPlace at;     /* in the picture */
+    PanelRect at;      /* in the picture */
     int width, height; /* of the picture, pixels */
     const ViewDef *view;
     const ParticleBuffers *particles;
@@ -185,7 +185,7 @@ typedef struct Readout {
     double pinned[READOUT_PINS_MAX][2]; /* pixels of the whole picture */
     double pins[READOUT_PINS_MAX][3];   /* m, box's frame */
     int pin_count;
-    ViewProbes found; /* of the last picture, in the mouse's panel: pins, then the mouse */
+    ViewProbeAnswers found; /* of the last picture, in the mouse's panel: pins, then the mouse */
 } Readout;
 
 /* Removes all pins. */
@@ -235,7 +235,7 @@ float picture_letters(const Window *window);
 
 /* Place of a panel, if `covered_left` of the width, 0 .. 1, is covered on the left; and the panel at a
    position, or the nearest panel. Pixels. */
-PanelPlace picture_place(const PlayPicture *picture, int panel, double covered_left);
+PanelRect picture_place(const PlayPicture *picture, int panel, double covered_left);
 int picture_panel_at(const PlayPicture *picture, double x, double y);
 
 /* Call between two pictures: set_view after a change of the view or of the chosen panel; follow_size and
@@ -254,7 +254,7 @@ bool picture_visible(const PlayPicture *picture);
 /* True if no new picture is due, except a finer one, and the last picture shows its own numbers. */
 bool picture_at_rest(const PlayPicture *picture);
 
-/* True if the last picture is old enough but shows numbers of the picture before: renderer_behind. */
+/* True if the last picture is old enough but shows numbers of the picture before: renderer_is_stale. */
 bool picture_outdated(const PlayPicture *picture);
 
 /* Steps of a picture. draw: the fluid, with a state and a title per panel; `covered_left` of the width is
@@ -423,7 +423,7 @@ typedef struct Play {
 static inline CameraSight play_sight_in(const Play *play, int panel)
 {
     const double covered = play_overlay_covered_left(&play->overlay, play->picture.width);
-    const PanelPlace at = picture_place(&play->picture, panel, covered);
+    const PanelRect at = picture_place(&play->picture, panel, covered);
     const bool one = play->model.open.scene.view_count == 0;
     return (CameraSight){at.width, at.height, one ? covered : 0,
                          play->picture.panels ? panels_legend(play->picture.panels) : 0};

@@ -210,7 +210,7 @@ static void add_readout(const Readout *readout, PlayFigures *figures)
                                         [VIEW_PROBE_NAN] = "nan",
                                         [VIEW_PROBE_VALUE] = "value"};
     json_t *all = json_array();
-    const ViewProbes *found = &readout->found;
+    const ViewProbeAnswers *found = &readout->found;
     for (int i = 0; i < found->count; i++) {
         const ViewProbe *probe = &found->probe[i];
         json_array_append_new(all,

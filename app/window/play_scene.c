@@ -48,7 +48,8 @@ static void status(PlayScene *open, SimulatorStatus *out)
 
 static bool fresh(PlayScene *open)
 {
-    return simulator_on_gpu(open->simulator) ? simulator_fresh(open->simulator) : upload_fresh(open->upload);
+    return simulator_on_gpu(open->simulator) ? simulator_fresh(open->simulator)
+                                             : upload_has_new(open->upload);
 }
 
 static bool take(PlayScene *open, ParticleBuffers *out)
@@ -246,7 +247,7 @@ static bool play_scene_make_upload(PlayScene *open, Error *error)
     const WorldDef *def = &open->scene.world;
     if (!open->upload && !world_on_gpu(def))
         open->upload = upload_create(compare_simulated_particles(def),
-                                     upload_of_worlds(compare_simulated_attributes(def)), error);
+                                     upload_attributes(compare_simulated_attributes(def)), error);
     return open->upload || world_on_gpu(def);
 }
 

@@ -1,6 +1,6 @@
 #include "app/input/touch.h"
 #include "app/window/play_private.h"
-#include "render/frame/legend.h"
+#include "render/frame/passes.h"
 #include "render/frame/view.h"
 
 #include <math.h>
@@ -120,11 +120,11 @@ const ViewDef *views_def(const PlayViews *views, const Scene *scene, int panel)
 
 static const double REACH = 0.8; /* of the letters' height */
 
-static Covered covered(const PlayModel *model, const ViewDef *view, const CameraSight *sight)
+static CoveredParts covered(const PlayModel *model, const ViewDef *view, const CameraSight *sight)
 {
     const WorldDef *world = model_world(model, view);
     const double own = legend_width_pixels(view, world, sight->height) / sight->width;
-    return (Covered){sight->covered_left, fmax(sight->legend, own)};
+    return (CoveredParts){sight->covered_left, fmax(sight->legend, own)};
 }
 
 void camera_to_screen(const PlayModel *model, const ViewDef *view, const CameraSight *sight, double letters,
@@ -214,7 +214,7 @@ static void look_for(HandleTool *handle_tool, const PanelViewport *look, bool fr
     double mouse[2];
     const int count = free ? handles_of(handle_tool, look, handles) : 0;
     mouse_in_panel(handle_tool, look, mouse);
-    handle_tool->over = 1 + handle_under(&look->sight, handles, count, mouse);
+    handle_tool->over = 1 + handle_at_pixel(&look->sight, handles, count, mouse);
     handle_tool->panel = look->panel;
 }
 
@@ -389,13 +389,13 @@ void readout_begin(Readout *readout)
 
 static int panel_at(const Panels *panels, const double pixel[2])
 {
-    return panels_at(panels_places(panels), panels_count(panels), pixel[0], pixel[1]);
+    return panels_index_at(panels_rects(panels), panels_count(panels), pixel[0], pixel[1]);
 }
 
 /* Converts to a panel's own pixels. */
 static void pixel_in_panel(const Panels *panels, int panel, const double pixel[2], double own[2])
 {
-    const PanelPlace *place = &panels_places(panels)[panel];
+    const PanelRect *place = &panels_rects(panels)[panel];
     own[0] = pixel[0] - place->x;
     own[1] = pixel[1] - place->y;
 }
@@ -406,7 +406,7 @@ static bool may_tell(const Readout *readout, const Panels *panels)
     double own[2];
     const int panel = panel_at(panels, readout->mouse);
     pixel_in_panel(panels, panel, readout->mouse, own);
-    return readout->free && renderer_may_probe(panels_renderer(panels, panel), own);
+    return readout->free && renderer_can_probe(panels_renderer(panels, panel), own);
 }
 
 bool readout_event(Readout *readout, const Panels *panels, const WindowEvent *event, bool free)
@@ -484,7 +484,7 @@ static void draw_words(const ViewProbe *probe, int width, int height, Text *text
     text_draw(text, x + gap, y + 0.4F * gap + 1.4F * em, 0.85F, INK, TEXT_LEFT, place);
 }
 
-static void draw_found(const ViewProbes *found, const PanelPlace *place, Text *text)
+static void draw_found(const ViewProbeAnswers *found, const PanelRect *place, Text *text)
 {
     for (int i = 0; i < found->count; i++) {
         const ViewProbe *probe = &found->probe[i];
@@ -498,9 +498,9 @@ static void draw_found(const ViewProbes *found, const PanelPlace *place, Text *t
 }
 
 /* Requests to a panel: the pins, and the place under the mouse or to pin. */
-static ViewAsks asks_of(const Readout *readout, const Panels *panels, int panel)
+static ViewProbeRequest asks_of(const Readout *readout, const Panels *panels, int panel)
 {
-    ViewAsks actions = {.count = readout->pin_count};
+    ViewProbeRequest actions = {.count = readout->pin_count};
     const double *pixel = readout->pinning > 0 ? readout->pinned[0] : readout->mouse;
     memcpy(actions.at, readout->pins, sizeof(double[3]) * (size_t)actions.count);
     actions.mouse = (readout->pinning > 0 || readout->free) && panel == panel_at(panels, pixel);
@@ -510,7 +510,7 @@ static ViewAsks asks_of(const Readout *readout, const Panels *panels, int panel)
 }
 
 /* Pins the first waiting place, or reports that the place has no value. */
-static void pin(Readout *readout, const ViewProbes *found, Notice *notice)
+static void pin(Readout *readout, const ViewProbeAnswers *found, Notice *notice)
 {
     readout->pinning--;
     memmove(readout->pinned[0], readout->pinned[1], sizeof readout->pinned[0] * (size_t)readout->pinning);
@@ -524,9 +524,9 @@ static void pin(Readout *readout, const ViewProbes *found, Notice *notice)
 static bool draw_panel(Readout *readout, const Panels *panels, int panel, const int size[2], Text *text,
                        Notice *notice)
 {
-    ViewProbes found;
-    const PanelPlace *place = &panels_places(panels)[panel];
-    const ViewAsks actions = asks_of(readout, panels, panel);
+    ViewProbeAnswers found;
+    const PanelRect *place = &panels_rects(panels)[panel];
+    const ViewProbeRequest actions = asks_of(readout, panels, panel);
     const bool can = renderer_probe(panels_renderer(panels, panel), &actions, &found);
     if (found.count > 0) {
         text_begin_within(text, size[0], size[1], (int[]){place->x, place->y, place->width, place->height});

@@ -1,3 +1,4 @@
+/* Cameras: matrices, automatic placement, projection, and motion along a path. */
 #include "render/frame/camera.h"
 
 #include <cglm/cglm.h>
@@ -65,35 +66,35 @@ static void look(Camera *camera, vec3 eye, vec3 at)
 }
 
 /* The part of the picture for the box: left and right in -1 .. 1, and up to +-high. */
-typedef struct Room {
+typedef struct FreeArea {
     float left, right, high;
-} Room;
+} FreeArea;
 
-static Room make_room(double covered_right)
+static FreeArea make_free_area(double covered_right)
 {
-    Room room = {-0.80F, 0.80F, 0.80F};
+    FreeArea area = {-0.80F, 0.80F, 0.80F};
     const float right = (float)(1 - 2 * covered_right - 0.04);
-    if (right < room.right) /* little room beside the legend: use more of the left side */
-        room.left = -0.92F, room.right = fmaxf(right, -0.5F);
-    return room;
+    if (right < area.right) /* little room beside the legend: use more of the left side */
+        area.left = -0.92F, area.right = fmaxf(right, -0.5F);
+    return area;
 }
 
 /* The distance of the eye from the box's centre, in direction `back`, that keeps all corners inside the
    room when the centre is in the room's middle: |x + shift| <= limit (distance - z). The shift is
    proportional to the distance. */
-static float distance_to_fit(const Camera *camera, const double size[3], Room room, vec3 back, vec3 right,
+static float distance_to_fit(const Camera *camera, const double size[3], FreeArea area, vec3 back, vec3 right,
                              vec3 up)
 {
-    float distance = 0, half = (room.right - room.left) / 2;
+    float distance = 0, half = (area.right - area.left) / 2;
     for (int corner = 0; corner < 8; corner++) {
         vec3 p;
         for (int k = 0; k < 3; k++)
             p[k] = (float)size[k] * ((corner >> k & 1) ? 0.5F : -0.5F);
         float x = glm_vec3_dot(p, right) / camera->tangent[0], z = glm_vec3_dot(p, back);
         float y = fabsf(glm_vec3_dot(p, up)) / camera->tangent[1];
-        distance = fmaxf(distance, (x + room.right * z) / half);
-        distance = fmaxf(distance, (-x - room.left * z) / half);
-        distance = fmaxf(distance, (y + room.high * z) / room.high);
+        distance = fmaxf(distance, (x + area.right * z) / half);
+        distance = fmaxf(distance, (-x - area.left * z) / half);
+        distance = fmaxf(distance, (y + area.high * z) / area.high);
     }
     return distance;
 }
@@ -117,7 +118,7 @@ static void make_axes(vec3 back, vec3 right, vec3 up)
 }
 
 /* The distance that shows the whole box from all sides: a turning camera keeps the distance. */
-static float distance_all_around(const Camera *camera, const double size[3], Room room, vec3 back)
+static float distance_all_around(const Camera *camera, const double size[3], FreeArea area, vec3 back)
 {
     enum { SIDES = 48 };
     float distance = 0;
@@ -126,7 +127,7 @@ static float distance_all_around(const Camera *camera, const double size[3], Roo
         glm_vec3_copy(back, turned);
         glm_vec3_rotate(turned, (float)(2 * M_PI * side / SIDES), (vec3){0, 1, 0});
         make_axes(turned, right, up);
-        distance = fmaxf(distance, distance_to_fit(camera, size, room, turned, right, up));
+        distance = fmaxf(distance, distance_to_fit(camera, size, area, turned, right, up));
     }
     return distance;
 }
@@ -135,7 +136,7 @@ static void look_at_box(Camera *camera, const ViewDef *def, const double size[3]
                         double covered_right)
 {
     vec3 at, eye, back = {0.50F, 0.42F, 1}, right, up;
-    Room room = make_room(covered_right);
+    FreeArea area = make_free_area(covered_right);
     if (size[2] < FLAT * fmin(size[0], size[1])) /* a flat box is seen from the front, like a picture */
         back[0] = back[1] = 0;
     if (def->camera_turn != 0)
@@ -143,9 +144,9 @@ static void look_at_box(Camera *camera, const ViewDef *def, const double size[3]
     make_axes(back, right, up);
     camera_anchor(size, box, at);
     at[1] += (float)size[1] / 2;
-    float distance = def->camera_turn != 0 ? distance_all_around(camera, size, room, back)
-                                           : distance_to_fit(camera, size, room, back, right, up);
-    glm_vec3_muladds(right, -(room.left + room.right) / 2 * camera->tangent[0] * distance, at);
+    float distance = def->camera_turn != 0 ? distance_all_around(camera, size, area, back)
+                                           : distance_to_fit(camera, size, area, back, right, up);
+    glm_vec3_muladds(right, -(area.left + area.right) / 2 * camera->tangent[0] * distance, at);
     glm_vec3_copy(at, eye);
     glm_vec3_muladds(back, distance, eye);
     look(camera, eye, at);
@@ -175,7 +176,7 @@ static void make_free(const ViewDef *def, const double box_size[3], const BoxSta
 }
 
 void camera_make(const ViewDef *def, const double box_size[3], const BoxState *box, double aspect,
-                 Covered covered, Camera *camera)
+                 CoveredParts covered, Camera *camera)
 {
     const double open = 1 - covered.left;
     *camera = (Camera){.centre = {(float)covered.left}};
@@ -186,7 +187,7 @@ void camera_make(const ViewDef *def, const double box_size[3], const BoxState *b
                                                                   on the left */
 }
 
-float camera_slant_square(const Camera *camera)
+float camera_max_slant_squared(const Camera *camera)
 {
     const float x = camera->tangent[0] * (1 + fabsf(camera->centre[0])),
                 y = camera->tangent[1] * (1 + fabsf(camera->centre[1]));
@@ -204,4 +205,88 @@ bool camera_project(const Camera *camera, const double world[3], int width, int 
     pixel[1] = (0.5 - 0.5 * (eye[1] / (-eye[2] * camera->tangent[1]) + camera->centre[1])) * height;
     *depth = camera->near_plane / -eye[2];
     return true;
+}
+
+/* Cameras that move by path or turning. */
+
+enum { NUMBERS = 7 };
+
+static void numbers_of(const CameraDef *camera, double out[NUMBERS])
+{
+    memcpy(out, camera->from, sizeof camera->from);
+    memcpy(out + 3, camera->to, sizeof camera->to);
+    out[6] = camera->fov_deg;
+}
+
+/* The rate of change of each number at a keyframe, per second. */
+static void velocity_at(const ViewDef *def, int key, double out[NUMBERS])
+{
+    memset(out, 0, NUMBERS * sizeof *out);
+    if (key == 0 || key == def->camera_path_count - 1)
+        return;
+    const CameraKey *before = &def->camera_path[key - 1], *after = &def->camera_path[key + 1];
+    double a[NUMBERS], b[NUMBERS];
+    numbers_of(&before->at, a);
+    numbers_of(&after->at, b);
+    for (int k = 0; k < NUMBERS; k++)
+        out[k] = (b[k] - a[k]) / (after->time - before->time);
+}
+
+/* Hermite's curve. At s = 0 the result equals the keyframe to the bit. */
+static CameraDef between(const ViewDef *def, int key, double time)
+{
+    const CameraKey *here = &def->camera_path[key], *next = here + 1;
+    const double span = next->time - here->time, s = (time - here->time) / span;
+    double p[NUMBERS], q[NUMBERS], u[NUMBERS], v[NUMBERS], x[NUMBERS];
+    numbers_of(&here->at, p);
+    numbers_of(&next->at, q);
+    velocity_at(def, key, u);
+    velocity_at(def, key + 1, v);
+    for (int k = 0; k < NUMBERS; k++)
+        x[k] = p[k] + s * (span * u[k] + s * (3 * (q[k] - p[k]) - span * (2 * u[k] + v[k]) +
+                                              s * (2 * (p[k] - q[k]) + span * (u[k] + v[k]))));
+    CameraDef camera = {.fov_deg = fmin(fmax(x[6], 1), 170)};
+    memcpy(camera.from, x, sizeof camera.from);
+    memcpy(camera.to, x + 3, sizeof camera.to);
+    return camera;
+}
+
+static CameraDef along_path(const ViewDef *def, double time)
+{
+    const int last = def->camera_path_count - 1;
+    int key = 0;
+    while (key < last && def->camera_path[key + 1].time <= time)
+        key++;
+    const bool outside = key == last || time <= def->camera_path[0].time;
+    return outside ? def->camera_path[key].at : between(def, key, time);
+}
+
+bool camera_moves(const ViewDef *def)
+{
+    return def->camera_turn != 0 || def->camera_path_count > 0;
+}
+
+void camera_stop(ViewDef *def)
+{
+    def->camera_turn = 0;
+    def->camera_path_count = 0;
+}
+
+ViewDef camera_at(const ViewDef *def, double time)
+{
+    ViewDef out = *def;
+    if (def->camera_path_count > 0) {
+        out.camera = along_path(def, time);
+        out.camera_auto = false;
+    }
+    const double yaw = def->camera_turn * M_PI / 180 * time;
+    if (out.camera_auto) {
+        out.camera_yaw = yaw;
+    } else if (yaw != 0) {
+        double *eye = out.camera.from;
+        const double *to = out.camera.to, x = eye[0] - to[0], z = eye[2] - to[2];
+        eye[0] = to[0] + cos(yaw) * x + sin(yaw) * z;
+        eye[2] = to[2] - sin(yaw) * x + cos(yaw) * z;
+    }
+    return out;
 }

@@ -2,7 +2,7 @@
    turbo by Mikhailov (2019), coolwarm by Moreland (2009), mako by Waskom (seaborn, 2021). Mako starts at
    two fifths of its length: the first part is darker than the start of viridis. A Catmull-Rom curve
    interpolates between the stops. */
-#include "render/frame/colormap.h"
+#include "render/frame/frame.h"
 
 #include "shaders/shared/bindings.h"
 
@@ -140,7 +140,7 @@ void color_table_bind(ColorTable *table, const ControlPoints *curve)
     glBindTextureUnit(COLORMAP_UNIT, table->texture);
 }
 
-void color_table_follow(ColorTable *table, const char *name, const ControlPoints *curve)
+void color_table_update(ColorTable *table, const char *name, const ControlPoints *curve)
 {
     Error unknown;
     if (!table->name || strcmp(table->name, name) != 0) {

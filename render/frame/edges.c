@@ -1,6 +1,6 @@
-#include "render/frame/edges.h"
-
+#include "render/frame/passes.h"
 #include "shaders/shared/bindings.h"
+#include "sim/gl/debug.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
@@ -22,7 +22,7 @@ static GLuint create_indices(void)
     return buffer;
 }
 
-bool edges_create(Edges *edges, Error *error)
+bool box_edges_create(BoxEdges *edges, Error *error)
 {
     glCreateVertexArrays(1, &edges->vertex_array);
     edges->indices = create_indices();
@@ -31,15 +31,15 @@ bool edges_create(Edges *edges, Error *error)
     return edges->program != 0;
 }
 
-void edges_destroy(Edges *edges)
+void box_edges_destroy(BoxEdges *edges)
 {
     glDeleteProgram(edges->program);
     glDeleteVertexArrays(1, &edges->vertex_array);
     glDeleteBuffers(1, &edges->indices);
-    *edges = (Edges){0};
+    *edges = (BoxEdges){0};
 }
 
-static void draw(const Edges *edges, GLuint program, const Frame *frame, bool behind)
+static void draw_edges(const BoxEdges *edges, GLuint program, const Frame *frame, bool behind)
 {
     const float part = (float)frame->height / 720; /* 1 for a picture 720 pixels high */
     const float width = frame->glass ? fmaxf(2, 3 * part) : fmaxf(1.5F, 1.5F * part);
@@ -54,7 +54,7 @@ static void draw(const Edges *edges, GLuint program, const Frame *frame, bool be
     glDisable(GL_BLEND);
 }
 
-static void begin(const Frame *frame, GLuint framebuffer)
+static void begin_edges(const Frame *frame, GLuint framebuffer)
 {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glEnable(GL_DEPTH_TEST);
@@ -62,21 +62,142 @@ static void begin(const Frame *frame, GLuint framebuffer)
     glDepthMask(frame->depths);
 }
 
-void edges_draw(const Edges *edges, const Frame *frame)
+void box_edges_draw(const BoxEdges *edges, const Frame *frame)
 {
-    begin(frame, frame->target->framebuffer);
-    draw(edges, edges->program, frame, false);
+    begin_edges(frame, frame->target->framebuffer);
+    draw_edges(edges, edges->program, frame, false);
 }
 
-void edges_draw_behind(const Edges *edges, const Frame *frame, unsigned framebuffer)
+/* Draws the edges seen only through the box: between two sides that face away from the eye. */
+static void box_edges_draw_far(const BoxEdges *edges, const Frame *frame, unsigned framebuffer)
 {
-    begin(frame, framebuffer);
-    draw(edges, edges->program, frame, true);
+    begin_edges(frame, framebuffer);
+    draw_edges(edges, edges->program, frame, true);
 }
 
-void edges_draw_enlarged(const Edges *edges, unsigned program, const Frame *frame, unsigned depth)
+void box_edges_draw_upscaled(const BoxEdges *edges, unsigned program, const Frame *frame, unsigned depth)
 {
     glBindTextureUnit(COARSE_DEPTH_UNIT, depth);
     glDisable(GL_DEPTH_TEST);
-    draw(edges, program, frame, false);
+    draw_edges(edges, program, frame, false);
+}
+
+static GLuint create_copy(GLenum format, const Target *target, GLint filter, const char *label)
+{
+    GLuint copy;
+    glCreateTextures(GL_TEXTURE_2D, 1, &copy);
+    glObjectLabel(GL_TEXTURE, copy, -1, label);
+    glTextureStorage2D(copy, 1, format, target->width, target->height);
+    glTextureParameteri(copy, GL_TEXTURE_MIN_FILTER, filter);
+    glTextureParameteri(copy, GL_TEXTURE_MAG_FILTER, filter);
+    glTextureParameteri(copy, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTextureParameteri(copy, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return copy;
+}
+
+void background_copy_destroy(BackgroundCopy *background)
+{
+    glDeleteTextures(2, (GLuint[]){background->color, background->depth});
+    glDeleteFramebuffers(1, &background->framebuffer);
+    *background = (BackgroundCopy){0};
+}
+
+static void update_copy(BackgroundCopy *background, const Frame *frame)
+{
+    const bool solids = frame->world->solid_count > 0;
+    if (background->target_number == frame->target->number && solids == (background->depth != 0))
+        return;
+    background_copy_destroy(background);
+    background->color = create_copy(GL_SRGB8_ALPHA8, frame->target, GL_LINEAR, "behind");
+    if (solids)
+        background->depth = create_copy(GL_DEPTH_COMPONENT32F, frame->target, GL_NEAREST, "behind, depth");
+    glCreateFramebuffers(1, &background->framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, background->framebuffer, -1, "behind");
+    glNamedFramebufferTexture(background->framebuffer, GL_COLOR_ATTACHMENT0, background->color, 0);
+    glNamedFramebufferTexture(background->framebuffer, GL_DEPTH_ATTACHMENT, frame->target->depth, 0);
+    background->target_number = frame->target->number;
+}
+
+static void copy(GLuint from, GLuint to, const Frame *frame)
+{
+    glCopyImageSubData(from, GL_TEXTURE_2D, 0, 0, 0, 0, to, GL_TEXTURE_2D, 0, 0, 0, 0, frame->width,
+                       frame->height, 1);
+}
+
+static void draw_far_edges(const BackgroundCopy *background, const BoxEdges *edges, const Frame *frame)
+{
+    if (!edges || !frame->def->box || frame->flat)
+        return;
+    glViewport(0, 0, frame->width, frame->height);
+    box_edges_draw_far(edges, frame, background->framebuffer);
+}
+
+void background_copy_make_edges(BackgroundCopy *background, const BoxEdges *edges, const Frame *frame)
+{
+    static const float nothing[4] = {0};
+    update_copy(background, frame);
+    glClearNamedFramebufferfv(background->framebuffer, GL_COLOR, 0, nothing);
+    draw_far_edges(background, edges, frame);
+    glBindTextureUnit(BEHIND_COLOR_UNIT, background->color);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+}
+
+void background_copy_make(BackgroundCopy *background, const BoxEdges *edges, const Frame *frame)
+{
+    update_copy(background, frame);
+    copy(frame->target->color, background->color, frame);
+    if (background->depth)
+        copy(frame->target->depth, background->depth, frame);
+    draw_far_edges(background, edges, frame);
+    glBindTextureUnit(BEHIND_COLOR_UNIT, background->color);
+    glBindTextureUnit(BEHIND_DEPTH_UNIT, background->depth);
+    glBindTextureUnit(FLOOR_LIGHT_UNIT, frame->floor_light);
+}
+
+static bool update_depth(OverlayDepth *over, const Target *target)
+{
+    if (over->framebuffer && over->width == target->width && over->height == target->height)
+        return true;
+    overlay_depth_destroy(over);
+    over->width = target->width;
+    over->height = target->height;
+    glCreateTextures(GL_TEXTURE_2D, 1, &over->depth);
+    gl_debug_errors(); /* drops earlier errors: the query below is for this texture */
+    gl_debug_asks_for_memory(true);
+    glTextureStorage2D(over->depth, 1, GL_DEPTH_COMPONENT32F, over->width, over->height);
+    gl_debug_asks_for_memory(false);
+    if (gl_errors_take(0) > 0) {
+        overlay_depth_destroy(over);
+        return false;
+    }
+    glTextureParameteri(over->depth, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTextureParameteri(over->depth, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glObjectLabel(GL_TEXTURE, over->depth, -1, "depth over the view");
+    glCreateFramebuffers(1, &over->framebuffer);
+    glObjectLabel(GL_FRAMEBUFFER, over->framebuffer, -1, "depth over the view");
+    glNamedFramebufferTexture(over->framebuffer, GL_DEPTH_ATTACHMENT, over->depth, 0);
+    glNamedFramebufferDrawBuffer(over->framebuffer, GL_NONE);
+    return true;
+}
+
+bool overlay_depth_begin(OverlayDepth *over, const Target *target, Target *to)
+{
+    const int width = target->width, height = target->height;
+    if (!update_depth(over, target))
+        return false;
+    glCopyImageSubData(target->depth, GL_TEXTURE_2D, 0, 0, 0, 0, over->depth, GL_TEXTURE_2D, 0, 0, 0, 0,
+                       width, height, 1);
+    *to = (Target){.width = width,
+                   .height = height,
+                   .number = target->number,
+                   .framebuffer = over->framebuffer,
+                   .depth = over->depth};
+    return true;
+}
+
+void overlay_depth_destroy(OverlayDepth *over)
+{
+    glDeleteFramebuffers(1, &over->framebuffer);
+    glDeleteTextures(1, &over->depth);
+    *over = (OverlayDepth){0};
 }

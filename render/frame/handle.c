@@ -1,4 +1,4 @@
-#include "render/frame/handle.h"
+#include "render/frame/camera.h"
 
 #include <math.h>
 #include <string.h>
@@ -117,7 +117,7 @@ static double pixels_to(const Sight *sight, const Handle *handle, const double p
     return sight_pixel(sight, handle->at, at) ? pixels_between(at, pixel) : INFINITY;
 }
 
-int handle_under(const Sight *sight, const Handle *handles, int count, const double pixel[2])
+int handle_at_pixel(const Sight *sight, const Handle *handles, int count, const double pixel[2])
 {
     double reach = sight->reach;
     int found = -1;

@@ -1,6 +1,6 @@
-#include "render/frame/legend.h"
+#include "render/frame/frame.h"
 
-#include "render/frame/colormap.h"
+#include "render/frame/passes.h"
 #include "render/frame/view.h"
 
 #include <math.h>
@@ -10,11 +10,11 @@
 enum { TICKS_MOST = 7, SCALAR_WIDTH_EM = 8 };
 
 /* Positions in units of the letter height: the legend grows with the picture. */
-typedef struct Layout {
+typedef struct LegendLayout {
     float em;
     float left, top, right, bottom; /* the panel's sides */
     uint32_t ink, faint, panel;
-} Layout;
+} LegendLayout;
 
 static bool looks_like_water(const FluidDef *fluid)
 {
@@ -83,29 +83,29 @@ void legend_unit(const char *unit, char out[32])
     out[used] = 0;
 }
 
-bool legend_ink_is_dark(const ViewDef *def)
+static bool legend_text_is_dark(const ViewDef *def)
 {
     const double *back = def->background;
     return 0.2126 * back[0] + 0.7152 * back[1] + 0.0722 * back[2] > 0.18;
 }
 
-uint32_t legend_ink(const ViewDef *def)
+uint32_t legend_text_color(const ViewDef *def)
 {
-    return legend_ink_is_dark(def) ? 0x1c222aff : 0xf2f4f6ff;
+    return legend_text_is_dark(def) ? 0x1c222aff : 0xf2f4f6ff;
 }
 
-static Layout make_layout(const Text *text, const Frame *frame, float width_em, float height_em)
+static LegendLayout make_layout(const Text *text, const Frame *frame, float width_em, float height_em)
 {
-    const uint32_t ink = legend_ink(frame->def);
+    const uint32_t ink = legend_text_color(frame->def);
     float em = text_height(text), right = (float)frame->width - em;
-    return (Layout){.em = em,
-                    .left = right - width_em * em,
-                    .right = right,
-                    .top = em,
-                    .bottom = em + height_em * em,
-                    .ink = ink,
-                    .faint = (ink & 0xffffff00) | 0x90,
-                    .panel = legend_ink_is_dark(frame->def) ? 0xffffffa0 : 0x10141880};
+    return (LegendLayout){.em = em,
+                          .left = right - width_em * em,
+                          .right = right,
+                          .top = em,
+                          .bottom = em + height_em * em,
+                          .ink = ink,
+                          .faint = (ink & 0xffffff00) | 0x90,
+                          .panel = legend_text_is_dark(frame->def) ? 0xffffffa0 : 0x10141880};
 }
 
 static uint32_t map_color(const uint8_t *rgb, int i)
@@ -132,7 +132,8 @@ static void draw_bar(Text *text, const ViewDef *def, const bool beyond[2], float
         text_triangle(text, x, (const float[3]){y0, y0, y0 - tip}, map_color(rgb, 255));
 }
 
-static void draw_ticks(Text *text, const Layout *layout, const double range[2], float x, float y0, float y1)
+static void draw_ticks(Text *text, const LegendLayout *layout, const double range[2], float x, float y0,
+                       float y1)
 {
     double ticks[TICKS_MOST];
     int decimals, count = legend_ticks(range[0], range[1], TICKS_MOST, ticks, &decimals);
@@ -150,7 +151,7 @@ static void draw_ticks(Text *text, const Layout *layout, const double range[2], 
 }
 
 /* "opacity: pressure, 0 to 2000 Pa" below the panel. */
-static void draw_curve(Text *text, const Layout *layout, float line, const char *what,
+static void draw_curve(Text *text, const LegendLayout *layout, float line, const char *what,
                        const ScalarCurve *curve, const double range[2])
 {
     char unit[32], label[96];
@@ -165,7 +166,7 @@ static void draw_curve(Text *text, const Layout *layout, float line, const char 
    above, in letter heights. */
 static void draw_curves(Text *text, const Frame *frame, float bottom)
 {
-    const Layout layout = make_layout(text, frame, 0, bottom);
+    const LegendLayout layout = make_layout(text, frame, 0, bottom);
     const ViewDef *def = frame->def;
     float line = 0;
     if (frame->curves & VIEW_OPACITY && def->opacity.by != 0)
@@ -182,7 +183,7 @@ static float draw_scalar(Text *text, const Frame *frame)
     legend_unit(frame->shown_unit, unit);
     snprintf(title, sizeof title, "%s%s%s", frame->shown, *unit ? ", " : "", unit);
     const float widest = text_width(text, 1, title) / text_height(text) + 1.6F; /* room for long names */
-    Layout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), HEIGHT_EM);
+    LegendLayout layout = make_layout(text, frame, fmaxf(SCALAR_WIDTH_EM, widest), HEIGHT_EM);
     float em = layout.em, x = layout.left + 0.8F * em, y0 = layout.top + 3.0F * em,
           y1 = layout.bottom - 1.0F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
@@ -215,7 +216,7 @@ static float draw_fluids(Text *text, const Frame *frame)
         widest = fmaxf(widest, text_width(text, 1, words[i]) / text_height(text));
     }
     const float height = 1.6F * (float)world->fluid_count + 0.9F;
-    Layout layout = make_layout(text, frame, widest + 3.3F, height);
+    LegendLayout layout = make_layout(text, frame, widest + 3.3F, height);
     float em = layout.em, x = layout.left + 0.8F * em;
     text_rectangle(text, layout.left, layout.top, layout.right, layout.bottom, 0.5F * em, layout.panel);
     for (int i = 0; i < world->fluid_count; i++) {
@@ -235,7 +236,7 @@ static float draw_parts(Text *text, const Frame *frame, float top)
     for (int i = 0; i < frame->part_count; i++)
         widest = fmaxf(widest, text_width(text, 1, frame->parts[i].words) / em);
     const float gap = top > 0 ? 0.5F : 0, height = 1.6F * (float)frame->part_count + 0.9F;
-    const Layout layout = make_layout(text, frame, widest + 3.3F, top + gap + height);
+    const LegendLayout layout = make_layout(text, frame, widest + 3.3F, top + gap + height);
     const float x = layout.left + 0.8F * em, first = layout.bottom - (height - 0.75F) * em;
     text_rectangle(text, layout.left, layout.bottom - height * em, layout.right, layout.bottom, 0.5F * em,
                    layout.panel);
@@ -281,7 +282,7 @@ static size_t line_bytes(Text *text, const char *line, float width)
 static float draw_note(Text *text, const Frame *frame, float top)
 {
     enum { LINE_MOST = 512 };
-    const Layout layout = make_layout(text, frame, 0, top);
+    const LegendLayout layout = make_layout(text, frame, 0, top);
     const char *rest = frame->note;
     float y = layout.bottom + 0.6F * layout.em;
     while (*rest) {
@@ -297,7 +298,7 @@ static float draw_note(Text *text, const Frame *frame, float top)
 
 void legend_line(Text *text, const Frame *frame, float x, float y, const char *line)
 {
-    const Layout layout = make_layout(text, frame, 0, 0);
+    const LegendLayout layout = make_layout(text, frame, 0, 0);
     text_draw(text, x, y, 1, layout.faint, TEXT_LEFT, line);
 }
 
@@ -314,4 +315,67 @@ void legend_draw(Text *text, const Frame *frame, double time)
         bottom += draw_note(text, frame, bottom);
     if (bottom > 0)
         draw_curves(text, frame, bottom);
+}
+
+/* In letter heights: around the words, and between the lines. */
+static const float AROUND = 0.55F, BETWEEN = 0.35F;
+
+/* The longest beginning of `words` that is at most `width` wide. */
+static void cut_text(Text *text, float width, const char *words, char out[TITLE_SIZE])
+{
+    size_t length = strlen(words);
+    snprintf(out, TITLE_SIZE, "%s", words);
+    while (length > 0 && text_width(text, 1, out) > width) {
+        length--;
+        while (length > 0 && ((unsigned char)words[length] & 0xC0) == 0x80) /* inside a UTF-8 letter */
+            length--;
+        snprintf(out, TITLE_SIZE, "%.*s...", (int)fmin((double)length, TITLE_SIZE - 4), words);
+    }
+}
+
+/* From the top of the picture to the bottom of the title, in letter heights. */
+static float bottom_em(const Title *title)
+{
+    return 2 + 2 * AROUND + (*title->figures ? BETWEEN + 1 : 0);
+}
+
+int title_rows(const Title *title, int height)
+{
+    return *title->words ? (int)ceilf(bottom_em(title) * legend_text_pixels(height)) : 0;
+}
+
+void title_draw(Text *text, const Title *title, const Frame *frame)
+{
+    const uint32_t ink = legend_text_color(frame->def), faint = (ink & 0xffffff00) | 0xb0,
+                   panel = legend_text_is_dark(frame->def) ? 0xffffffd0 : 0x101418c0;
+    const float em = text_height(text), around = AROUND * em, x = em + around;
+    const float legend = (float)legend_width_pixels(frame->def, frame->world, frame->height);
+    const float room = (float)frame->width - legend - 2 * em - 2 * around;
+    char words[TITLE_SIZE], figures[TITLE_SIZE];
+    if (!*title->words || room <= 0)
+        return;
+    cut_text(text, room, title->words, words);
+    cut_text(text, room, title->figures, figures);
+    const float width = fmaxf(text_width(text, 1, words), text_width(text, 1, figures));
+    text_rectangle(text, em, em, x + width + around, bottom_em(title) * em, 0.5F * em, panel);
+    text_draw(text, x, em + around, 1, ink, TEXT_LEFT, words);
+    text_draw(text, x, em + around + (1 + BETWEEN) * em, 1, faint, TEXT_LEFT, figures);
+}
+
+void caption_draw(Text *text, const Frame *frame)
+{
+    static const float LARGE = 1.6F, LEAST = 0.5F;
+    const char *words = frame->def->title;
+    const uint32_t ink = legend_text_color(frame->def),
+                   panel = legend_text_is_dark(frame->def) ? 0xffffffd0 : 0x101418c0;
+    const float em = text_height(text), covered = fmaxf(frame->camera.centre[0], 0);
+    const float room = (float)frame->width * (1 - covered) - 4 * em, wide = text_width(text, LARGE, words);
+    if (!*words || room <= 0)
+        return;
+    const float scale = wide > room ? fmaxf(LARGE * room / wide, LEAST) : LARGE;
+    const float middle = (0.5F + 0.5F * covered) * (float)frame->width, half = wide * scale / LARGE / 2;
+    const float around = AROUND * em, bottom = (float)frame->height - 1.6F * em, top = bottom - scale * em;
+    text_rectangle(text, middle - half - around, top - around, middle + half + around, bottom + around,
+                   0.5F * em, panel);
+    text_draw(text, middle, top, scale, ink, TEXT_CENTER, words);
 }

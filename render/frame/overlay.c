@@ -1,13 +1,12 @@
-#include "render/frame/overlay.h"
-
-#include "render/frame/legend.h"
+#include "render/frame/passes.h"
+#include "render/frame/view.h"
 
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-void *overlay_own(const ViewDef *def, const OverlayKind *kind)
+void *overlay_own_settings(const ViewDef *def, const OverlayKind *kind)
 {
     for (int i = 0; overlay_list[i]; i++)
         if (overlay_list[i] == kind)
@@ -67,7 +66,7 @@ static bool make(const Overlays *overlays, const Subject *subject, void *made[],
     return true;
 }
 
-bool overlays_follow(Overlays *overlays, const Subject *subject, Error *error)
+bool overlays_update(Overlays *overlays, const Subject *subject, Error *error)
 {
     void *made[OVERLAY_KINDS_MAX] = {NULL};
     const bool ok = make(overlays, subject, made, error);
@@ -94,7 +93,7 @@ void overlays_destroy(Overlays *overlays)
     *overlays = (Overlays){0};
 }
 
-bool overlays_take_any(const Overlays *overlays)
+bool overlays_keep_states(const Overlays *overlays)
 {
     bool any = false;
     for (int i = 0; overlay_list[i]; i++)
@@ -102,8 +101,8 @@ bool overlays_take_any(const Overlays *overlays)
     return any;
 }
 
-void overlays_take(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,
-                   GlTimer *timer)
+void overlays_add_state(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,
+                        GlTimer *timer)
 {
     const bool same = overlays->step == particles->step && overlays->time == particles->time &&
                       overlays->count == particles->count;

@@ -1,6 +1,4 @@
-#include "render/frame/solids.h"
-
-#include "render/frame/solid_mesh.h"
+#include "render/frame/passes.h"
 #include "shaders/shared/solid_block.h"
 #include "sim/gl/program.h"
 
@@ -125,7 +123,7 @@ void solid_to_world(const SolidDef *solid, int number, const ParticleBuffers *pa
     matrix_multiply(frame->box_to_world, to_world, to_world);
 }
 
-void solids_place(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
+void solids_update_poses(Solids *solids, const ParticleBuffers *particles, const Frame *frame)
 {
     const WorldDef *world = frame->world;
     SolidBlock block = {0};

@@ -1,7 +1,11 @@
+/* Views: settings and keys shared by all kinds, quality, and calls of a kind's functions. */
 #include "render/frame/view.h"
+#include "render/frame/frame.h"
 
-#include "render/frame/colormap.h"
-
+#include "render/frame/picture_def.h"
+#include "sim/base/control_points.h"
+#include "sim/base/key_rows.h"
+#include "sim/base/scalar.h"
 #include "sim/gl/limits.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/seed.h"
@@ -10,6 +14,140 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+ViewDef view_def_shared(void)
+{
+    return (ViewDef){.color_by = SCALAR_COUNT,
+                     .colormap = "auto",
+                     .range_auto = true,
+                     .color_curve = control_points_straight(),
+                     .opacity = {.range_auto = true, .curve = control_points_straight()},
+                     .size = {.range_auto = true, .curve = control_points_straight()},
+                     .carries_scene = true,
+                     .legend = true,
+                     .box = true,
+                     .caustics = true,
+                     .foam = 1,
+                     .floor = true,
+                     .camera_auto = true,
+                     .camera = {.fov_deg = 32},
+                     .background = {0.72, 0.76, 0.80},
+                     .resolution = 1};
+}
+
+static uint64_t curve_bit(const ScalarCurve *curve)
+{
+    return curve->by != 0 && curve->range_auto ? UINT64_C(1) << scalar_of_curve(curve) : 0;
+}
+
+uint64_t view_def_ranges(const ViewDef *def)
+{
+    const bool color = view_color_by(def) != SCALAR_FLUID && def->range_auto;
+    return (color ? UINT64_C(1) << view_color_by(def) : 0) | curve_bit(&def->size) | curve_bit(&def->opacity);
+}
+
+/* Picture keys that all views share. */
+
+#define AT(field) offsetof(ViewDef, field)
+
+const char *const view_walls_names[] = {
+    [VIEW_WALLS_AUTO] = "auto", [VIEW_WALLS_LINES] = "lines", [VIEW_WALLS_GLASS] = "glass", NULL};
+
+/* The views, then "none". */
+static const char *kind_name(int index)
+{
+    int views = 0;
+    while (view_at(views))
+        views++;
+    return index < views ? view_at(index)->name : index == views ? "none" : NULL;
+}
+
+#define SYMMETRIC_FOLLOWS(range_of)                                                                          \
+    _Static_assert(offsetof(ViewDef, range_of##_symmetric) == offsetof(ViewDef, range_of##_auto) + 1,        \
+                   "bool[2] of KEY_RANGE")
+SYMMETRIC_FOLLOWS(range);
+SYMMETRIC_FOLLOWS(opacity.range);
+SYMMETRIC_FOLLOWS(size.range);
+
+const char *const view_quality_names[] = {
+    [VIEW_AUTO] = "auto", [VIEW_DRAFT] = "draft", [VIEW_GOOD] = "good", [VIEW_BEST] = "best", NULL};
+
+/* The scalars, then "auto". */
+static const char *scalar_or_auto(int index)
+{
+    return index < SCALAR_COUNT ? scalar_list[index].name : index == SCALAR_COUNT ? "auto" : NULL;
+}
+
+/* "none", then the scalars. */
+static const char *scalar_or_none(int index)
+{
+    return index == 0 ? "none" : scalar_list[index - 1].name;
+}
+
+static const KeyOwner by_opacity = {.key = "view.opacity.by", .need = "a scalar (view.opacity.by)"};
+static const KeyOwner by_size = {.key = "view.size.by", .need = "a scalar (view.size.by)"};
+
+#define KEYFRAME(field) offsetof(CameraKey, field)
+
+static void camera_key_init(void *element, int index)
+{
+    (void)index;
+    ((CameraKey *)element)->at.fov_deg = view_def_shared().camera.fov_deg;
+}
+
+/* clang-format off */
+const Key view_keys[] = {
+    MAPPING("view", "the picture", .flags = I),
+    CHOICE("view.kind", L, kind_name, AT(kind), "how the fluid is drawn"),
+    CHOICE("view.color_by", L | KEY_INDEX, scalar_or_auto, AT(color_by), "what the colour shows; auto: the fluid's own colour where the view shows clear fluid (looks and shadings water and jelly), else speed"),
+    CHOICE_OF("view.colormap", L, colormap_choices, AT(colormap), "the colours of a scalar; auto: mako of speed, viridis of all else"),
+    {.path = "view.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(range),
+     .aux = AT(range_auto), .help = "auto: of 98 in 100 particles; symmetric: that, about 0; or [low, high] in the scalar's unit; auto where view.color_by is set to another scalar than the file's"},
+    POINTS("view.color_curve", L, 0, 1, control_presets, AT(color_curve), "bends the colormap: the place in it by where the scalar is in its range"),
+    MAPPING("view.opacity", "of particles, by a scalar"),
+    CHOICE("view.opacity.by", L | KEY_INDEX, scalar_or_none, AT(opacity.by), "the scalar; none: all are opaque"),
+    {.path = "view.opacity.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(opacity.range),
+     .aux = AT(opacity.range_auto), .owner = &by_opacity, .help = "auto, symmetric or [low, high] in the scalar's unit, as view.range"},
+    POINTS("view.opacity.curve", L, 0, 1, control_presets, AT(opacity.curve), "the opacity by where the scalar is in its range", .owner = &by_opacity),
+    MAPPING("view.size", "of particles, by a scalar"),
+    CHOICE("view.size.by", L | KEY_INDEX, scalar_or_none, AT(size.by), "the scalar; none: all are of one radius"),
+    {.path = "view.size.range", .type = KEY_RANGE, .flags = L, .unit = "", BOUNDS(-1e12, 1e12), .offset = AT(size.range),
+     .aux = AT(size.range_auto), .owner = &by_size, .help = "auto, symmetric or [low, high] in the scalar's unit, as view.range"},
+    POINTS("view.size.curve", L, 0, 5, control_presets, AT(size.curve), "factor of view.radius by where the scalar is in its range", .owner = &by_size),
+    NUMBER("view.radius", L, "spacings", 0, 10, AT(radius), "of a particle; 0: the view's own"),
+    KEYS_END,
+};
+
+/* Keys that the docs list after the views' own keys. */
+const Key view_frame_keys[] = {
+    BOOLEAN("view.legend", L, AT(legend), "draw the legend"),
+    BOOLEAN("view.box", L, AT(box), "draw the box's edges"),
+    CHOICE_OF("view.walls", L | KEY_INDEX, view_walls_names, AT(walls), "how the box is drawn: lines: its edges; glass: edges that catch the light, panes that mirror faintly and a line where water meets them (a draft has the edges alone); auto: glass where the view shows clear fluid, else lines"),
+    BOOLEAN("view.floor", L, AT(floor), "draw the floor below the box"),
+    COLOR("view.background", L, AT(background), NULL, "sRGB: [red, green, blue], each 0 to 1"),
+    BOOLEAN("view.caustics", L, AT(caustics), "light patterns on the floor below clear fluid; never in a draft"),
+    NUMBER("view.foam", L, "", 0, 10, AT(foam), "white foam where clear fluid traps air: 1 where it does so at metres a second, 2 at half the speed, 0 none; never in a draft"),
+    {.path = "view.camera", .type = KEY_MAPPING, .unit = "", .offset = KEY_NOWHERE, .aux = AT(camera_auto),
+     .help = "the camera; without it, one that shows the whole box"},
+    VEC3("view.camera.from", R | L, "m", -1e7, 1e7, AT(camera.from), "the eye, in the world's frame"),
+    VEC3("view.camera.to", R | L, "m", -1e7, 1e7, AT(camera.to), "the point looked at"),
+    NUMBER("view.camera.fov", L, "degrees", 1, 170, AT(camera.fov_deg), "vertical field of view"),
+    NUMBER("view.camera_turn", L, "degrees/s", -3600, 3600, AT(camera_turn), "turns the camera about the vertical through what it looks at, in simulated time"),
+    LIST("view.camera_path", 0, 0, CAMERA_KEYS_MAX, AT(camera_path), AT(camera_path_count), CameraKey, camera_key_init,
+         "where the camera flies, in simulated time: keyframes, with a smooth curve through them; it rests at the first one before, at the last one after"),
+    NUMBER("view.camera_path[].time", R, "s", 0, 1e6, KEYFRAME(time), "later than that of the one before"),
+    VEC3("view.camera_path[].from", R, "m", -1e7, 1e7, KEYFRAME(at.from), "the eye then"),
+    VEC3("view.camera_path[].to", R, "m", -1e7, 1e7, KEYFRAME(at.to), "the point looked at"),
+    NUMBER("view.camera_path[].fov", 0, "degrees", 1, 170, KEYFRAME(at.fov_deg), "vertical field of view"),
+    TEXT("view.title", L, VIEW_TITLE_SIZE, AT(title), "none", "words over the picture"),
+    BOOLEAN("view.carries_scene", L, AT(carries_scene), "PNG files carry the scene as text: slosh FILE.png opens it again"),
+    CHOICE_OF("view.quality", L | KEY_INDEX, view_quality_names, AT(quality), "draft: fewer cells, pixels and samples, so that a picture is there in time; good: as all keys say; best: more; what is not at its default stays; auto: best in files, draft for clear fluid and filtered splats in the window on a software driver, else good"),
+    NUMBER("view.resolution", L, "", 0.05, 1, AT(resolution), "pixels drawn for a pixel shown, each way: less is faster; the box's edges, words and the legend have all of them"),
+    TEXT("view.file", 0, FILE_NAME_SIZE, AT(file), "none", "of an entry of views: it shows a recorded run (.h5part, found from the scene's folder) at the scene's time"),
+    SETTINGS("view.set", VIEW_SET_SIZE, AT(set), "none", "of an entry of views: it shows the scene with these settings, {solver.step.dt: 0.001} and so on, simulated beside it"),
+    KEYS_END,
+};
+/* clang-format on */
 
 static const ViewKind *added[VIEW_KINDS_MAX + 1];
 
@@ -51,7 +189,7 @@ const ViewKind *view_find(const char *name)
     return NULL;
 }
 
-void *view_own(const ViewDef *def, const ViewKind *kind)
+void *view_own_settings(const ViewDef *def, const ViewKind *kind)
 {
     for (int i = 0; view_at(i); i++)
         if (view_at(i) == kind)
@@ -132,7 +270,7 @@ const ViewKind *view_kind(const View *view)
 
 ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const ParticleBuffers *particles)
 {
-    ParticleRadii radii = frame_balls(def, particles, kind ? kind->radius : 0);
+    ParticleRadii radii = frame_ball_radii(def, particles, kind ? kind->radius : 0);
     if (kind && kind->radii)
         kind->radii(def, particles, &radii);
     return radii;
@@ -162,7 +300,7 @@ static size_t value_size(const Key *key)
 /* True if all own keys with KEY_REBUILD are equal. */
 static bool same_keys(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
 {
-    const char *one = view_own(a, kind), *other = view_own(b, kind);
+    const char *one = view_own_settings(a, kind), *other = view_own_settings(b, kind);
     for (const Key *key = kind->keys; key && key->path; key++)
         if ((key->flags & KEY_REBUILD) &&
             memcmp(one + key->offset, other + key->offset, value_size(key)) != 0)
@@ -170,7 +308,7 @@ static bool same_keys(const ViewKind *kind, const ViewDef *a, const ViewDef *b)
     return true;
 }
 
-bool view_same(const Subject *a, const Subject *b)
+bool view_is_compatible(const Subject *a, const Subject *b)
 {
     const ViewKind *kind = view_find(a->def->kind);
     return strcmp(a->def->kind, b->def->kind) == 0 &&
@@ -212,10 +350,10 @@ bool view_has_glass(const ViewDef *def)
 ViewQuality view_quality(const ViewDef *def, bool moving)
 {
     const ViewKind *kind = view_find(def->kind);
-    const bool dear = view_shows_clear_fluid(def) || (kind && kind->dear && kind->dear(def));
+    const bool expensive = view_shows_clear_fluid(def) || (kind && kind->expensive && kind->expensive(def));
     if (def->quality != VIEW_AUTO)
         return (ViewQuality)def->quality;
-    return moving && dear && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
+    return moving && expensive && gl_renderer_is_software() ? VIEW_DRAFT : VIEW_GOOD;
 }
 
 ViewDef view_at_quality(const ViewDef *def, bool moving)
@@ -278,14 +416,14 @@ bool view_unfinished(const View *view)
     return view->kind->unfinished && view->kind->unfinished(view->state);
 }
 
-const char *view_note(View *view, bool *behind)
+const char *view_note(View *view, bool *stale)
 {
-    return view->kind->note ? view->kind->note(view->state, behind) : NULL;
+    return view->kind->note ? view->kind->note(view->state, stale) : NULL;
 }
 
-const char *view_lacks(const View *view)
+const char *view_missing(const View *view)
 {
-    return view->kind->lacks ? view->kind->lacks(view->state) : NULL;
+    return view->kind->missing ? view->kind->missing(view->state) : NULL;
 }
 
 bool view_pick(const View *view, const double pixel[2], double at[3])

@@ -1,13 +1,19 @@
-/* Views: the ways to show a fluid. One folder per view; the list is render/views.c. */
-#ifndef SLOSH_VIEW_H
-#define SLOSH_VIEW_H
+/* Views and overlays: the tables of functions that a kind fills in (ViewKind, OverlayKind), and the calls
+   that a renderer makes. render/lists.c lists the kinds; docs/add/view.md shows how to add a kind. */
+#ifndef RENDER_FRAME_VIEW_H
+#define RENDER_FRAME_VIEW_H
 
 #include "render/frame/frame.h"
-#include "render/frame/handle.h"
+
+#include "render/frame/camera.h"
+#include "render/frame/text.h"
 #include "sim/base/error.h"
 #include "sim/base/key.h"
+#include "sim/base/room.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/surface/ranged_volume.h"
+
+/* Views: the ways to show a fluid. One folder per view; the list is render/lists.c. */
 
 typedef struct View View;
 
@@ -71,15 +77,15 @@ typedef struct ViewProbe {
 enum { VIEW_PROBES_MAX = 16, VIEW_NO_ID = -1 };
 
 /* Questions about the last picture; at most VIEW_PROBES_MAX in all. */
-typedef struct ViewAsks {
+typedef struct ViewProbeRequest {
     int count;
     double at[VIEW_PROBES_MAX][3]; /* positions, m, box's frame */
     bool mouse;                    /* also ask for the position under the mouse, at `pixel` */
     double pixel[2];               /* from the left and the top */
-} ViewAsks;
+} ViewProbeRequest;
 
 /* The answers: first for the positions in order, then for the mouse. */
-typedef struct ViewProbes {
+typedef struct ViewProbeAnswers {
     int count;
     bool mouse; /* the last answer is for the mouse */
     bool now;   /* the answers are for the last picture and these questions; false: the next picture knows
@@ -89,7 +95,7 @@ typedef struct ViewProbes {
     bool placed;
     double place[3];
     ViewProbe probe[VIEW_PROBES_MAX];
-} ViewProbes;
+} ViewProbeAnswers;
 
 /* How the renderer finds values for a view without a probe function. */
 typedef struct ViewProbing {
@@ -129,7 +135,7 @@ typedef struct ViewKind {
     void (*quality)(ViewDef *def, ViewQuality quality);
     /* True if drawing costs as much as clear fluid, which a moving window draws as a draft on a software
        driver; NULL: never. */
-    bool (*dear)(const ViewDef *def);
+    bool (*expensive)(const ViewDef *def);
     double radius;                /* particle radius in spacings if ViewDef.radius is 0 */
     unsigned curves;              /* VIEW_OPACITY, VIEW_SIZE: the def's curves that the view draws */
     const KeyOwner *curves_where; /* draw curves only if this owner is in use; NULL: always */
@@ -153,11 +159,11 @@ typedef struct ViewKind {
     bool (*accepts)(void *state, const Subject *subject, Error *error);
     /* Sets in the frame what colours and legend show, if not the def's scalar; NULL: the def's scalar. */
     void (*show)(const ViewDef *def, Frame *frame);
-    /* Draws the shadow casters into the map of render/frame/shadow.h; NULL: no shadows. */
+    /* Draws the shadow casters into the map of render/frame/passes.h; NULL: no shadows. */
     void (*cast)(void *state, const ParticleBuffers *particles, const Frame *frame);
     /* Draws colour and depth into frame->target, within the view's stages of frame->timer. */
     void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
-    /* Draws the parts in front of overlays and edges (Frame.over_depth), which are drawn after `draw`;
+    /* Draws the parts in front of overlays and edges (Frame.overlay_depth), which are drawn after `draw`;
        `draw` leaves these parts out. NULL: overlays and edges are tested against the depth that `draw`
        leaves. */
     void (*draw_front)(void *state, const Frame *frame);
@@ -165,11 +171,11 @@ typedef struct ViewKind {
        never. */
     bool (*unfinished)(const void *state);
     /* Legend text about the picture just drawn, static; NULL result: no text. May wait for the GPU. With
-       `behind`: does not wait, may describe an earlier picture, and then sets *behind. May be NULL. */
-    const char *(*note)(void *state, bool *behind);
+       `stale`: does not wait, may describe an earlier picture, and then sets *stale. May be NULL. */
+    const char *(*note)(void *state, bool *stale);
     /* What the last picture lacks of the def's wishes, in words of one line, static; NULL result: nothing.
        May be NULL. */
-    const char *(*lacks)(const void *state);
+    const char *(*missing)(const void *state);
     /* The handles for the mouse, at most HANDLES_MAX. Returns their number. NULL: none. */
     int (*handles)(const ViewDef *def, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);
     /* The live settings, at most VIEW_SETTINGS_MAX, that move handle `index` from its state `taken` to
@@ -200,7 +206,7 @@ void view_add(const ViewKind *kind);
 const ViewKind *view_at(int index);
 
 /* The view's own settings in a def; not const, like memchr's result. NULL if the kind is unknown. */
-void *view_own(const ViewDef *def, const ViewKind *kind);
+void *view_own_settings(const ViewDef *def, const ViewKind *kind);
 
 /* Sets the first kind, and the defaults of all views' own settings. */
 void views_default(ViewDef *def);
@@ -218,7 +224,7 @@ ParticleRadii view_radii(const ViewKind *kind, const ViewDef *def, const Particl
 
 void view_prepare(View *view, const ParticleBuffers *particles, const Frame *frame);
 /* True if a view made for `a` may draw `b`. */
-bool view_same(const Subject *a, const Subject *b);
+bool view_is_compatible(const Subject *a, const Subject *b);
 bool view_accepts(View *view, const Subject *subject, Error *error);
 /* Adds the particle data that the def's view reads; nothing for an unknown view. */
 void view_want(const ViewDef *def, ParticleWants *wants);
@@ -226,12 +232,106 @@ void view_show(const View *view, const ViewDef *def, Frame *frame);
 void view_cast(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw(View *view, const ParticleBuffers *particles, const Frame *frame);
 void view_draw_front(View *view, const Frame *frame);
-const char *view_note(View *view, bool *behind);
-const char *view_lacks(const View *view);
+const char *view_note(View *view, bool *stale);
+const char *view_missing(const View *view);
 bool view_unfinished(const View *view);
 bool view_pick(const View *view, const double pixel[2], double at[3]);
 /* Returns -1 if values are never known. */
 int view_probe(View *view, const double (*at)[3], int count, ViewProbe *out);
 ViewProbing view_probing(const View *view, const ViewDef *def);
+
+/* Overlays: drawn into the picture together with any view. One folder per overlay; the list is
+   render/lists.c. A hidden overlay has no state, no particle attributes and no stage. */
+
+/* First member of each overlay's own settings: the key "view.NAME.show". */
+typedef struct IN_A_ROOM OverlayShow {
+    bool show;
+} OverlayShow;
+
+typedef struct OverlayKind {
+    const char *name, *help;
+    /* As ViewKind.check, called if the overlay is shown; NULL: all subjects can be
+       drawn. */
+    bool (*check)(const Subject *subject, const char **key, Error *error);
+    const Key *keys; /* the overlay's own settings, ended by a row without a path */
+    const void *def; /* defaults of the settings struct, which starts with an OverlayShow */
+    size_t def_size; /* bytes; at most VIEW_OWN_SIZE */
+    /* Adds the particle data that the overlay reads in addition to the view; for a NULL def, all data that
+       any settings read. */
+    void (*wants)(const ViewDef *def, ParticleWants *wants);
+    /* The largest distance in time between the states that the overlay gets, s. `before`: how long before
+       a picture these states must start, s. NULL: the picture's state is enough. */
+    double (*every)(const ViewDef *def, double *before);
+    void *(*create)(const Subject *subject, Error *error); /* the overlay's state, or NULL with the reason */
+    void (*destroy)(void *state);
+    /* Called once for each state, of a picture or between pictures, before drawing. NULL: the overlay
+       keeps nothing of states. A state between pictures has no derived scalars except view.color_by. */
+    void (*take)(void *state, const ParticleBuffers *particles, const Subject *subject, GlTimer *timer);
+    /* Draws colour into frame->target after the view, within the overlay's stages of frame->timer, and
+       tests against the target's depth. With Frame.depths, also writes depth and is called a second time
+       for the colour. */
+    void (*draw)(void *state, const ParticleBuffers *particles, const Frame *frame);
+    /* True if a further picture of the same state would be better than the last (with Frame.more). NULL:
+       never. */
+    bool (*unfinished)(const void *state);
+    /* The live settings that follow when a user takes the particle `id`, and `words` for the user. Returns
+       the number of settings; 0 with the reason in `words`. NULL: nothing follows. */
+    int (*choose)(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX], char words[160]);
+    /* A line for the legend: content and scale of the overlay; NULL: no line. */
+    void (*legend)(void *state, const Frame *frame, char *line, size_t size);
+} OverlayKind;
+
+extern const OverlayKind *const overlay_list[]; /* ended by NULL */
+
+/* The overlays of a picture. Zero-initialise. */
+typedef struct Overlays {
+    void *state[OVERLAY_KINDS_MAX]; /* NULL: not shown */
+    uint64_t step;                  /* step, time and count of the state taken last */
+    double time;
+    size_t count;
+    bool taken[OVERLAY_KINDS_MAX];
+} Overlays;
+
+/* The settings of a listed overlay in a def; not const, like memchr's result. */
+void *overlay_own_settings(const ViewDef *def, const OverlayKind *kind);
+
+/* Sets the defaults of all overlays' settings. */
+void overlays_default(ViewDef *def);
+
+/* Adds the particle data that the shown overlays read; for a NULL def, the data that any overlay may read. */
+void overlays_want(const ViewDef *def, ParticleWants *wants);
+
+/* The least OverlayKind.every of the shown overlays, and the longest time before a picture; INFINITY if
+   the states of pictures are enough. */
+double overlays_every(const ViewDef *def, double *before);
+
+/* Returns false, with the reason and the key at fault, if a shown overlay cannot be drawn. */
+bool overlays_check(const Subject *subject, const char **key, Error *error);
+
+/* Creates the overlays that the def shows and destroys the rest. Returns false on failure and changes
+   nothing. */
+bool overlays_update(Overlays *overlays, const Subject *subject, Error *error);
+void overlays_destroy(Overlays *overlays);
+
+/* True if any overlay is shown. */
+bool overlays_any(const Overlays *overlays);
+
+/* True if a shown overlay keeps data of states (OverlayKind.take). */
+bool overlays_keep_states(const Overlays *overlays);
+
+/* Gives a state to the overlays, once. */
+void overlays_add_state(Overlays *overlays, const ParticleBuffers *particles, const Subject *subject,
+                        GlTimer *timer);
+void overlays_draw(const Overlays *overlays, const ParticleBuffers *particles, const Frame *frame);
+
+/* True if any shown overlay is unfinished. */
+bool overlays_unfinished(const Overlays *overlays);
+
+/* OverlayKind.choose of the first listed overlay with this function. */
+int overlays_choose(const ViewDef *def, uint32_t id, ViewSetting settings[VIEW_SETTINGS_MAX],
+                    char words[160]);
+
+/* Draws the overlays' legend lines, from the lower left corner up, above the line of the time. */
+void overlays_legend(const Overlays *overlays, Text *text, const Frame *frame);
 
 #endif

@@ -1,15 +1,75 @@
-#include "render/particles/neighbourhood.h"
+#include "render/particles/particles.h"
 
-#include "render/particles/work.h"
 #include "shaders/shared/bindings.h"
+#include "shaders/shared/scan.h"
 #include "sim/gl/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>
 
+enum { BLOCK = 1024 };
+
+static GLuint compile_sums(const char *file, Error *error)
+{
+    return program_create(file, (const char *const[]){file, NULL}, NULL, error);
+}
+
+bool prefix_sums_create(PrefixSums *sums, Error *error)
+{
+    sums->scan = compile_sums("sim/compute/scan.comp", error);
+    sums->add = sums->scan ? compile_sums("sim/compute/scan_add.comp", error) : 0;
+    return sums->add != 0;
+}
+
+void prefix_sums_destroy(PrefixSums *sums)
+{
+    glDeleteProgram(sums->scan);
+    glDeleteProgram(sums->add);
+    glDeleteBuffers(PREFIX_SUM_LEVELS, sums->totals);
+    *sums = (PrefixSums){0};
+}
+
+static size_t blocks_of(size_t size)
+{
+    return (size + BLOCK - 1) / BLOCK;
+}
+
+static void reserve_sums(PrefixSums *sums, size_t size)
+{
+    if (size <= sums->capacity)
+        return;
+    sums->capacity = size;
+    for (int level = 0; level < PREFIX_SUM_LEVELS; level++)
+        work_buffer_remake(&sums->totals[level], (size = blocks_of(size)) * sizeof(GLuint), "prefix sums");
+}
+
+static void run_sums(GLuint program, GLuint values, GLuint totals, size_t size)
+{
+    glUseProgram(program);
+    glUniform1ui(SCAN_SIZE_AT, (GLuint)size);
+    glBindBuffersBase(GL_SHADER_STORAGE_BUFFER, SCAN_VALUES_STORAGE, 2, (GLuint[]){values, totals});
+    work_dispatch(blocks_of(size));
+}
+
+void prefix_sums_run(PrefixSums *sums, unsigned buffer, size_t size)
+{
+    GLuint values[PREFIX_SUM_LEVELS + 1] = {buffer};
+    size_t sizes[PREFIX_SUM_LEVELS + 1] = {size};
+    int level = 0;
+    reserve_sums(sums, size);
+    do {
+        run_sums(sums->scan, values[level], sums->totals[level], sizes[level]);
+        values[level + 1] = sums->totals[level];
+        sizes[level + 1] = blocks_of(sizes[level]);
+        level++;
+    } while (sizes[level] > 1 && level < PREFIX_SUM_LEVELS);
+    for (level -= 2; level >= 0; level--)
+        run_sums(sums->add, values[level], values[level + 1], sizes[level]);
+}
+
 enum { CELLS_A_PARTICLE = 8, CELLS_LEAST = 4096, CELLS_A_SIDE = 32768 };
 
-static GLuint compile(const char *file, Error *error)
+static GLuint compile_grid(const char *file, Error *error)
 {
     return program_create(file, (const char *const[]){file, NULL}, NULL, error);
 }
@@ -17,10 +77,11 @@ static GLuint compile(const char *file, Error *error)
 bool neighbourhood_create(Neighbourhood *n, Error *error)
 {
     *n = (Neighbourhood){0};
-    n->bin = compile("render/neighbourhood_bin.comp", error);
-    n->place =
-        n->bin && prefix_sums_create(&n->sums, error) ? compile("render/neighbourhood_place.comp", error) : 0;
-    n->sort = n->place ? compile("render/neighbourhood_sort.comp", error) : 0;
+    n->bin = compile_grid("render/neighbourhood_bin.comp", error);
+    n->place = n->bin && prefix_sums_create(&n->sums, error)
+                   ? compile_grid("render/neighbourhood_place.comp", error)
+                   : 0;
+    n->sort = n->place ? compile_grid("render/neighbourhood_sort.comp", error) : 0;
     return n->sort != 0;
 }
 
@@ -42,7 +103,7 @@ static void show_as_texels(GLuint *texture, GLuint buffer)
     glTextureBuffer(*texture, GL_RGBA32UI, buffer);
 }
 
-static void reserve(Neighbourhood *n, size_t count, size_t cells)
+static void reserve_grid(Neighbourhood *n, size_t count, size_t cells)
 {
     if (count > n->capacity) {
         n->capacity = work_capacity(n->capacity, count);
@@ -86,7 +147,7 @@ static void bind_buffers(const Neighbourhood *n)
                       (const unsigned[]){n->cell, n->rank, n->start, n->order, n->sorted});
 }
 
-static void run(const Neighbourhood *n, GLuint program, size_t invocations)
+static void run_particles(const Neighbourhood *n, GLuint program, size_t invocations)
 {
     glUseProgram(program);
     glUniform3uiv(GRID_SIZE_AT, 1, n->size);
@@ -110,18 +171,18 @@ void neighbourhood_build(Neighbourhood *n, const ParticleBuffers *particles)
     const size_t cells = make_grid(n, particles);
     if (particles->count == 0)
         return;
-    reserve(n, particles->count, cells);
+    reserve_grid(n, particles->count, cells);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     glClearNamedBufferData(n->start, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, NULL);
     bind_positions(n, particles);
     bind_buffers(n);
-    run(n, n->bin, n->count);
+    run_particles(n, n->bin, n->count);
     prefix_sums_run(&n->sums, n->start, cells + 2);
-    run(n, n->place, n->count);
+    run_particles(n, n->place, n->count);
     bind_positions(n, particles);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
     glBindTextureUnit(ORDER_UNIT, n->order_texels);
-    run(n, n->sort, n->count);
+    run_particles(n, n->sort, n->count);
 }
 
 void neighbourhood_run_for(const Neighbourhood *n, unsigned program, size_t invocations)
@@ -130,7 +191,7 @@ void neighbourhood_run_for(const Neighbourhood *n, unsigned program, size_t invo
     glBindTextureUnit(SORTED_UNIT, n->texels);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, STARTS_STORAGE, n->start);
     if (n->count > 0 && invocations > 0)
-        run(n, program, invocations);
+        run_particles(n, program, invocations);
 }
 
 void neighbourhood_run(const Neighbourhood *n, unsigned program)

@@ -1,12 +1,69 @@
 #include "render/particles/upload.h"
 
-#include "render/particles/slots.h"
 #include "sim/gl/debug.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
 #include <string.h>
+
+void slots_create(Slots *slots)
+{
+    *slots = (Slots){.written = SLOT_NONE, .newest = SLOT_NONE, .drawn = SLOT_NONE, .in_flight = SLOT_NONE};
+    pthread_mutex_init(&slots->lock, NULL);
+}
+
+void slots_destroy(Slots *slots)
+{
+    pthread_mutex_destroy(&slots->lock);
+}
+
+int slots_write_begin(Slots *slots)
+{
+    pthread_mutex_lock(&slots->lock);
+    int slot = 0;
+    while (slot == slots->newest || slot == slots->drawn || slot == slots->in_flight)
+        slot++;
+    slots->written = slot;
+    pthread_mutex_unlock(&slots->lock);
+    return slot;
+}
+
+void slots_write_end(Slots *slots)
+{
+    pthread_mutex_lock(&slots->lock);
+    slots->newest = slots->written;
+    slots->written = SLOT_NONE;
+    pthread_mutex_unlock(&slots->lock);
+}
+
+bool slots_have_new(Slots *slots)
+{
+    pthread_mutex_lock(&slots->lock);
+    const bool fresh = slots->newest != SLOT_NONE;
+    pthread_mutex_unlock(&slots->lock);
+    return fresh;
+}
+
+int slots_draw(Slots *slots)
+{
+    pthread_mutex_lock(&slots->lock);
+    if (slots->newest != SLOT_NONE) {
+        slots->in_flight = slots->drawn;
+        slots->drawn = slots->newest;
+        slots->newest = SLOT_NONE;
+    }
+    const int drawn = slots->drawn;
+    pthread_mutex_unlock(&slots->lock);
+    return drawn;
+}
+
+void slots_release_in_flight(Slots *slots)
+{
+    pthread_mutex_lock(&slots->lock);
+    slots->in_flight = SLOT_NONE;
+    pthread_mutex_unlock(&slots->lock);
+}
 
 typedef struct Slot {
     GLuint buffer;
@@ -16,15 +73,15 @@ typedef struct Slot {
 } Slot;
 
 /* Offsets in each slot, bytes; SIZE_MAX: the attribute is not carried. */
-typedef struct Layout {
+typedef struct SlotLayout {
     size_t position, velocity, fluid, id, scalar[SCALAR_STATE_COUNT];
     size_t size;
-} Layout;
+} SlotLayout;
 
 struct Upload {
     size_t capacity;
     unsigned attributes;
-    Layout layout;
+    SlotLayout layout;
     Slots turn;
     GLsync fence; /* after the last drawing from the slot in flight, or NULL */
     int drawn;    /* slot, or SLOT_NONE; used by the drawing thread only */
@@ -33,7 +90,7 @@ struct Upload {
     ParticleBuffers drawn_state;
 };
 
-static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
+static size_t place(SlotLayout *layout, size_t capacity, size_t stride, bool wanted)
 {
     enum { ALIGNMENT = 256 }; /* largest alignment of storage-buffer ranges that the GL standard allows */
     if (!wanted)
@@ -43,9 +100,9 @@ static size_t place(Layout *layout, size_t capacity, size_t stride, bool wanted)
     return offset;
 }
 
-static Layout make_layout(size_t capacity, unsigned attributes)
+static SlotLayout make_layout(size_t capacity, unsigned attributes)
 {
-    Layout layout = {0};
+    SlotLayout layout = {0};
     layout.position = place(&layout, capacity, 4 * sizeof(float), true);
     layout.velocity = place(&layout, capacity, 4 * sizeof(float), attributes & PARTICLE_VELOCITY);
     layout.fluid = place(&layout, capacity, sizeof(uint32_t), attributes & PARTICLE_FLUID);
@@ -65,7 +122,7 @@ static bool slot_create(Slot *slot, size_t size)
     return slot->bytes != NULL;
 }
 
-unsigned upload_of_worlds(unsigned attributes)
+unsigned upload_attributes(unsigned attributes)
 {
     return attributes & ~PARTICLE_SCALAR(SCALAR_BORN);
 }
@@ -132,7 +189,7 @@ static void *in_slot(const Slot *slot, size_t offset)
 
 static ParticleArrays slot_arrays(const Upload *upload, const Slot *slot)
 {
-    const Layout *layout = &upload->layout;
+    const SlotLayout *layout = &upload->layout;
     ParticleArrays arrays = {.position = in_slot(slot, layout->position),
                              .velocity = in_slot(slot, layout->velocity),
                              .fluid = in_slot(slot, layout->fluid),
@@ -150,7 +207,7 @@ static ParticleAttribute attribute(const Slot *slot, size_t offset, size_t strid
 static void describe(const Upload *upload, Slot *slot)
 {
     ParticleBuffers *out = &slot->state;
-    const Layout *layout = &upload->layout;
+    const SlotLayout *layout = &upload->layout;
     memset(out->scalar, 0, sizeof out->scalar);
     memset(out->vector, 0, sizeof out->vector);
     memset(out->range, 0, sizeof out->range);
@@ -195,7 +252,8 @@ static void copy(void *to, const void *from, size_t bytes)
         memcpy(to, from, bytes);
 }
 
-bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state, Error *error)
+bool upload_write_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleBuffers *state,
+                         Error *error)
 {
     if (!fits(upload, state->count, error))
         return false;
@@ -214,9 +272,9 @@ bool upload_arrays(Upload *upload, const ParticleArrays *arrays, const ParticleB
     return true;
 }
 
-bool upload_fresh(Upload *upload)
+bool upload_has_new(Upload *upload)
 {
-    return slots_fresh(&upload->turn);
+    return slots_have_new(&upload->turn);
 }
 
 static void land(Upload *upload)
@@ -227,7 +285,7 @@ static void land(Upload *upload)
         continue;
     glDeleteSync(upload->fence);
     upload->fence = NULL;
-    slots_landed(&upload->turn);
+    slots_release_in_flight(&upload->turn);
 }
 
 static void carry(const Upload *upload, ParticleAttribute *attribute, size_t count)
@@ -256,7 +314,7 @@ static void carry_over(Upload *upload)
 
 bool upload_take(Upload *upload, ParticleBuffers *out)
 {
-    if (slots_fresh(&upload->turn)) {
+    if (slots_have_new(&upload->turn)) {
         land(upload);
         if (upload->drawn != SLOT_NONE)
             upload->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);

@@ -202,7 +202,7 @@ void text_triangle(Text *text, const float x[3], const float y[3], uint32_t rgba
                                   imgui_color(rgba));
 }
 
-struct Place {
+struct WindowRect {
     GLint x0, y0, x1, y1; // pixels, y upwards as OpenGL counts
 };
 
@@ -219,7 +219,7 @@ struct Ui {
     int width, height;
     int windows; // begun in this frame
     int places;  // of windows
-    Place place[PLACES_MAX];
+    WindowRect place[PLACES_MAX];
     UiInput input; // of the last ui_begin
     bool building; // the present frame is built again, not repeated
     int settle;    // frames until all windows have their sizes
@@ -395,7 +395,7 @@ bool ui_covers(const Ui *ui, float x, float y)
 {
     const float up = (float)ui->height - y;
     for (int i = 0; i < ui->places; i++) {
-        const Place &p = ui->place[i];
+        const WindowRect &p = ui->place[i];
         if (x >= (float)p.x0 && x < (float)p.x1 && up > (float)p.y0 && up <= (float)p.y1)
             return true;
     }
@@ -482,8 +482,8 @@ bool ui_begin(Ui *ui, int width, int height, const UiInput *input)
 static void add_place(Ui *ui, const ImRect &rect)
 {
     const GLint w = ui->width, h = ui->height;
-    const Place place = {std::clamp((GLint)rect.Min.x, 0, w), std::clamp(h - (GLint)rect.Max.y, 0, h),
-                         std::clamp((GLint)rect.Max.x, 0, w), std::clamp(h - (GLint)rect.Min.y, 0, h)};
+    const WindowRect place = {std::clamp((GLint)rect.Min.x, 0, w), std::clamp(h - (GLint)rect.Max.y, 0, h),
+                              std::clamp((GLint)rect.Max.x, 0, w), std::clamp(h - (GLint)rect.Min.y, 0, h)};
     if (ui->places < PLACES_MAX && place.x0 < place.x1 && place.y0 < place.y1)
         ui->place[ui->places++] = place;
 }
@@ -504,13 +504,13 @@ static void clear(const Ui *ui)
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glClearColor(color.x, color.y, color.z, 1);
     for (int i = 0; i < ui->places; i++) {
-        const Place &p = ui->place[i];
+        const WindowRect &p = ui->place[i];
         glScissor(p.x0, p.y0, p.x1 - p.x0, p.y1 - p.y0);
         glClear(GL_COLOR_BUFFER_BIT);
     }
 }
 
-bool ui_unsettled(const Ui *ui)
+bool ui_needs_redraw(const Ui *ui)
 {
     return ui->settle > 0;
 }
@@ -532,7 +532,7 @@ void ui_end(Ui *ui)
     }
     glDisable(GL_SCISSOR_TEST);
     for (int i = 0; i < ui->places; i++) {
-        const Place &p = ui->place[i];
+        const WindowRect &p = ui->place[i];
         glBlitNamedFramebuffer(ui->framebuffer, (GLuint)target, p.x0, p.y0, p.x1, p.y1, p.x0, p.y0, p.x1,
                                p.y1, GL_COLOR_BUFFER_BIT, GL_NEAREST);
     }
@@ -725,11 +725,11 @@ bool ui_section(Ui *ui, const char *name, bool open_at_start)
 }
 
 // Start and width of the second column.
-struct Columns {
+struct FieldColumns {
     float left, middle, right; // positions in the window
 };
 
-static Columns columns(const Ui *ui)
+static FieldColumns columns(const Ui *ui)
 {
     const float left = ImGui::GetCursorPosX(), width = ImGui::GetContentRegionAvail().x;
     return {left, std::floor(left + width * ui->label_share), left + width};
@@ -738,7 +738,7 @@ static Columns columns(const Ui *ui)
 void ui_row(Ui *ui, const char *label, const char *value)
 {
     Current current(ui->context);
-    const Columns place = columns(ui);
+    const FieldColumns place = columns(ui);
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     ui->line_right = 0;
     ImGui::PushTextWrapPos(place.middle - gap);
@@ -820,7 +820,7 @@ bool ui_card(Ui *ui, const UiCard *card, bool lit)
 // fit their columns, the label gets a line of its own, and the widget the next line.
 static float begin_field(Ui *ui, const UiField *field, float needed)
 {
-    const Columns place = columns(ui);
+    const FieldColumns place = columns(ui);
     const float label = ImGui::CalcTextSize(field->label).x;
     const bool own_line = label > place.middle - place.left || needed > place.right - place.middle;
     ui->line_right = 0;

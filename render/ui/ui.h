@@ -9,15 +9,36 @@
 #define SLOSH_UI_H
 
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#include "render/ui/ui_scale.h"
 #include "sim/base/control_points.h"
 #include "sim/base/error.h"
+
+/* The scale of a slider: converts values to positions and back. Pure. */
+typedef struct UiScale {
+    double low, high;   /* the ends of the slider, low < high */
+    bool logarithmic;   /* then low > 0 */
+    bool whole;         /* whole numbers only */
+    double least, most; /* limits of typed values */
+    const char *unit;   /* for display, "" without a unit */
+} UiScale;
+
+/* 0 at the low end, 1 at the high end; values beyond are clamped. */
+double ui_scale_share(const UiScale *scale, double value);
+
+/* The value at a position, with no more digits than a hand can choose. */
+double ui_scale_value(const UiScale *scale, double share);
+
+/* A typed value, clamped to the limits. */
+double ui_scale_typed(const UiScale *scale, double value);
+
+/* "0.02 s": the text shown on the slider. */
+void ui_scale_text(const UiScale *scale, double value, char *text, size_t size);
 
 typedef struct Ui Ui;
 
@@ -67,7 +88,7 @@ bool ui_begin(Ui *ui, int width, int height, const UiInput *input);
 void ui_end(Ui *ui);
 
 /* True while windows have no final size and position; new windows are still invisible. Lasts some frames. */
-bool ui_unsettled(const Ui *ui);
+bool ui_needs_redraw(const Ui *ui);
 
 /* State of the last frame. ui_wants_mouse, ui_wants_keys: true if mouse or keys belong to the windows.
    ui_covers: true if a window covers a position, so that a press there belongs to the window. */

@@ -1,4 +1,4 @@
-#include "render/ui/ui_scale.h"
+#include "render/ui/ui.h"
 
 #include <math.h>
 #include <stdio.h>

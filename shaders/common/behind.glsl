@@ -1,4 +1,4 @@
-// The background seen through the fluid, refracted; render/frame/behind.c binds the copy. Needs common/frame.glsl and, with
+// The background seen through the fluid, refracted; render/frame/edges.c binds the copy. Needs common/frame.glsl and, with
 // FLOOR_SHADOW, common/environment.glsl.
 #include "shaders/shared/bindings.h"
 #include "common/nan.glsl"

@@ -1,4 +1,4 @@
-// The particles, as bound by render/particles/particle_bind.c; strides are in words, since the owner of the buffers chooses the
+// The particles, as bound by render/particles/particles.c; strides are in words, since the owner of the buffers chooses the
 // strides. Further data is in separate blocks, so that a shader declares only what the shader reads:
 // common/particle_scalars.glsl, common/particle_fluids.glsl.
 #include "shaders/shared/bindings.h"

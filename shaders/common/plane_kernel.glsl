@@ -1,4 +1,4 @@
-// The kernel's shape at q = r / h below 1, as in render/plane/plane_kernel.c; KERNEL is the index there.
+// The kernel's shape at q = r / h below 1, as in render/particles/plane.c; KERNEL is the index there.
 float plane_shape(float q)
 {
     float t = 1.0 - q;

@@ -1,4 +1,4 @@
-// True if a translucent particle covers a pixel (render/particles/particle_curves.h). `veil`: opacity, and start of the
+// True if a translucent particle covers a pixel (render/particles/particles.h). `veil`: opacity, and start of the
 // screen-door. After: Enderton, Sintorn, Shirley, Luebke, Stochastic transparency, 2010, with noise that is even over a
 // particle's pixels.
 #include "common/noise.glsl"

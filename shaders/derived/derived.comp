@@ -1,4 +1,4 @@
-// A scalar or a vector of each particle from the state: VALUE is the formula, of type VALUE_TYPE. See render/derived/derived.c
+// A scalar or a vector of each particle from the state: VALUE is the formula, of type VALUE_TYPE. See render/particles/derived.c
 // for the list and the variables. NEAR: with sums over neighbours.
 #include "common/particles.glsl"
 #include "common/neighbourhood_grid.glsl"

@@ -1,4 +1,4 @@
-/* Projection of points into a picture, and colours of the layers; filled by render/pbsr/average.c. */
+/* Projection of points into a picture, and colours of the layers; filled by render/views/pbsr/average.c. */
 #ifndef SLOSH_PBSR_BLOCK_H
 #define SLOSH_PBSR_BLOCK_H
 

@@ -1,6 +1,6 @@
 // Steps 1 and 2 of Tanaka et al. 2012: random points on the pieces of a layer, an invocation per piece and set, projected with
 // occlusion. First finds the nearest depth of each pixel, then the largest word of the points at that depth: exact and
-// independent of the order. One program for both passes, so that both have the same points to the bit. As render/pbsr/layer.c,
+// independent of the order. One program for both passes, so that both have the same points to the bit. As render/views/pbsr/sets.c,
 // with other random numbers.
 #include "pbsr/sets.glsl"
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Sets the positions of particles beyond a plane to NaN: render/particles/half.h.
+// Sets the positions of particles beyond a plane to NaN: render/particles/particles.h.
 #include "common/particles.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// A property of each particle by a curve of a scalar (render/particles/particle_curves.h): the radius, or with VEILED the
+// A property of each particle by a curve of a scalar (render/particles/particles.h): the radius, or with VEILED the
 // opacity. SCALED: multiplies present sizes (common/ball.glsl). LEAST: lower bound, where spheres must not have size 0.
 #include "common/frame.glsl"
 #include "common/particles.glsl"

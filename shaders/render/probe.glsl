@@ -1,4 +1,4 @@
-// Particle data at positions in a picture: render/probe/particle_probe.h.
+// Particle data at positions in a picture: render/picking/picking.h.
 #include "shaders/shared/probe_bindings.h"
 
 // Result of some particles at one position.

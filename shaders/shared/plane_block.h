@@ -1,4 +1,4 @@
-/* A plane's rectangle and the particles' support; filled by render/plane/plane_sum.c. Doubles, since a
+/* A plane's rectangle and the particles' support; filled by render/particles/plane.c. Doubles, since a
    particle may be smaller than a sample of a thousand, with errors of 1e-4 at most. */
 #ifndef SLOSH_PLANE_BLOCK_H
 #define SLOSH_PLANE_BLOCK_H

@@ -1,4 +1,4 @@
-// Culling of hidden particles by a coarse map, for render/splat/cull.c. A cell holds a depth behind which nothing in the cell is
+// Culling of hidden particles by a coarse map, for render/views/splat/splat_sprites.c. A cell holds a depth behind which nothing in the cell is
 // visible: the depth of the nearest sprite that covers all pixel centres of the cell. A particle is hidden if its sprite is
 // behind all cells that the sprite touches.
 #include "shaders/splat/splat_bindings.h"

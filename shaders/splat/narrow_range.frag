@@ -1,4 +1,4 @@
-// One pass of the filter of render/splat/narrow_range.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
+// One pass of the filter of render/views/splat/splat_private.h: along one axis, or with CLEAN over 5 x 5 pixels. Pairs of opposite
 // samples are taken from the middle outwards; a pair partly outside the picture is left out.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"

@@ -1,4 +1,4 @@
-// Normals of a depth map, for render/splat/narrow_range.c. Points of the plane n.P = d are P = z (x, y, -1), so 1 / z = (n.x x +
+// Normals of a depth map, for render/views/splat/splat_maps.c. Points of the plane n.P = d are P = z (x, y, -1), so 1 / z = (n.x x +
 // n.y y - n.z) / d is linear on the screen, and the slopes of 1 / z give n.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"

@@ -1,4 +1,4 @@
-// Visible surfaces in a finished picture of the view splat, for render/splat/silhouette.c. Needs common/frame.glsl.
+// Visible surfaces in a finished picture of the view splat, for render/views/splat/splat_shade.c. Needs common/frame.glsl.
 #include "shaders/splat/splat_bindings.h"
 layout(binding = NEAREST_UNIT) uniform sampler2D nearest_map;
 layout(binding = TARGET_DEPTH_UNIT) uniform sampler2D target_depth;

@@ -1,5 +1,5 @@
 // Blends each pixel beside an outline of a finished picture with the pixels across. DISCS and ROWS: see
-// render/splat/silhouette.h.
+// render/views/splat/splat_private.h.
 #include "common/frame.glsl"
 #include "common/encoded.glsl"
 #include "splat/silhouette.glsl"

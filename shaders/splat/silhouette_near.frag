@@ -1,4 +1,4 @@
-// Marks pixels that may be beside an outline by the depth of a triangle at depth 0, for render/splat/silhouette.c; clears the
+// Marks pixels that may be beside an outline by the depth of a triangle at depth 0, for render/views/splat/splat_shade.c; clears the
 // edges.
 #include "common/frame.glsl"
 #include "splat/silhouette.glsl"

@@ -1,4 +1,4 @@
-// Rectangles of tiles, at infinite distance (reversed depth 0): render/splat/fluid_tiles.h.
+// Rectangles of tiles, at infinite distance (reversed depth 0): render/views/splat/splat_private.h.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 layout(std430, binding = TILE_RECTS_STORAGE) readonly buffer Rects { uvec4 rect[]; }; // x0 y0 x1 y1, pixels

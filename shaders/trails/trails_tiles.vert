@@ -1,4 +1,4 @@
-// The parts of the picture with trails: render/trails/trail_sheet.h.
+// The parts of the picture with trails: render/overlays/trails/trails_private.h.
 #include "common/frame.glsl"
 #include "shaders/trails/trails_bindings.h"
 layout(std430, binding = TRAIL_BLOCKS_STORAGE) readonly buffer Blocks { uint blocks[]; }; // row, first and end: 10 bits each

@@ -1,5 +1,5 @@
 // The fluid's field at a position, m in the box's frame: from the volume, or with FIELD_DIRECT summed at the position. Bound by
-// voxelizer_bind (render/volume/volume.h); needs voxelizer_defines in front.
+// voxelizer_bind (render/views/volume/volume_private.h); needs voxelizer_defines in front.
 #include "volume/volume.glsl"
 #include "shaders/volume/volume_bindings.h"
 

@@ -1,4 +1,4 @@
-// The field as a sum over the particles around, by the lists of render/volume/cell_lists.c. After: Iwasaki et al. 2006; Müller 2003.
+// The field as a sum over the particles around, by the lists of render/views/volume/voxelize_compute.c. After: Iwasaki et al. 2006; Müller 2003.
 #include "shaders/volume/volume_bindings.h"
 layout(std430, binding = LIST_STARTS_STORAGE) readonly buffer ListStarts { uint list_starts[]; };          // number of cells + 1
 layout(std430, binding = LIST_PARTICLES_STORAGE) readonly buffer ListParticles { vec4 list_particles[]; }; // centre, cells; amplitude

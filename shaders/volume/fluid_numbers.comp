@@ -1,4 +1,4 @@
-// Fluids as numbers, for averaging (render/volume/fluid_numbers.h).
+// Fluids as numbers, for averaging (render/views/volume/volume_private.h).
 #include "common/particles.glsl"
 #include "common/particle_fluids.glsl"
 #include "shaders/volume/volume_bindings.h"

@@ -1,4 +1,4 @@
-/* Inputs of the raycasting passes: the volume and the march; filled by render/volume/raycast.c. Volume
+/* Inputs of the raycasting passes: the volume and the march; filled by render/views/volume/raycast.c. Volume
    space: 0..1 of the texture. */
 #ifndef SLOSH_RAYCAST_BLOCK_H
 #define SLOSH_RAYCAST_BLOCK_H

@@ -21,7 +21,7 @@ struct Piece {
 };
 
 #if defined CURVED || defined OPACITY
-layout(binding = TRANSFER_UNIT) uniform sampler2D transfer_table; // render/volume/transfer.h
+layout(binding = TRANSFER_UNIT) uniform sampler2D transfer_table; // render/views/volume/volume_private.h
 
 vec4 transfer_at(float x)
 {

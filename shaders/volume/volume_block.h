@@ -1,4 +1,5 @@
-/* The grid of a volume, and particle constants in units of cells; filled by render/volume/voxelizer.c. */
+/* The grid of a volume, and particle constants in units of cells; filled by render/views/volume/voxelizer.c.
+ */
 #ifndef SLOSH_VOLUME_BLOCK_H
 #define SLOSH_VOLUME_BLOCK_H
 

@@ -1,4 +1,5 @@
-/* Settings with a type known only to the owner are stored in byte arrays: MethodDef, BackendDef, ViewOwn. */
+/* Settings with a type known only to the owner are stored in byte arrays: MethodDef, BackendDef,
+ * ViewOwnSettings. */
 #ifndef SLOSH_ROOM_H
 #define SLOSH_ROOM_H
 

@@ -9,7 +9,7 @@
 #include "app/scene/scene.h"
 #include "app/window/panel/panel.h"
 #include "render/frame/view.h"
-#include "render/pbsr/pbsr_def.h"
+#include "render/views/pbsr/pbsr.h"
 
 enum { HISTORY = 120, TALL = 5000 }; /* all sections open, and room for more keys */
 

@@ -70,7 +70,7 @@ static void wait_for(Rig *rig, bool (*ready)(const Rig *rig))
     const double until = wall_ms() + 20000;
     do {
         simulator_status(rig->simulator, &rig->status);
-        if (upload_fresh(rig->upload))
+        if (upload_has_new(rig->upload))
             assert_true(upload_take(rig->upload, &rig->particles));
         usleep(200);
     } while (!ready(rig) && wall_ms() < until);

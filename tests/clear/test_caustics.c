@@ -3,8 +3,8 @@
 #include "tests/render/fixture.h"
 
 #include "app/files/pictures.h"
-#include "render/clear/caustics.h"
 #include "render/frame/frame.h"
+#include "render/water/water.h"
 #include "shaders/shared/shadow_maps.h"
 
 #include <epoxy/gl.h>
@@ -76,7 +76,7 @@ static Frame frame_of_clear_fluid(ViewDef *def, WorldDef *world)
     const ParticleBuffers box = box_state(1, SPACING);
     const Subject subject = {def, world};
     def->floor = true;
-    frame_make(&frame, &subject, &box, &target, frame_balls(def, &box, 1), (Covered){0, 0});
+    frame_make(&frame, &subject, &box, &target, frame_ball_radii(def, &box, 1), (CoveredParts){0, 0});
     frame.clear = CLEAR_FLUID_LIGHT, frame.refraction = (float)IOR;
     return frame;
 }

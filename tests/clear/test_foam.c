@@ -54,7 +54,7 @@ static Image picture_of(Scene *scene)
         .position = scene->particles->position, .fluid = scene->particles->fluid, .velocity = velocity};
     arrays.scalar[SCALAR_ID] = ids;
     Renderer *renderer = renderer_create(&scene->def, &scene->world, WIDTH, HEIGHT, &error);
-    if (!renderer || !upload || !upload_arrays(upload, &arrays, &scene->state, &error))
+    if (!renderer || !upload || !upload_write_arrays(upload, &arrays, &scene->state, &error))
         fail_msg("%s", error.message);
     assert_true(upload_take(upload, &buffers) && image_create(&image, WIDTH, HEIGHT));
     renderer_draw(renderer, &buffers, NULL);

@@ -3,7 +3,7 @@
    get it. */
 #include "tests/gl/compare.h"
 
-#include "render/derived/derived.h"
+#include "render/particles/derived.h"
 #include "sim/world/world_state.h"
 
 static const char *const backends[] = {"cpu", "compute"};
@@ -257,8 +257,8 @@ static void pictures_get_it(void **state)
     fixture_step(world, 5);
     float *a = accelerations(world, &count), *length = malloc(4 * count), *vector = malloc(16 * count);
     uint32_t *id = malloc(4 * count);
-    world_share(world, wants_attributes(&wants), &shared);
-    assert_true(derived_follow(&derived, &wants, &error));
+    world_share(world, particle_wants_attributes(&wants), &shared);
+    assert_true(derived_update(&derived, &wants, &error));
     derived_fill(&derived, &wants, &space, &shared);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     read_back(&shared.id, count, (float *)id);

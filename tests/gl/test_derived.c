@@ -3,8 +3,7 @@
    strides. */
 #include "tests/gl/compare.h"
 
-#include "render/derived/derived.h"
-#include "render/derived/ranges.h"
+#include "render/particles/derived.h"
 
 /* But for what is of columns that this world has not. */
 #define ALL_SCALARS (SCALAR_BIT(SCALAR_COUNT) - 1 - SCALAR_BIT(SCALAR_ACCELERATION))
@@ -62,7 +61,7 @@ static Values derive(ParticleBuffers *particles)
     Derived derived = {0};
     Ranges ranges = {0};
     const size_t count = particles->count;
-    if (!derived_follow(&derived, &everything, &error) || !ranges_create(&ranges, &error))
+    if (!derived_update(&derived, &everything, &error) || !ranges_create(&ranges, &error))
         fail_msg("%s", error.message);
     derived_fill(&derived, &everything, &space, particles);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
@@ -119,7 +118,8 @@ static Values of_uploaded(World *world)
                                    PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_DENSITY) |
                                        PARTICLE_SCALAR(SCALAR_PRESSURE) | PARTICLE_SCALAR(SCALAR_BORN),
                                    &error);
-    assert_true(upload && upload_arrays(upload, &arrays, &box, &error) && upload_take(upload, &particles));
+    assert_true(upload && upload_write_arrays(upload, &arrays, &box, &error) &&
+                upload_take(upload, &particles));
     Values values = derive(&particles);
     upload_destroy(upload);
     fixture_free(&read);
@@ -146,7 +146,7 @@ static void any_source_has_the_same(void **state)
     ParticleBuffers shared;
     fixture_step(world, 40);
     Values uploaded = of_uploaded(world);
-    world_share(world, wants_attributes(&everything), &shared);
+    world_share(world, particle_wants_attributes(&everything), &shared);
     const size_t count = shared.count;
     Values here = derive(&shared);
     assert_true(!emits(*state) || (here.range[SCALAR_AGE].least < 0.02 && info_of(world).emitted > 10));

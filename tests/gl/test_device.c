@@ -3,8 +3,8 @@
 #include "tests/sim/fixture.h"
 
 #include "app/run/offscreen.h"
-#include "render/glyphs/glyphs_def.h"
-#include "render/pbsr/pbsr_def.h"
+#include "render/overlays/glyphs/glyphs.h"
+#include "render/views/pbsr/pbsr.h"
 #include "sim/gl/backends.h"
 #include "sim/gl/compute/compute.h"
 #include "sim/world/world_struct.h"

@@ -7,14 +7,14 @@
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 
-#include "render/derived/derived.h"
-#include "render/frame/overlay.h"
-#include "render/glyphs/glyphs_def.h"
-#include "render/pbsr/pbsr_def.h"
-#include "render/plane/plane_kernel.h"
+#include "render/frame/view.h"
+#include "render/overlays/glyphs/glyphs.h"
+#include "render/overlays/trails/trails.h"
+#include "render/particles/derived.h"
+#include "render/particles/plane.h"
 #include "render/renderer.h"
-#include "render/slice/slice_def.h"
-#include "render/trails/trails_def.h"
+#include "render/views/pbsr/pbsr.h"
+#include "render/views/slice/slice.h"
 #include "sim/base/hash.h"
 #include "sim/gl/limits.h"
 #include "sim/gl/program.h"
@@ -603,7 +603,7 @@ static void make_vectors(void)
     const ParticleWants wants = {.vectors = (1U << VECTOR_COUNT) - 1};
     Derived derived = {0};
     Error error = {0};
-    if (!derived_follow(&derived, &wants, &error))
+    if (!derived_update(&derived, &wants, &error))
         fail_msg("%s", error.message);
     derived_destroy(&derived);
 }
@@ -612,8 +612,8 @@ NOINLINE static void draw_views(const WorldDef *def, bool solids)
 {
     static ViewDef views[VIEWS_MAX];
     ViewDef base = view_def_default();
-    const ViewAsks asks = {.count = 1, .mouse = true};
-    ViewProbes told;
+    const ViewProbeRequest asks = {.count = 1, .mouse = true};
+    ViewProbeAnswers told;
     Error error = {0};
     WorldDef shown = *def;
     volume_def(&base)->cells = 16;

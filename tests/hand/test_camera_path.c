@@ -63,7 +63,7 @@ static void test_turn(void **state)
     const ViewDef at = camera_at(&def, 2); /* a quarter */
     assert_true(fabs(at.camera.from[0] - 1) < 1e-12 && at.camera.from[1] == 1 &&
                 fabs(at.camera.from[2] + 2) < 1e-12);
-    camera_stay(&def);
+    camera_stop(&def);
     assert_false(camera_moves(&def));
     assert_memory_equal(camera_at(&def, 2).camera.from, def.camera.from, sizeof def.camera.from);
 }
@@ -80,7 +80,7 @@ static void test_turn_about_the_box(void **state)
     for (int second = 0; second < 36; second += 3) {
         Camera camera;
         const ViewDef at = camera_at(&def, second);
-        camera_make(&at, size, &box, 1.5, (Covered){0, 0}, &camera);
+        camera_make(&at, size, &box, 1.5, (CoveredParts){0, 0}, &camera);
         const float away = hypotf(camera.eye[0], camera.eye[2]);
         first = second == 0 ? away : first;
         assert_true(fabsf(away - first) < 1e-4F * first);

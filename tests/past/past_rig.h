@@ -69,7 +69,7 @@ static inline void rig_turn(Rig *rig)
 {
     simulator_work(rig->simulator, 5);
     simulator_status(rig->simulator, &rig->status);
-    if (!simulator_on_gpu(rig->simulator) && upload_fresh(rig->upload))
+    if (!simulator_on_gpu(rig->simulator) && upload_has_new(rig->upload))
         assert_true(upload_take(rig->upload, &rig->particles));
     usleep(100);
 }

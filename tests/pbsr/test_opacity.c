@@ -7,10 +7,8 @@
 
 #include <cmocka.h>
 
-#include "render/pbsr/layer.h"
-#include "render/pbsr/layer_words.h"
-#include "render/pbsr/opacity.h"
-#include "render/pbsr/still_layers.h"
+#include "render/views/pbsr/pbsr_layers.h"
+#include "render/views/pbsr/pbsr_sets.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -25,7 +23,7 @@ static void formulas_turn_back(void **state)
         const double alpha = 0.05 * i, part = 1e-4, n = points_of_opacity(alpha, part);
         assert_float_equal(opacity_of_points(n, part, 0), alpha, 1e-12);
         assert_float_equal(point_density_of_opacity(alpha, part), n, n * part + 1e-12); /* s / S to 0 */
-        assert_float_equal(points_of_area(alpha, 2e-6, 0.5, 10), 10 * 0.5 / 2e-6 * -log(1 - alpha), 1e-3);
+        assert_float_equal(points_on_area(alpha, 2e-6, 0.5, 10), 10 * 0.5 / 2e-6 * -log(1 - alpha), 1e-3);
     }
     assert_float_equal(opacity_of_points(100, 0.01, 0), 1 - pow(0.99, 100), 1e-12);
     assert_float_equal(opacity_of_points(100, 0.01, PI / 3), 1 - pow(0.98, 100), 1e-12);
@@ -67,9 +65,9 @@ static void image_free(SetImage *image)
 }
 
 /* Squares that are triangles, through the origin, turned about x, far beyond the picture's edges. */
-static Layer plane_tilted(double theta, double alpha, int squares)
+static LayerPieces plane_tilted(double theta, double alpha, int squares)
 {
-    Layer layer = {
+    LayerPieces layer = {
         .density = point_density_of_opacity(alpha, 1), .curved = 3, .support = 1}; /* it is not bent */
     const int side = squares + 1;
     assert_true(layer_reserve(&layer, (size_t)(side * side), (size_t)(2 * squares * squares)));
@@ -91,11 +89,11 @@ static Layer plane_tilted(double theta, double alpha, int squares)
 }
 
 /* How many of the sets have a point in each pixel. */
-static void count_sets(Layer *layer, const SetSight *sight, int sets, uint64_t seed, int *counts)
+static void count_sets(LayerPieces *layer, const SetSight *sight, int sets, uint64_t seed, int *counts)
 {
     SetImage image = image_for(sight);
     const int pixels = sight->width * sight->height;
-    assert_true(layer_share(layer, sight));
+    assert_true(layer_make_shares(layer, sight));
     memset(counts, 0, (size_t)pixels * sizeof *counts);
     for (int set = 0; set < sets; set++) {
         set_image_clear(&image, sight);
@@ -117,7 +115,7 @@ static void compare_opacity(double alpha, double theta, int squares, double edge
                  asked = opacity_of_points(n, part, theta);
     sight.edges = (float)edges;
     set_sight_find_eye(&sight);
-    Layer layer = plane_tilted(theta, alpha, squares);
+    LayerPieces layer = plane_tilted(theta, alpha, squares);
     int counts[PIXELS * PIXELS];
     double sum = 0;
     count_sets(&layer, &sight, SETS, 1, counts);
@@ -138,7 +136,7 @@ static void large_triangles_are_thinned_out(void **state)
     enum { SIDE = 64, EDGE = 4, BLOCK = 14, BLOCKS = (SIDE - 2 * EDGE) / BLOCK };
     const double alpha = 0.3, theta = PI / 6;
     const SetSight sight = sight_from(1, SIDE);
-    Layer layer = plane_tilted(theta, alpha, 1);
+    LayerPieces layer = plane_tilted(theta, alpha, 1);
     static int counts[SIDE * SIDE];
     count_sets(&layer, &sight, SETS, 1, counts);
     for (int block = 0; block < BLOCKS * BLOCKS; block++) {
@@ -175,14 +173,14 @@ static void slices_and_large_pieces(void **state)
 {
     (void)state;
     SetSight sight = sight_from(1000, PIXELS);
-    Layer layer = plane_tilted(0, 0.4, 3);
+    LayerPieces layer = plane_tilted(0, 0.4, 3);
     float expected[2];
     for (int edges = 0; edges <= 12; edges += 12) {
         sight.edges = (float)edges;
         set_sight_find_eye(&sight);
         for (size_t i = 0; i < layer.point_count; i++)
             memset(layer.point[i].normal, 0, sizeof layer.point[i].normal);
-        assert_true(layer_share(&layer, &sight));
+        assert_true(layer_make_shares(&layer, &sight));
         expected[edges > 0] = layer.share[0].expected;
         int counts[PIXELS * PIXELS];
         double sum = 0, drawn = PIXELS * PIXELS * SETS;
@@ -196,14 +194,14 @@ static void slices_and_large_pieces(void **state)
     layer_free(&layer);
     sight = sight_from(1000, 4000);
     layer = plane_tilted(0, 0.4, 1); /* 1.4 m: half of 5600 x 5600 pixels a triangle */
-    assert_true(layer_share(&layer, &sight));
+    assert_true(layer_make_shares(&layer, &sight));
     const double needed = -log(1 - 0.4) * 5600 * 5600 / 2;
     assert_float_equal(layer_part(&layer), 4e6 / needed, 1e-4);
     layer_free(&layer);
 }
 
 /* The standard deviation over pixels of the mean of so many sets. */
-static double noise_of(Layer *layer, const SetSight *sight, int sets, uint64_t seed)
+static double noise_of(LayerPieces *layer, const SetSight *sight, int sets, uint64_t seed)
 {
     const int pixels = sight->width * sight->height;
     int *counts = malloc((size_t)pixels * sizeof *counts);
@@ -221,7 +219,7 @@ static void noise_falls_with_the_root(void **state)
 {
     (void)state;
     const SetSight sight = sight_from(1000, 64);
-    Layer layer = plane_tilted(0, 0.3, 20);
+    LayerPieces layer = plane_tilted(0, 0.3, 20);
     for (int sets = 4; sets <= 64; sets *= 4) {
         const double found = noise_of(&layer, &sight, sets, (uint64_t)sets), asked = opacity_noise(0.3, sets);
         assert_true(fabs(found / asked - 1) < 0.1);
@@ -249,13 +247,13 @@ static double bend_of_ball(const Ball *ball, double curved)
     return 1 + curved * fmin(SUPPORT / ball->radius, 1);
 }
 
-static Layer ball_layer(const Ball *ball, unsigned number, double curved)
+static LayerPieces ball_layer(const Ball *ball, unsigned number, double curved)
 {
     enum { ROUND = 160, RINGS = 80 };
-    Layer layer = {.density = point_density_of_opacity(ball->alpha, 1),
-                   .number = number,
-                   .curved = curved,
-                   .support = SUPPORT};
+    LayerPieces layer = {.density = point_density_of_opacity(ball->alpha, 1),
+                         .number = number,
+                         .curved = curved,
+                         .support = SUPPORT};
     assert_true(layer_reserve(&layer, ROUND * (RINGS + 1), 2 * ROUND * RINGS));
     for (uint32_t i = 0; i < ROUND * (RINGS + 1); i++) {
         const uint32_t ring = i / ROUND;
@@ -348,11 +346,11 @@ static SetSight sight_turned(double turn, double rise, double away)
 /* How often each sphere is what a pixel shows. */
 static void count_balls(const SetSight *sight, uint64_t seed, double curved, int (*counts)[SPHERES])
 {
-    Layer layers[SPHERES];
+    LayerPieces layers[SPHERES];
     SetImage image = image_for(sight);
     for (unsigned k = 0; k < SPHERES; k++) {
         layers[k] = ball_layer(&balls[k], k, curved);
-        assert_true(layer_share(&layers[k], sight));
+        assert_true(layer_make_shares(&layers[k], sight));
     }
     for (int set = 0; set < BALL_SETS; set++) {
         set_image_clear(&image, sight);
@@ -447,34 +445,34 @@ static void looks_do_not_depend_on_others(void **state)
     const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.05};
     const PbsrDef def = {.repeat = 16, .points = 6e4, .seed = 3};
     const double box[3] = {1, 0, 1}, aways[] = {9, 2, 9};
-    StillLayer fresh = {.sets = 0}, still = {.sets = 0};
+    RigidLayer fresh = {.sets = 0}, rigid = {.sets = 0};
     for (int moving = 0; moving <= 2; moving += 2) {
-        still.moving = moving;
+        rigid.moving = moving;
         for (int look = 0; look < 3; look++) {
             const SetSight sight = sight_at(aways[look]);
-            still_layer_free(&fresh);
-            assert_true(still_layer_follow(&fresh, &said, &def, box, 0, &sight));
-            assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
+            rigid_layer_free(&fresh);
+            assert_true(rigid_layer_update(&fresh, &said, &def, box, 0, &sight));
+            assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
             if (moving > 0) {
-                assert_true(still_layer_waits(&still) == (look != 1)); /* no more sets fit there */
-                assert_true(look == 2 || still.sets <= moving);
-                assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
+                assert_true(rigid_layer_is_unfinished(&rigid) == (look != 1)); /* no more sets fit there */
+                assert_true(look == 2 || rigid.sets <= moving);
+                assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
             }
-            assert_false(still_layer_waits(&still));
-            assert_int_equal(still.sets, fresh.sets);
-            assert_true(still.points.count == fresh.points.count);
-            assert_memory_equal(still.points.point, fresh.points.point,
+            assert_false(rigid_layer_is_unfinished(&rigid));
+            assert_int_equal(rigid.sets, fresh.sets);
+            assert_true(rigid.points.count == fresh.points.count);
+            assert_memory_equal(rigid.points.point, fresh.points.point,
                                 fresh.points.count * sizeof *fresh.points.point);
         }
         assert_int_equal(fresh.sets, 16);
-        still_layer_free(&still);
+        rigid_layer_free(&rigid);
     }
-    still_layer_free(&fresh);
+    rigid_layer_free(&fresh);
 }
 
 /* Of a sphere around the origin what is seen in the middle, where both its sides are parallel to the picture:
    the part of the sets that have a point in a pixel, and what it may be off by. */
-static double middle_of(const StillLayer *still, int sets, double *error)
+static double middle_of(const RigidLayer *rigid, int sets, double *error)
 {
     enum { SIDE = 24 };
     const SetSight sight = sight_at(1); /* as large as all */
@@ -482,7 +480,7 @@ static double middle_of(const StillLayer *still, int sets, double *error)
     double sum = 0;
     for (int set = 0; set < sets; set++) {
         set_image_clear(&image, &sight);
-        still_layer_project(still, 1, (uint64_t)set, &image);
+        rigid_layer_project(rigid, 1, (uint64_t)set, &image);
         for (int i = 0; i < SIDE * SIDE; i++)
             sum += image.depth[128 - SIDE / 2 + i % SIDE + 256 * (128 - SIDE / 2 + i / SIDE)] > 0;
     }
@@ -492,16 +490,16 @@ static double middle_of(const StillLayer *still, int sets, double *error)
 }
 
 /* The standard deviation there, over pixels, of the mean of all sets. */
-static double noise_of_middle(const StillLayer *still, int side)
+static double noise_of_middle(const RigidLayer *rigid, int side)
 {
     enum { MOST = 8 };
     const SetSight sight = sight_at(1);
     SetImage image = image_for(&sight);
     int counts[MOST * MOST] = {0};
     double sum = 0, squares = 0;
-    for (int set = 0; set < still->sets; set++) {
+    for (int set = 0; set < rigid->sets; set++) {
         set_image_clear(&image, &sight);
-        still_layer_project(still, 1, (uint64_t)set, &image);
+        rigid_layer_project(rigid, 1, (uint64_t)set, &image);
         for (int i = 0; i < side * side; i++)
             counts[i] += image.depth[128 - side / 2 + i % side + 256 * (128 - side / 2 + i / side)] > 0;
     }
@@ -510,7 +508,7 @@ static double noise_of_middle(const StillLayer *still, int side)
         sum += (double)counts[i] / (side * side);
         squares += (double)counts[i] * counts[i] / (side * side);
     }
-    return sqrt(squares - sum * sum) / still->sets;
+    return sqrt(squares - sum * sum) / rigid->sets;
 }
 
 /* A walk's points that follow each other are near each other, but their sets are as good as independent, of
@@ -526,11 +524,11 @@ static void sets_of_walks_are_independent(void **state)
         double square = 0;
         for (int seed = 0; seed < SEEDS; seed++) {
             const PbsrDef def = {.repeat = sets, .points = 1.2e7, .seed = seed};
-            StillLayer still = {.sets = 0};
-            assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-            assert_int_equal(still.sets, sets);
-            square += pow(noise_of_middle(&still, ACROSS), 2) / SEEDS;
-            still_layer_free(&still);
+            RigidLayer rigid = {.sets = 0};
+            assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+            assert_int_equal(rigid.sets, sets);
+            square += pow(noise_of_middle(&rigid, ACROSS), 2) / SEEDS;
+            rigid_layer_free(&rigid);
         }
         const double part = sqrt(square) / opacity_noise(1 - 0.7 * 0.7, sets);
         if (fabs(part - 1) > 0.1)
@@ -547,27 +545,27 @@ static void still_layers_stay(void **state)
     const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
     const double box[3] = {1, 0, 1};        /* its middle is the origin */
     const double aways[] = {5, 8, 4.85, 3}; /* 4.85: by the reserve */
-    StillLayer still = {.moving = 16};
+    RigidLayer rigid = {.moving = 16};
     size_t count = 0;
     for (int look = 0; look < 4; look++) {
         const SetSight sight = sight_at(aways[look]);
         double off;
         said.angle_deg = 40 * (look + 1); /* a ball, as seen from anywhere */
-        if (!still_layer_follow(&still, &said, &def, box, 0, &sight))
-            fail_msg("%s", still.trouble.message);
-        assert_float_equal(still_layer_part(&still), 1, 0);
-        const double asked = 1 - 0.7 * 0.7, found = middle_of(&still, still.sets, &off);
+        if (!rigid_layer_update(&rigid, &said, &def, box, 0, &sight))
+            fail_msg("%s", rigid.trouble.message);
+        assert_float_equal(rigid_layer_fraction(&rigid), 1, 0);
+        const double asked = 1 - 0.7 * 0.7, found = middle_of(&rigid, rigid.sets, &off);
         if (fabs(found - asked) > 4 * off)
             fail_msg("from %g m: %g, not %g +- %g", aways[look], found, asked, off);
         if (look == 0)
-            count = still.points.count;
+            count = rigid.points.count;
         else if (look < 3)
-            assert_true(still.points.count == count);
+            assert_true(rigid.points.count == count);
         else
-            assert_true(still.points.count > count);
+            assert_true(rigid.points.count > count);
     }
-    assert_int_equal(still.sets, 16);
-    still_layer_free(&still);
+    assert_int_equal(rigid.sets, 16);
+    rigid_layer_free(&rigid);
 }
 
 /* Layers that are equal are as opaque as two, not as one. */
@@ -579,15 +577,15 @@ static void equal_layers_are_two(void **state)
     const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
     const double box[3] = {1, 0, 1}, asked = 1 - pow(0.7, 4); /* of each both sides */
     const SetSight sight = sight_at(5);
-    StillLayer still[2] = {{.sets = 0}};
+    RigidLayer rigid[2] = {{.sets = 0}};
     SetImage image = image_for(&sight);
     double sum = 0;
     for (unsigned k = 0; k < 2; k++)
-        assert_true(still_layer_follow(&still[k], &said, &def, box, k, &sight));
+        assert_true(rigid_layer_update(&rigid[k], &said, &def, box, k, &sight));
     for (uint64_t set = 0; set < 16; set++) {
         set_image_clear(&image, &sight);
         for (int k = 0; k < 2; k++)
-            still_layer_project(&still[k], 1, set, &image);
+            rigid_layer_project(&rigid[k], 1, set, &image);
         for (int i = 0; i < SIDE * SIDE; i++)
             sum += image.depth[128 - SIDE / 2 + i % SIDE + 256 * (128 - SIDE / 2 + i / SIDE)] > 0;
     }
@@ -596,7 +594,7 @@ static void equal_layers_are_two(void **state)
         fail_msg("%g, not %g +- %g", sum / drawn, asked, error);
     image_free(&image);
     for (int k = 0; k < 2; k++)
-        still_layer_free(&still[k]);
+        rigid_layer_free(&rigid[k]);
 }
 
 /* What a pixel is to have of a sphere of radius 0.4 m, seen from 5 m, and the cosine there. */
@@ -619,16 +617,16 @@ static void edges_are_denser(void **state)
     const double box[3] = {1, 0, 1}, from[] = {0.97, 0.5, 0.25}, to[] = {1, 0.6, 0.35};
     SetSight sight = sight_at(5);
     for (int way = 0; way < 4; way++) {
-        StillLayer still = {.sets = 0};
+        RigidLayer rigid = {.sets = 0};
         SetImage image = image_for(&sight);
         double found[3] = {0}, asked[3] = {0}, pixels[3] = {0}, cosine;
         sight.edges = way % 2 ? 4 : 0;
         said.sampler = way < 2 ? PBSR_SAMPLER_TRIANGLES : PBSR_SAMPLER_WALK;
         const double chance = way < 2 ? 4 : 4 * 2.5;
-        assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-        for (int set = 0; set < still.sets; set++) {
+        assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+        for (int set = 0; set < rigid.sets; set++) {
             set_image_clear(&image, &sight);
-            still_layer_project(&still, 1, (uint64_t)set, &image);
+            rigid_layer_project(&rigid, 1, (uint64_t)set, &image);
             for (int i = 0; i < 256 * 256; i++) {
                 const double opacity = edge_opacity(&said, (double)sight.edges, i % 256, i / 256, &cosine);
                 for (int k = 0; k < 3; k++)
@@ -646,7 +644,7 @@ static void edges_are_denser(void **state)
                          found[k] / pixels[k], mean, off);
         }
         image_free(&image);
-        still_layer_free(&still);
+        rigid_layer_free(&rigid);
     }
 }
 
@@ -658,52 +656,52 @@ static void still_layers_that_fall_short(void **state)
     const PbsrDef def = {.repeat = 2, .points = 1.2e7, .seed = 3};
     const double box[3] = {1, 1, 1};
     const SetSight sight = sight_at(5);
-    StillLayer still = {.sets = 0};
+    RigidLayer rigid = {.sets = 0};
     for (int look = 0; look < 3; look++) {
-        assert_false(still_layer_follow(&still, &none, &def, box, 0, &sight));
-        assert_true(still.trouble.message[0] && still.made == 1 && still.sets == 0);
+        assert_false(rigid_layer_update(&rigid, &none, &def, box, 0, &sight));
+        assert_true(rigid.trouble.message[0] && rigid.made == 1 && rigid.sets == 0);
     }
-    still_layer_free(&still);
+    rigid_layer_free(&rigid);
     const PbsrLayer said = {.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.3};
-    assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-    const uint64_t made = still.made;
-    still.density = 0.5 * still.needed; /* as where memory ends */
-    assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-    assert_true(still.made == made);
-    assert_float_equal(still_layer_part(&still), 0.5, 1e-12);
+    assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+    const uint64_t made = rigid.made;
+    rigid.density = 0.5 * rigid.needed; /* as where memory ends */
+    assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+    assert_true(rigid.made == made);
+    assert_float_equal(rigid_layer_fraction(&rigid), 0.5, 1e-12);
     char words[400];
     PbsrDef shown = {.repeat = 2, .layer_count = 1, .layers = {said}};
     const FluidLayers none_of_fluid = {.count = 1};
     const FluidWalk no_walk = {.walks = false};
-    const LayersDrawn drawn = {
-        .def = &shown, .layers = &none_of_fluid, .walks = &no_walk, .still = &still, .sets = 2};
-    assert_true(layers_lack(&drawn, words, sizeof words) == strlen(words));
+    const DrawnLayers drawn = {
+        .def = &shown, .layers = &none_of_fluid, .walks = &no_walk, .rigid = &rigid, .sets = 2};
+    assert_true(layers_describe_missing(&drawn, words, sizeof words) == strlen(words));
     assert_string_equal(words, "layer 1, sphere 0.4 m, is 0.16 opaque where it is nearest, not 0.3");
-    const double needed = still.needed;
-    still.density = needed;
+    const double needed = rigid.needed;
+    rigid.density = needed;
     FluidLayers too_large = none_of_fluid;
-    LayersDrawn other = drawn;
+    DrawnLayers other = drawn;
     too_large.layers[0].beyond = 2;
     other.layers = &too_large;
-    strcpy(still.note, "the sampler's words");
-    assert_true(layers_lack(&other, words, sizeof words) > 0);
+    strcpy(rigid.note, "the sampler's words");
+    assert_true(layers_describe_missing(&other, words, sizeof words) > 0);
     assert_string_equal(
         words,
         "layer 1, sphere 0.4 m, is 0.16 opaque where it is nearest, not 0.3; layer 1, sphere 0.4 m: the sampler's words");
-    still.note[0] = '\0';
+    rigid.note[0] = '\0';
     PbsrLayer *idle = &shown.layers[0];
-    still.density = still.needed;
+    rigid.density = rigid.needed;
     idle->angle_deg = 30;
-    assert_true(layers_lack(&drawn, words, sizeof words) > 0);
+    assert_true(layers_describe_missing(&drawn, words, sizeof words) > 0);
     assert_string_equal(words, "layer 1 is not turned: its axis is [0, 0, 0]");
     idle->axis[1] = 1;
-    assert_true(layers_lack(&drawn, words, sizeof words) == 0);
+    assert_true(layers_describe_missing(&drawn, words, sizeof words) == 0);
     idle->of = PBSR_SOLIDS;
     idle->opacity = 0;
     idle->interpolation = PBSR_BY_GRID + VOLUME_CATMULL_ROM;
     idle->sampler = PBSR_SAMPLER_WALK;
     shown.curved = 1;
-    assert_true(layers_lack(&drawn, words, sizeof words) > 0);
+    assert_true(layers_describe_missing(&drawn, words, sizeof words) > 0);
     assert_string_equal(words,
                         "position and angle of layer 1 have no effect: it stays where it is in the box; "
                         "sampler of layer 1 has no effect: its points fall on it at random; "
@@ -712,15 +710,15 @@ static void still_layers_that_fall_short(void **state)
                         "fluid's surface");
     idle->of = PBSR_SURFACE;
     idle->sampler = PBSR_SAMPLER_AUTO;
-    assert_true(layers_lack(&drawn, words, sizeof words) > 0);
+    assert_true(layers_describe_missing(&drawn, words, sizeof words) > 0);
     assert_non_null(
         strstr(words, "interpolation of layer 1 has no effect: it is no walk on the fluid's surface; set "
                       "sampler: walk"));
-    layer_words(&(PbsrLayer){.of = PBSR_SURFACE, .level = 120, .file = "a.b/head.yaml"}, words);
+    layer_text(&(PbsrLayer){.of = PBSR_SURFACE, .level = 120, .file = "a.b/head.yaml"}, words);
     assert_string_equal(words, "surface 120 of head");
-    layer_words(&(PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .file = "head"}, words);
+    layer_text(&(PbsrLayer){.of = PBSR_SLICE_X, .level = 0.1, .file = "head"}, words);
     assert_string_equal(words, "slice_x 0.1 m of head");
-    still_layer_free(&still);
+    rigid_layer_free(&rigid);
 }
 
 /* More surface than the bounds have faces: sets are as many as fit, each as dense as asked for. */
@@ -734,14 +732,14 @@ static void points_that_are_kept_have_a_limit(void **state)
     for (int limit = 100000; limit < 300000; limit *= 2) {
         const double points = limit;
         const PbsrDef def = {.repeat = 64, .points = points, .seed = 3};
-        StillLayer still = {.sets = 0};
-        assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-        if ((double)still.points.count > points || (double)still.points.count < 0.7 * points)
-            fail_msg("%zu points of %g", still.points.count, points);
-        assert_float_equal(still_layer_part(&still), 1, 0);
-        assert_true(still.sets > 1.5 * before && still.sets < 64);
-        before = still.sets;
-        still_layer_free(&still);
+        RigidLayer rigid = {.sets = 0};
+        assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+        if ((double)rigid.points.count > points || (double)rigid.points.count < 0.7 * points)
+            fail_msg("%zu points of %g", rigid.points.count, points);
+        assert_float_equal(rigid_layer_fraction(&rigid), 1, 0);
+        assert_true(rigid.sets > 1.5 * before && rigid.sets < 64);
+        before = rigid.sets;
+        rigid_layer_free(&rigid);
     }
 }
 
@@ -772,7 +770,7 @@ static void formulas_have_the_fluids_colors(void **state)
 {
     (void)state;
     FluidLayers fluid = {.count = 0};
-    StillLayer still = {.sets = 0};
+    RigidLayer rigid = {.sets = 0};
     PbsrLayer said = {.of = PBSR_TORUS, .level = 0.2, .opacity = 0.6, .axis = {0, 1, 2}, .angle_deg = 50};
     const PbsrDef def = {.repeat = 4, .points = 1e7, .seed = 3};
     const double box[3] = {1, 0, 1};
@@ -781,10 +779,10 @@ static void formulas_have_the_fluids_colors(void **state)
     sight.scale = 0.25F;
     make_fluid(&fluid);
     said.position[0] = 0.15;
-    assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-    still_layer_paint(&still, &said, &fluid);
+    assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+    rigid_layer_set_colors(&rigid, &said, &fluid);
     const SetImage image = image_for(&sight);
-    still_layer_project(&still, 1, 0, &image);
+    rigid_layer_project(&rigid, 1, 0, &image);
     int inside = 0, outside = 0;
     for (int i = 0; i < sight.width * sight.height; i++) {
         float share;
@@ -809,11 +807,11 @@ static void formulas_have_the_fluids_colors(void **state)
     }
     assert_true(inside > 30 && outside > 30);
     said.color[0] = 1;
-    still_layer_paint(&still, &said, &fluid);
-    assert_null(still.paint);
+    rigid_layer_set_colors(&rigid, &said, &fluid);
+    assert_null(rigid.paint);
     free(image.depth);
     free(image.word);
-    still_layer_free(&still);
+    rigid_layer_free(&rigid);
     fluid_layers_free(&fluid);
 }
 
@@ -821,7 +819,7 @@ static void equal_seeds_give_equal_points(void **state)
 {
     (void)state;
     const SetSight sight = sight_from(1000, PIXELS);
-    Layer layer = plane_tilted(0.5, 0.4, 10);
+    LayerPieces layer = plane_tilted(0.5, 0.4, 10);
     int one[PIXELS * PIXELS], same[PIXELS * PIXELS], other[PIXELS * PIXELS];
     count_sets(&layer, &sight, 4, 1, one);
     count_sets(&layer, &sight, 4, 1, same);
@@ -837,7 +835,7 @@ static void cells_are_even(void **state)
     (void)state;
     enum { SIDE = 24 };
     const SetSight sight = sight_from(1000, PIXELS);
-    Layer layer = {.density = point_density_of_opacity(0.4, 1), .cell = {1.0 / 12, 1.0 / 12, 1.0 / 12}};
+    LayerPieces layer = {.density = point_density_of_opacity(0.4, 1), .cell = {1.0 / 12, 1.0 / 12, 1.0 / 12}};
     int counts[PIXELS * PIXELS];
     double sum = 0;
     assert_true(layer_reserve(&layer, SIDE * SIDE * 12, 0));
@@ -863,7 +861,7 @@ static void cells_out_of_sight_cost_nothing(void **state)
     enum { SIDE = 21 };
     const SetSight sight = sight_from(0.2, PIXELS); /* in their midst */
     SetImage image = image_for(&sight);
-    Layer layer = {.density = 1, .cell = {0.1, 0.1, 0.1}};
+    LayerPieces layer = {.density = 1, .cell = {0.1, 0.1, 0.1}};
     size_t projected[2] = {0};
     int drawn[2] = {0};
     for (int part = 0; part < 2; part++) { /* all, then those of the picture and a margin before the eye */
@@ -876,7 +874,7 @@ static void cells_out_of_sight_cost_nothing(void **state)
                 layer.point[layer.point_count++] =
                     (LayerPoint){.at = {(float)at[0], (float)at[1], (float)at[2]}, .inside = 1};
         }
-        assert_true(layer_share(&layer, &sight));
+        assert_true(layer_make_shares(&layer, &sight));
         for (uint64_t set = 0; set < 16; set++) {
             set_image_clear(&image, &sight);
             projected[part] += layer_project(&layer, 1, set, &sight, &image);
@@ -945,27 +943,27 @@ static void clouds_of_data_are_as_opaque_as_said(void **state)
     const PbsrDef def = {.repeat = 16, .points = 1.2e7, .seed = 3};
     const double box[3] = {1, 0, 1};
     const SetSight sight = sight_at(5);
-    StillLayer still = {.sets = 0};
+    RigidLayer rigid = {.sets = 0};
     for (int turn = 0; turn <= 90; turn += 90) {
         double off, found;
         said.angle_deg = turn;
         said.position[0] = turn > 0 ? 0.05 : 0;
-        if (!still_layer_follow(&still, &said, &def, box, 0, &sight))
-            fail_msg("%s", still.trouble.message);
-        const LayerPoint *pieces = still.pieces.point;
-        found = middle_of(&still, 16, &off);
+        if (!rigid_layer_update(&rigid, &said, &def, box, 0, &sight))
+            fail_msg("%s", rigid.trouble.message);
+        const LayerPoint *pieces = rigid.pieces.point;
+        found = middle_of(&rigid, 16, &off);
         if (fabs(found - said.opacity) > 4 * off)
             fail_msg("turned by %d: %g, not %g +- %g", turn, found, said.opacity, off);
-        assert_true(still_layer_follow(&still, &said, &def, box, 0, &sight));
-        assert_ptr_equal(pieces, still.pieces.point);
+        assert_true(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+        assert_ptr_equal(pieces, rigid.pieces.point);
     }
     said.level = 3;
-    assert_false(still_layer_follow(&still, &said, &def, box, 0, &sight));
-    assert_string_equal(still.trouble.message, "no value is above the level 3: they are 0 to 3");
+    assert_false(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+    assert_string_equal(rigid.trouble.message, "no value is above the level 3: they are 0 to 3");
     said.of = PBSR_SLICE_X;
-    assert_false(still_layer_follow(&still, &said, &def, box, 0, &sight));
-    assert_non_null(strstr(still.trouble.message, "is beside the data"));
-    still_layer_free(&still);
+    assert_false(rigid_layer_update(&rigid, &said, &def, box, 0, &sight));
+    assert_non_null(strstr(rigid.trouble.message, "is beside the data"));
+    rigid_layer_free(&rigid);
 }
 
 int main(void)

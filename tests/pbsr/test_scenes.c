@@ -4,7 +4,7 @@
 
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
-#include "render/pbsr/pbsr_def.h"
+#include "render/views/pbsr/pbsr.h"
 #include "sim/gl/backends.h"
 
 #include <dirent.h>

@@ -7,9 +7,8 @@
 
 #include <cmocka.h>
 
-#include "render/pbsr/opacity.h"
-#include "render/pbsr/solid_layers.h"
-#include "render/pbsr/still_field.h"
+#include "render/views/pbsr/pbsr_layers.h"
+#include "render/views/pbsr/pbsr_sets.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -79,14 +78,14 @@ static PbsrDef def_of(double opacity)
 }
 
 /* How much of the pixels nearer than 10 to (x, y) the sets of so many solids cover. */
-static double covered(const StillLayer *still, int solids, const SetSight *sight, int x, int y)
+static double covered(const RigidLayer *rigid, int solids, const SetSight *sight, int x, int y)
 {
     SetImage image = image_for(sight);
     int found = 0;
     for (uint64_t set = 0; set < SETS; set++) {
         set_image_clear(&image, sight);
         for (int i = 0; i < solids; i++)
-            still_layer_project(&still[i], 1, set, &image);
+            rigid_layer_project(&rigid[i], 1, set, &image);
         for (int i = 0; i < PIXELS; i++)
             found += image.depth[i] && abs(i % SIDE - x) < 10 && abs(i / SIDE - y) < 10;
     }
@@ -107,22 +106,22 @@ static void solids_are_as_opaque_as_said(void **state)
     for (int time = 0; time < 3; time++) {
         const PbsrDef def = def_of(0.4);
         const int moved = time == 1 ? 6 : 0; /* pixels, of 0.1 m at z = 0 */
-        solid_layers_follow(&layers, &def, time, &frame, &sight);
+        solid_layers_update(&layers, &def, time, &frame, &sight);
         assert_int_equal(layers.count, 1);
         const double asked = 1 - 0.6 * 0.6, off = sqrt(asked * (1 - asked) / (19.0 * 19 * SETS));
-        const double found = covered(&layers.still[0], 1, &sight, SIDE / 2 + moved, SIDE / 2);
+        const double found = covered(&layers.rigid[0], 1, &sight, SIDE / 2 + moved, SIDE / 2);
         if (fabs(found - asked) > 4 * off)
             fail_msg("at %d s: %g, not %g +- %g", time, found, asked, off);
-        assert_float_equal(still_layer_part(&layers.still[0]), 1, 0);
+        assert_float_equal(rigid_layer_fraction(&layers.rigid[0]), 1, 0);
         if (time > 0)
-            assert_true(layers.still[0].made == made); /* what moves keeps its points */
-        made = layers.still[0].made;
+            assert_true(layers.rigid[0].made == made); /* what moves keeps its points */
+        made = layers.rigid[0].made;
     }
     const PbsrDef more = def_of(0.8);
-    solid_layers_follow(&layers, &more, 0, &frame, &sight);
-    assert_true(layers.still[0].made > made);
+    solid_layers_update(&layers, &more, 0, &frame, &sight);
+    assert_true(layers.rigid[0].made > made);
     const PbsrDef none = {.repeat = SETS, .points = 1.2e7};
-    solid_layers_follow(&layers, &none, 0, &frame, &sight);
+    solid_layers_update(&layers, &none, 0, &frame, &sight);
     assert_int_equal(layers.count, 0);
     solid_layers_free(&layers);
 }
@@ -137,9 +136,9 @@ static void equal_solids_are_two(void **state)
     const PbsrDef def = def_of(0.3);
     SolidLayers layers = {.count = 0};
     world.solids[1] = world.solids[0];
-    solid_layers_follow(&layers, &def, 0, &frame, &sight);
+    solid_layers_update(&layers, &def, 0, &frame, &sight);
     const double asked = 1 - pow(0.7, 4), off = sqrt(asked * (1 - asked) / (19.0 * 19 * SETS)),
-                 found = covered(layers.still, 2, &sight, SIDE / 2, SIDE / 2);
+                 found = covered(layers.rigid, 2, &sight, SIDE / 2, SIDE / 2);
     if (fabs(found - asked) > 4 * off)
         fail_msg("%g, not %g +- %g", found, asked, off);
     solid_layers_free(&layers);
@@ -161,10 +160,10 @@ static void solids_share_the_points(void **state)
         world.solid_count = solids;
         for (int i = 1; i < solids; i++)
             world.solids[i] = world.solids[0];
-        solid_layers_follow(&layers, &def, 0, &frame, &sight);
+        solid_layers_update(&layers, &def, 0, &frame, &sight);
         for (int i = 0; i < solids; i++) {
-            assert_true(layers.still[i].sets > 1);
-            points += layers.still[i].points.count;
+            assert_true(layers.rigid[i].sets > 1);
+            points += layers.rigid[i].points.count;
         }
         if (points > 100000 || points < 50000)
             fail_msg("%d solids have %zu points", solids, points);
@@ -207,17 +206,17 @@ static void solids_stand_as_they_turn(void **state)
     const PbsrDef def = def_of(0.99); /* opaque enough for all points to stay at its nearest */
     SolidLayers layers = {.count = 0};
     for (int time = 0; time < 2; time++) {
-        solid_layers_follow(&layers, &def, time, &frame, &sight);
+        solid_layers_update(&layers, &def, time, &frame, &sight);
         assert_int_equal(layers.count, 2);
-        const StillLayer *still = &layers.still[1];
+        const RigidLayer *rigid = &layers.rigid[1];
         SetImage image = image_for(&sight), direct = image_for(&sight);
-        StillLayer whole = *still;
+        RigidLayer whole = *rigid;
         whole.wanted = HUGE_VAL; /* none is left out */
-        still_layer_project(&whole, 1, 3, &image);
+        rigid_layer_project(&whole, 1, 3, &image);
         BoxState pose;
         solid_pose(&world.solids[1], time, &pose);
-        for (size_t i = 3; i < still->points.count; i += (size_t)still->sets) {
-            const LayerPoint point = placed(&still->points.point[i], &pose);
+        for (size_t i = 3; i < rigid->points.count; i += (size_t)rigid->sets) {
+            const LayerPoint point = placed(&rigid->points.point[i], &pose);
             set_image_add(&direct, &sight, &point, layers.numbers[1]);
         }
         int seen = 0, other = 0;
@@ -252,17 +251,17 @@ static void solids_have_their_colors(void **state)
     world.solid_count = SOLIDS_MAX;
     assert_int_equal(solid_layers_number(&def), 1);
     assert_int_equal(solid_layers_colors(&world), 2);
-    solid_layers_look(&def, &world, looks);
-    solid_layers_follow(&layers, &def, 0, &frame, &sight);
+    solid_layers_fill_looks(&def, &world, looks);
+    solid_layers_update(&layers, &def, 0, &frame, &sight);
     for (int i = 0; i < SOLIDS_MAX; i++) {
         const AverageLook *look = &looks[layers.numbers[i]];
         assert_true(look->own && look->lit);
         assert_memory_equal(look->color, world.solids[i].color, sizeof look->color);
     }
     def.layers[1].color[2] = 1;
-    solid_layers_follow(&layers, &def, 0, &frame, &sight);
+    solid_layers_update(&layers, &def, 0, &frame, &sight);
     assert_int_equal(layers.numbers[5], 1);
-    assert_int_equal(layers.still[5].points.point[0].surface, 1);
+    assert_int_equal(layers.rigid[5].points.point[0].surface, 1);
     for (int i = 0; i < SOLIDS_MAX; i++)
         world.solids[i].color[2] = (float)i;
     assert_int_equal(solid_layers_colors(&world), SOLIDS_MAX);

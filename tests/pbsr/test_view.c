@@ -2,7 +2,7 @@
    points; what it does with states that are none. */
 #include "tests/render/fixture.h"
 
-#include "render/pbsr/pbsr_def.h"
+#include "render/views/pbsr/pbsr.h"
 #include "sim/base/parallel.h"
 
 enum { SIZE = 96, BYTES = 3 * SIZE * SIZE };
@@ -141,7 +141,7 @@ static void pictures_get_better(void **unused)
     pbsr_def(&def)->moving = 4;
     picture_of(&def, NULL, &scenery, whole);
     Renderer *renderer = renderer_for(&def, NULL);
-    renderer_set_more(renderer, true);
+    renderer_set_continuous(renderer, true);
     renderer_draw(renderer, &scenery.buffers, NULL); /* of few sets of the sphere's points */
     renderer_read(renderer, now);
     assert_true(fabs(light_of(now) / light_of(whole) - 1) < 2e-3);
@@ -195,7 +195,7 @@ static void by_moving(int moving, int repeat, double cell, Scenery *scenery, uin
     int pictures = 0;
     pbsr_def(&def)->moving = moving;
     Renderer *renderer = renderer_for(&def, NULL);
-    renderer_set_more(renderer, true);
+    renderer_set_continuous(renderer, true);
     do
         renderer_draw(renderer, &scenery->buffers, NULL);
     while (++pictures < 2 * repeat && renderer_unfinished(renderer));
@@ -323,7 +323,7 @@ static int pictures_of(double budget, int repeat, Scenery *scenery)
     pbsr_def(&def)->budget = budget;
     pbsr_def(&def)->method = PBSR_CPU; /* a GPU draws as many each time */
     Renderer *renderer = renderer_for(&def, NULL);
-    renderer_set_more(renderer, true);
+    renderer_set_continuous(renderer, true);
     do
         renderer_draw(renderer, &scenery->buffers, NULL);
     while (++pictures < 20 && renderer_unfinished(renderer));
@@ -537,15 +537,15 @@ static void what_is_lacking_is_said(void **unused)
     add_layer(&def, PBSR_SURFACE, 0.5, 0.5, 1);
     Renderer *renderer = renderer_for(&def, NULL);
     Error error;
-    assert_null(renderer_lacks(renderer) && *renderer_lacks(renderer) ? "before a picture" : NULL);
+    assert_null(renderer_missing(renderer) && *renderer_missing(renderer) ? "before a picture" : NULL);
     renderer_draw(renderer, &scenery.buffers, NULL);
-    assert_null(renderer_lacks(renderer));
+    assert_null(renderer_missing(renderer));
     add_layer(&def, PBSR_SCALARS + SCALAR_SPEED, 1e6, 0.5, 1);
     add_layer(&def, PBSR_SLICE_Z, 30, 0.5, 1);
     add_layer(&def, PBSR_SLICE_Z, 30, 0, 1); /* nothing is what it asks for */
     assert_true(renderer_set_def(renderer, &def, NULL, &error));
     renderer_draw(renderer, &scenery.buffers, NULL);
-    assert_string_equal(renderer_lacks(renderer),
+    assert_string_equal(renderer_missing(renderer),
                         "nothing of layer 2, speed 1e+06 m/s; nothing of layer 3, slice_z at 30 m");
     renderer_destroy(renderer);
     scenery_free(&scenery);
@@ -662,9 +662,9 @@ static void assert_walk_lacks(PbsrMethod method, Scenery *scenery, const WorldDe
     Renderer *renderer = renderer_for(&def, world);
     renderer_draw(renderer, &scenery->buffers, NULL);
     if (words)
-        assert_string_equal(renderer_lacks(renderer), words);
+        assert_string_equal(renderer_missing(renderer), words);
     else
-        assert_null(renderer_lacks(renderer));
+        assert_null(renderer_missing(renderer));
     renderer_destroy(renderer);
 }
 
@@ -818,7 +818,7 @@ static void a_cloud_in_pieces_is_the_same(void **unused)
     renderer_draw(renderer, &scenery.buffers, NULL);
     epoxy_glGetInteger64v = get_integer64v;
     assert_non_null(
-        strstr(renderer_lacks(renderer), "and a shader sees 0.0154 MB here; view.pbsr.method: cpu"));
+        strstr(renderer_missing(renderer), "and a shader sees 0.0154 MB here; view.pbsr.method: cpu"));
     renderer_destroy(renderer);
     scenery_free(&scenery);
 }
@@ -934,9 +934,9 @@ static void no_memory_for_textures_is_said(void **unused)
         renderer_draw(renderer, &scenery.buffers, NULL);
         epoxy_glGetError = get_error;
         epoxy_glTextureStorage2D = texture_storage;
-        assert_string_equal(renderer_lacks(renderer), words[i]);
+        assert_string_equal(renderer_missing(renderer), words[i]);
         renderer_draw(renderer, &scenery.buffers, NULL); /* there is memory again */
-        assert_null(renderer_lacks(renderer));
+        assert_null(renderer_missing(renderer));
         renderer_destroy(renderer);
     }
     scenery_free(&scenery);

@@ -12,8 +12,8 @@
 #include "app/run/offscreen.h"
 #include "render/particles/upload.h"
 #include "render/renderer.h"
-#include "render/splat/splat_def.h"
-#include "render/volume/volume_def.h"
+#include "render/views/splat/splat.h"
+#include "render/views/volume/volume.h"
 #include "shaders/shared/bindings.h"
 #include "sim/gl/debug.h"
 #include "tests/gl/draw_check.h"
@@ -207,7 +207,7 @@ static inline Upload *upload_particles(const Particles *particles, const Particl
     ParticleArrays arrays = {.position = (float *)particles->position, .fluid = (uint32_t *)particles->fluid};
     arrays.scalar[SCALAR_SPEED] = (float *)particles->speed;
     assert_non_null(upload);
-    assert_true(upload_arrays(upload, &arrays, state, &error));
+    assert_true(upload_write_arrays(upload, &arrays, state, &error));
     assert_true(upload_take(upload, out));
     return upload;
 }

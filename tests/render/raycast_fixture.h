@@ -5,8 +5,8 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/frame.h"
-#include "render/volume/raycast.h"
-#include "render/volume/volume_def.h"
+#include "render/views/volume/volume.h"
+#include "render/views/volume/volume_private.h"
 
 #include <epoxy/gl.h>
 
@@ -116,7 +116,7 @@ static inline Raycast *ray_caster(const Subject *subject)
     static WorldDef world;
     const Subject kept = {&def, &world};
     Error error = {0};
-    if (raycast && view_same(subject, &kept))
+    if (raycast && view_is_compatible(subject, &kept))
         return raycast;
     raycast_destroy(raycast);
     raycast = raycast_create(subject, NULL, &error);
@@ -133,8 +133,8 @@ static inline RayPixel *ray_drawn(RayScene *scene, bool plain)
     const Subject subject = {&scene->def, &scene->world};
     Target target = ray_target(scene);
     Raycast *raycast = ray_caster(&subject);
-    frame_make(&scene->frame, &subject, &scene->state, &target, frame_balls(&scene->def, &scene->state, 1),
-               (Covered){0});
+    frame_make(&scene->frame, &subject, &scene->state, &target,
+               frame_ball_radii(&scene->def, &scene->state, 1), (CoveredParts){0});
     scene->frame.plain = plain;
     scene->frame.floor_light = no_shadows();
     unsigned uniforms = frame_uniforms_create();

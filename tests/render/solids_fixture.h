@@ -93,8 +93,8 @@ static inline void draw_rgb(Scene *scene, bool plain, uint8_t rgb[3 * PIXELS])
 
 static inline void make_camera(const Scene *scene, Camera *camera)
 {
-    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT, (Covered){0},
-                camera);
+    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT,
+                (CoveredParts){0}, camera);
 }
 
 /* From the world to the frame of the first solid. */

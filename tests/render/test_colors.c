@@ -1,7 +1,7 @@
 /* Colours follow the scalar, and colormaps have the colours they are known for. */
 #include "tests/render/fixture.h"
 
-#include "render/frame/colormap.h"
+#include "render/frame/frame.h"
 
 enum { WIDTH = 96, HEIGHT = 72 };
 

@@ -2,8 +2,8 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/camera.h"
-#include "render/frame/colormap.h"
-#include "render/particles/particle_curves.h"
+#include "render/frame/frame.h"
+#include "render/particles/particles.h"
 
 enum { WIDTH = 200, HEIGHT = 150 };
 
@@ -56,7 +56,7 @@ static void draw(Rig *rig, unsigned attributes, float *depth, uint8_t *rgb)
     for (int s = 0; s < SCALAR_STATE_COUNT; s++)
         arrays.scalar[s] = rig->scalar[s];
     assert_non_null(upload);
-    assert_true(upload_arrays(upload, &arrays, &rig->state, &error) && upload_take(upload, &buffers));
+    assert_true(upload_write_arrays(upload, &arrays, &rig->state, &error) && upload_take(upload, &buffers));
     Renderer *renderer = renderer_create(&rig->def, &rig->world, WIDTH, HEIGHT, &error);
     if (!renderer)
         fail_msg("%s", error.message);
@@ -133,7 +133,7 @@ static void compare_depths(Rig *rig, const double *radius, double bound)
     Camera camera;
     int hits = 0;
     double worst = 0;
-    camera_make(&rig->def, rig->state.box_size, &rig->state.box, (double)WIDTH / HEIGHT, (Covered){0},
+    camera_make(&rig->def, rig->state.box_size, &rig->state.box, (double)WIDTH / HEIGHT, (CoveredParts){0},
                 &camera);
     draw(rig, ALL, depth, NULL);
     for (int y = 0; y < HEIGHT; y++)

@@ -2,7 +2,7 @@
    double precision, two dimensions, periodic sides, what is no number; and nothing at all. */
 #include "tests/render/fixture.h"
 
-#include "render/derived/derived.h"
+#include "render/particles/derived.h"
 
 enum { ALL = 6000 };
 
@@ -101,18 +101,18 @@ static void derive(Cloud *cloud)
         arrays.scalar[SCALAR_ACCELERATION_X + k] = arrays.scalar[SCALAR_FRICTION_BEFORE_X + k] =
             cloud->three[k];
     arrays.scalar[SCALAR_BORN] = cloud->three[0];
-    assert_int_equal(wants_attributes(&wants), PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1 -
-                                                   PARTICLE_SCALAR(SCALAR_FLUID) + PARTICLE_VELOCITY +
-                                                   PARTICLE_FLUID + PARTICLE_ID);
+    assert_int_equal(particle_wants_attributes(&wants), PARTICLE_SCALAR(SCALAR_STATE_COUNT) - 1 -
+                                                            PARTICLE_SCALAR(SCALAR_FLUID) +
+                                                            PARTICLE_VELOCITY + PARTICLE_FLUID + PARTICLE_ID);
     Upload *upload = upload_create(
         count,
         PARTICLE_VELOCITY | PARTICLE_SCALAR(SCALAR_DENSITY) | PARTICLE_SCALAR(SCALAR_PRESSURE) |
             PARTICLE_SCALAR(SCALAR_BORN) |
             7U * (PARTICLE_SCALAR(SCALAR_ACCELERATION_X) | PARTICLE_SCALAR(SCALAR_FRICTION_BEFORE_X)),
         &error);
-    assert_true(upload && upload_arrays(upload, &arrays, &cloud->state, &error));
+    assert_true(upload && upload_write_arrays(upload, &arrays, &cloud->state, &error));
     assert_true(upload_take(upload, &particles));
-    if (!derived_follow(&derived, &wants, &error))
+    if (!derived_update(&derived, &wants, &error))
         fail_msg("%s", error.message);
     for (int run = 0; run < 2; run++) {
         assert_true(upload_take(upload, &particles));

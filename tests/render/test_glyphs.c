@@ -1,9 +1,9 @@
 /* Overlay `glyphs`: where arrows stand, how long they are, and what they do with numbers that are none. */
 #include "tests/render/fixture.h"
 
-#include "render/derived/derived.h"
-#include "render/glyphs/glyph_arrows.h"
-#include "render/plane/plane_kernel.h"
+#include "render/overlays/glyphs/glyphs_private.h"
+#include "render/particles/derived.h"
+#include "render/particles/plane.h"
 
 #include <float.h>
 
@@ -55,7 +55,7 @@ static void upload(Wind *wind)
         .position = wind->position, .velocity = wind->velocity, .id = wind->id, .fluid = wind->fluid};
     arrays.scalar[SCALAR_SPEED] = wind->speed;
     wind->state.count = wind->count;
-    assert_true(upload_arrays(wind->upload, &arrays, &wind->state, &error));
+    assert_true(upload_write_arrays(wind->upload, &arrays, &wind->state, &error));
     assert_true(upload_take(wind->upload, &wind->buffers));
 }
 
@@ -95,20 +95,20 @@ static Arrow *arrows_of(const Wind *wind, const ViewDef *def, size_t *count, dou
 {
     Error error = {0};
     const WorldDef world = bare_world();
-    const Frame frame = {.def = def, .world = &world, .slab = frame_slab(&wind->buffers)};
+    const Frame frame = {.def = def, .world = &world, .slab = frame_slab_depth(&wind->buffers)};
     GlyphArrows arrows = {0};
     Derived derived = {0};
     ParticleBuffers buffers = wind->buffers;
     ParticleWants wants = {0};
     uint32_t indices = 0;
     overlays_want(def, &wants);
-    assert_true(derived_follow(&derived, &wants, &error));
+    assert_true(derived_update(&derived, &wants, &error));
     derived_fill(&derived, &wants, &(DerivedSpace){.flat = false}, &buffers);
     if (!glyph_arrows_create(&arrows, &error))
         fail_msg("%s", error.message);
     glyph_arrows_make(&arrows, &buffers, &frame);
     const GlyphTally *tally = glyph_arrows_count(&arrows, &buffers, &frame);
-    *usual = glyph_usual(tally);
+    *usual = glyph_typical_magnitude(tally);
     left_out = tally->left_out;
     if (arrows.most > 0)
         glGetNamedBufferSubData(arrows.tallies.box.buffer, 0, sizeof indices, &indices);
@@ -259,8 +259,8 @@ static void what_is_late_is_the_same(void **state)
     Error error = {0};
     ViewDef def = glyphs_view(GLYPHS_PARTICLES);
     const WorldDef world = bare_world();
-    bool behind;
-    const Frame frame = {.def = &def, .world = &world, .behind = &behind};
+    bool stale;
+    const Frame frame = {.def = &def, .world = &world, .stale = &stale};
     GlyphArrows arrows = {0};
     Wind *wind = wind_create(0.05);
     glyphs_def(&def)->stride = 1;
@@ -274,21 +274,21 @@ static void what_is_late_is_the_same(void **state)
         if (k != 2) /* the second one is drawn twice */
             upload(wind);
         wind->buffers.vector[VECTOR_VELOCITY] = wind->buffers.velocity;
-        behind = false;
+        stale = false;
         glyph_arrows_make(&arrows, &wind->buffers, &frame);
-        const double usual = glyph_usual(glyph_arrows_count(&arrows, &wind->buffers, &frame));
-        if (fabs(usual - late[k]) > 1e-9 || behind != (speeds[k] != late[k]))
-            fail_msg("%d: %g, behind %d", k, usual, behind);
+        const double usual = glyph_typical_magnitude(glyph_arrows_count(&arrows, &wind->buffers, &frame));
+        if (fabs(usual - late[k]) > 1e-9 || stale != (speeds[k] != late[k]))
+            fail_msg("%d: %g, behind %d", k, usual, stale);
         glFinish(); /* what was sent has arrived */
     }
     glyphs_def(&def)->vector = VECTOR_BOX_VELOCITY;
-    behind = false;
+    stale = false;
     ParticleBuffers moved = wind->buffers; /* whose box has the motion of the last wind */
     moved.vector[VECTOR_BOX_VELOCITY] = wind->buffers.velocity;
     glyph_arrows_make(&arrows, &moved, &frame);
-    const double usual = glyph_usual(glyph_arrows_count(&arrows, &moved, &frame));
-    if (fabs(usual - 300) > 1e-9 || behind)
-        fail_msg("another vector: %g, behind %d", usual, behind);
+    const double usual = glyph_typical_magnitude(glyph_arrows_count(&arrows, &moved, &frame));
+    if (fabs(usual - 300) > 1e-9 || stale)
+        fail_msg("another vector: %g, behind %d", usual, stale);
     glyph_arrows_destroy(&arrows);
     wind_destroy(wind);
 }
@@ -387,7 +387,8 @@ static void project(const Wind *wind, const ViewDef *def, const double at[3], do
 {
     Camera camera;
     double depth;
-    camera_make(def, wind->state.box_size, &wind->state.box, (double)WIDE / HIGH, (Covered){0, 0}, &camera);
+    camera_make(def, wind->state.box_size, &wind->state.box, (double)WIDE / HIGH, (CoveredParts){0, 0},
+                &camera);
     assert_true(camera_project(&camera, at, WIDE, HIGH, pixel, &depth));
 }
 

@@ -3,9 +3,9 @@
 
    SLOSH_GOLDEN=write writes them anew: look at them before they are kept. */
 #include "app/files/pictures.h"
-#include "render/glyphs/glyphs_def.h"
-#include "render/slice/slice_def.h"
-#include "render/trails/trails_def.h"
+#include "render/overlays/glyphs/glyphs.h"
+#include "render/overlays/trails/trails.h"
+#include "render/views/slice/slice.h"
 #include "tests/render/fixture.h"
 
 #define SPACING 0.08
@@ -40,7 +40,7 @@ static Upload *upload_moving(const Particles *particles, const ParticleBuffers *
         velocity[4 * i + 2] = 0.2F * at[0];
     }
     assert_non_null(upload);
-    assert_true(upload_arrays(upload, &arrays, state, &error) && upload_take(upload, out));
+    assert_true(upload_write_arrays(upload, &arrays, state, &error) && upload_take(upload, out));
     return upload;
 }
 

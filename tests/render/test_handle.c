@@ -1,4 +1,4 @@
-/* Handles (render/frame/handle.h): pixels and rays, which one is under the mouse, where drags take them. */
+/* Handles (render/frame/camera.h): pixels and rays, which one is under the mouse, where drags take them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "render/frame/handle.h"
+#include "render/frame/camera.h"
 #include "render/renderer.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static Sight sight_from(double x, double y, double z)
     memcpy(def.camera.from, (double[3]){x, y, z}, sizeof def.camera.from);
     memcpy(def.camera.to, sight.box.position, sizeof def.camera.to);
     def.camera.fov_deg = 45;
-    camera_make(&def, size, &sight.box, (double)WIDE / HIGH, (Covered){0, 0}, &sight.camera);
+    camera_make(&def, size, &sight.box, (double)WIDE / HIGH, (CoveredParts){0, 0}, &sight.camera);
     return sight;
 }
 
@@ -74,7 +74,7 @@ static void what_is_looked_at_is_in_the_middle_of_what_is_free(void **state)
         const double left = i * 0.4;
         double at[2], up[2], depth;
         Camera camera;
-        camera_make(&def, size, &box, aspect, (Covered){left, 0.2}, &camera);
+        camera_make(&def, size, &box, aspect, (CoveredParts){left, 0.2}, &camera);
         assert_true(camera_project(&camera, def.camera.to, WIDE, HIGH, at, &depth));
         assert_true(camera_project(&camera, (double[]){0.1, 0.6, 0}, WIDE, HIGH, up, &depth));
         if (fabs(at[0] - WIDE * (1 + left) / 2) > 1e-3 || fabs(at[1] - HIGH / 2.0) > 1e-3)
@@ -98,7 +98,7 @@ static void what_is_behind_the_eye_has_no_pixel(void **state)
     assert_false(sight_ray_plane(&ray, behind, ray.along, behind));
 }
 
-static Handle handle_of(HandleLook look, HandleWay way)
+static Handle handle_of(HandleLook look, HandleMotion way)
 {
     Handle handle = {
         .look = look, .way = way, .at = {0.1, 0.4, 0.2}, .from = {0.1, 0.4, 0}, .axis = {0.6, 0.8, 0}};
@@ -113,21 +113,21 @@ static void the_nearest_handle_is_found(void **state)
     double pixel[2], corner[3], ring[2];
     memcpy(handles[0].at, handles[0].from, sizeof handles[0].at);
     assert_true(sight_pixel(&sight, handles[0].at, pixel));
-    assert_int_equal(handle_under(&sight, handles, 2, pixel), 0);
+    assert_int_equal(handle_at_pixel(&sight, handles, 2, pixel), 0);
     pixel[0] += sight.reach + 1;
-    assert_int_equal(handle_under(&sight, handles, 1, pixel), -1);
+    assert_int_equal(handle_at_pixel(&sight, handles, 1, pixel), -1);
     for (int part = 0; part < HANDLE_RING_PARTS; part += 7) {
         handle_ring(&handles[1], part, corner);
         assert_true(fabs(distance(corner, handles[1].from) - 0.2) < 1e-9);
         assert_true(sight_pixel(&sight, corner, ring));
-        assert_int_equal(handle_under(&sight, handles, 2, ring), 1);
+        assert_int_equal(handle_at_pixel(&sight, handles, 2, ring), 1);
     }
     Handle two[] = {handles[0], handles[0]}; /* both within reach */
     two[1].at[0] += 0.01;
     for (int i = 0; i < 2; i++) {
         assert_true(sight_pixel(&sight, two[i].at, pixel) && sight_pixel(&sight, two[1 - i].at, ring));
         assert_true(hypot(pixel[0] - ring[0], pixel[1] - ring[1]) < sight.reach);
-        assert_int_equal(handle_under(&sight, two, 2, pixel), i);
+        assert_int_equal(handle_at_pixel(&sight, two, 2, pixel), i);
     }
 }
 
@@ -166,7 +166,7 @@ static void a_handle_does_not_jump(void **state)
 {
     (void)state;
     const Sight sight = sight_from(1.5, 1, 2);
-    static const HandleWay ways[] = {HANDLE_ALONG, HANDLE_WITHIN, HANDLE_AROUND};
+    static const HandleMotion ways[] = {HANDLE_ALONG, HANDLE_WITHIN, HANDLE_AROUND};
     for (int i = 0; i < 3; i++) {
         const Handle handle = handle_of(HANDLE_DOT, ways[i]);
         const double beside[3] = {handle.at[0] + 0.02, handle.at[1] - 0.01, handle.at[2] + 0.01};

@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/camera.h"
-#include "render/frame/legend.h"
+#include "render/frame/passes.h"
 
 static void test_round_ticks(void **state)
 {
@@ -51,7 +51,7 @@ static void test_camera_shows_the_box(void **state)
             int width = pictures[p][0], height = pictures[p][1];
             double largest = 0;
             Camera camera;
-            camera_make(&def, sizes[s], &box, (double)width / height, (Covered){0}, &camera);
+            camera_make(&def, sizes[s], &box, (double)width / height, (CoveredParts){0}, &camera);
             for (int corner = 0; corner < 8; corner++) {
                 double world[3] = {sizes[s][0] * ((corner & 1) - 0.5), sizes[s][1] * (corner >> 1 & 1),
                                    sizes[s][2] * ((corner >> 2) - 0.5)};
@@ -73,7 +73,7 @@ static void test_camera_leaves_room_for_the_legend(void **state)
     BoxState box = {.orientation = {0, 0, 0, 1}};
     ViewDef def = view_def_default();
     Camera camera;
-    camera_make(&def, size, &box, 1, (Covered){0, 0.3}, &camera);
+    camera_make(&def, size, &box, 1, (CoveredParts){0, 0.3}, &camera);
     for (int corner = 0; corner < 8; corner++) {
         double world[3] = {(corner & 1) * 2 - 1, corner >> 1 & 1, (corner >> 2) - 0.5}, pixel[2], depth;
         assert_true(camera_project(&camera, world, 100, 100, pixel, &depth));
@@ -114,7 +114,7 @@ static void test_camera_leaves_room_for_a_panel(void **state)
     for (int legend = 0; legend <= 1; legend++) {
         Camera camera;
         double leftmost = 100, rightmost = 0;
-        camera_make(&def, size, &box, 1.5, (Covered){0.3, 0.2 * legend}, &camera);
+        camera_make(&def, size, &box, 1.5, (CoveredParts){0.3, 0.2 * legend}, &camera);
         for (int corner = 0; corner < 8; corner++) {
             double world[3] = {(corner & 1) * 2 - 1, corner >> 1 & 1, (corner >> 2) - 0.5}, pixel[2], depth;
             assert_true(camera_project(&camera, world, 100, 100, pixel, &depth));
@@ -132,11 +132,11 @@ static void test_camera_follows_late(void **state)
     double size[3] = {1, 1, 1};
     ViewDef def = view_def_default();
     Camera rest, shaken, gone;
-    camera_make(&def, size, &(BoxState){.orientation = {0, 0, 0, 1}}, 1, (Covered){0}, &rest);
+    camera_make(&def, size, &(BoxState){.orientation = {0, 0, 0, 1}}, 1, (CoveredParts){0}, &rest);
     camera_make(&def, size, &(BoxState){.position = {0.3, 0, 0}, .orientation = {0, 0, 0, 1}}, 1,
-                (Covered){0}, &shaken);
+                (CoveredParts){0}, &shaken);
     camera_make(&def, size, &(BoxState){.position = {9.5, 0, 0}, .orientation = {0, 0, 0, 1}}, 1,
-                (Covered){0}, &gone);
+                (CoveredParts){0}, &gone);
     assert_true(fabsf(shaken.eye[0] - rest.eye[0]) < 1e-6F);
     assert_true(fabsf(gone.eye[0] - rest.eye[0] - 9) < 1e-4F);
 }

@@ -1,10 +1,10 @@
 /* Beside what covers a side of the picture: every view, solid, line and shadow as in a picture that is wider
    on the other side, has the same axis in its middle, and nothing covered. So what is drawn off the axis is
    held against what is drawn on it, and whatever forgets the axis stands beside its place. */
-#include "render/glyphs/glyphs_def.h"
-#include "render/pbsr/pbsr_def.h"
-#include "render/slice/slice_def.h"
-#include "render/trails/trails_def.h"
+#include "render/overlays/glyphs/glyphs.h"
+#include "render/overlays/trails/trails.h"
+#include "render/views/pbsr/pbsr.h"
+#include "render/views/slice/slice.h"
 #include "tests/render/fixture.h"
 
 #define SPACING 0.1
@@ -39,7 +39,7 @@ static Upload *upload_moving(Particles *particles, ParticleBuffers *out, double 
         particles->count, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID | PARTICLE_ID | PARTICLE_VELOCITY,
         &error);
     assert_non_null(upload);
-    assert_true(upload_arrays(upload, &arrays, &state, &error) && upload_take(upload, out));
+    assert_true(upload_write_arrays(upload, &arrays, &state, &error) && upload_take(upload, out));
     return upload;
 }
 
@@ -61,7 +61,7 @@ static void draw(const ViewDef *def, const WorldDef *world, int width, double co
         fail_msg("%s", error.message);
     Particles *particles = particles_wave(SPACING);
     particles_spare(particles, world, SPACING);
-    renderer_set_covered(renderer, (Covered){covered, 0});
+    renderer_set_covered(renderer, (CoveredParts){covered, 0});
     for (int i = trails_def(def)->show ? -12 : 0; i <= 0; i++) {
         ParticleBuffers state;
         Upload *upload = upload_moving(particles, &state, 0.04 * i);
@@ -179,7 +179,7 @@ static void of_points(void **state)
 static void of_overlays(void **state)
 {
     (void)state;
-    static const TrailsBy by[] = {TRAILS_AUTO, TRAILS_QUADS};
+    static const TrailsMethod by[] = {TRAILS_AUTO, TRAILS_QUADS};
     ViewDef def = view_of("none");
     def.color_by = SCALAR_SPEED;
     def.range_auto = false;

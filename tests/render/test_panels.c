@@ -12,17 +12,17 @@ static void places_share_the_picture(void **state)
 {
     (void)state;
     static const int sizes[][2] = {{640, 480}, {641, 481}, {7, 5}, {4, 4}};
-    PanelPlace p[PANELS_MAX];
+    PanelRect p[PANELS_MAX];
     for (int s = 0; s < 4; s++)
         for (int count = 1; count <= PANELS_MAX; count++) {
             const int width = sizes[s][0], height = sizes[s][1];
             int pixels = 0;
-            assert_true(panels_place(count, width, height, p));
+            assert_true(panels_layout(count, width, height, p));
             for (int i = 0; i < count; i++) {
                 assert_true(p[i].x >= 0 && p[i].y >= 0 && p[i].width > 0 && p[i].height > 0);
                 assert_true(p[i].x + p[i].width <= width && p[i].y + p[i].height <= height);
                 pixels += p[i].width * p[i].height;
-                assert_int_equal(panels_at(p, count, p[i].x + 0.5, p[i].y + 0.5), i);
+                assert_int_equal(panels_index_at(p, count, p[i].x + 0.5, p[i].y + 0.5), i);
                 for (int k = 0; k < i; k++) {
                     assert_true(p[k].x + p[k].width + PANELS_LINE <= p[i].x ||
                                 p[k].y + p[k].height + PANELS_LINE <= p[i].y);
@@ -31,10 +31,10 @@ static void places_share_the_picture(void **state)
             }
             assert_true(count > 1 ? pixels < width * height : pixels == width * height);
         }
-    assert_false(panels_place(2, 3, 100, p)); /* a line and one column of pixels */
-    assert_true(panels_place(2, 4, 1, p));
-    assert_false(panels_place(4, 100, 3, p));
-    assert_int_equal(panels_at(p, 2, -1e6, 1e6), 0);
+    assert_false(panels_layout(2, 3, 100, p)); /* a line and one column of pixels */
+    assert_true(panels_layout(2, 4, 1, p));
+    assert_false(panels_layout(4, 100, 3, p));
+    assert_int_equal(panels_index_at(p, 2, -1e6, 1e6), 0);
 }
 
 /* Two states, the second faster. */
@@ -66,7 +66,7 @@ static void stand_destroy(Stand *stand)
 }
 
 /* What a renderer alone draws of that state in that place, against the panel; from row `from` on. */
-static void assert_panel(const uint8_t *rgb, int width, const PanelPlace *at, const ViewDef *def,
+static void assert_panel(const uint8_t *rgb, int width, const PanelRect *at, const ViewDef *def,
                          const WorldDef *world, const ParticleBuffers *particles, int from)
 {
     static uint8_t alone[3 * WIDTH * HEIGHT];
@@ -108,11 +108,11 @@ static void panels_are_pictures_of_their_own(void **state)
         panels_draw(panels, states, NULL);
         assert_true(panels_read(panels, rgb, &error));
         for (int i = 0; i < count; i++)
-            assert_panel(rgb, WIDTH, &panels_places(panels)[i], &defs[i], &world, states[i], 0);
+            assert_panel(rgb, WIDTH, &panels_rects(panels)[i], &defs[i], &world, states[i], 0);
         assert_false(panels_resize(panels, 1 << 20, 4, &error));
         panels_draw(panels, states, NULL);
         assert_true(panels_read(panels, rgb, &error));
-        assert_panel(rgb, WIDTH, &panels_places(panels)[0], &defs[0], &world, states[0], 0);
+        assert_panel(rgb, WIDTH, &panels_rects(panels)[0], &defs[0], &world, states[0], 0);
         panels_destroy(panels);
     }
     assert_null(panels_create(subjects, 4, 3, 300, &error));
@@ -139,7 +139,7 @@ static void a_state_is_derived_once(void **state)
     panels_draw(panels, states, NULL);
     assert_true(panels_read(panels, rgb, &error));
     for (int i = 0; i < 3; i++)
-        assert_panel(rgb, WIDTH, &panels_places(panels)[i], &def, &world, states[i], 0);
+        assert_panel(rgb, WIDTH, &panels_rects(panels)[i], &def, &world, states[i], 0);
     assert_true(panels_derived_bytes(panels, 0) > 0 && panels_derived_bytes(panels, 2) > 0);
     assert_int_equal(panels_derived_bytes(panels, 1), 0);
     panels_destroy(panels);
@@ -197,7 +197,7 @@ static void a_resolution_of_its_own(void **state)
         fail_msg("%g of 255 off", worst);
     def.resolution = 1;
     assert_true(renderer_set_def(large, &def, &world, &error));
-    const PanelPlace whole = {0, 0, 2 * W, 2 * H};
+    const PanelRect whole = {0, 0, 2 * W, 2 * H};
     renderer_draw(large, &stand.states[0], NULL);
     renderer_read(large, rgb);
     assert_panel(rgb, 2 * W, &whole, &def, &world, &stand.states[0], 0);
@@ -221,8 +221,8 @@ static void a_pick_at_another_resolution(void **state)
         Renderer *renderer = renderer_create(&def, &world, 400, 300, &error);
         assert_non_null(renderer);
         renderer_draw(renderer, &stand.states[0], NULL);
-        const ViewAsks asks = {.mouse = true, .pixel = {180, 160}};
-        ViewProbes answers;
+        const ViewProbeRequest asks = {.mouse = true, .pixel = {180, 160}};
+        ViewProbeAnswers answers;
         assert_true(renderer_probe(renderer, &asks, &answers) && answers.placed);
         memcpy(at[i], answers.place, sizeof at[i]);
         renderer_destroy(renderer);
@@ -283,7 +283,7 @@ static void a_scalar_has_one_range(void **state)
     memcpy(fixed.range, ranges[0], sizeof fixed.range);
     assert_true(panels_read(panels, rgb, &error));
     for (int i = 0; i < 2; i++)
-        assert_panel(rgb, WIDTH, &panels_places(panels)[i], &fixed, &world, states[i], 0);
+        assert_panel(rgb, WIDTH, &panels_rects(panels)[i], &fixed, &world, states[i], 0);
     assert_true(panels_set_def(panels, 1, &fixed, &world, &error)); /* then the other one is alone */
     panels_draw(panels, states, NULL);
     panels_range(panels, 0, ranges[0]);
@@ -314,7 +314,7 @@ static void cameras_are_the_same(void **state)
     Panels *panels = panels_create(subjects, 2, WIDTH, HEIGHT, &error);
     panels_draw(panels, states, NULL);
     assert_true(panels_read(panels, rgb, &error));
-    const PanelPlace *p = panels_places(panels);
+    const PanelRect *p = panels_rects(panels);
     for (int y = 0; y < HEIGHT - 25; y++) /* but the time; the legend is on the right */
         assert_memory_equal(rgb + 3 * (y * WIDTH + p[0].x), rgb + 3 * (y * WIDTH + p[1].x),
                             3 * (size_t)(p[0].width / 2));
@@ -336,7 +336,7 @@ static void a_title_covers_its_rows_alone(void **state)
     const Subject subjects[] = {{&def, &world}, {&def, &world}};
     const ParticleBuffers *states[] = {&stand.states[0], &stand.states[1]};
     Panels *panels = panels_create(subjects, 2, WIDTH, HEIGHT, &error);
-    const PanelPlace *p = panels_places(panels);
+    const PanelRect *p = panels_rects(panels);
     panels_draw(panels, states, NULL);
     assert_true(panels_read(panels, bare, &error));
     Title title = {"a", "b"};

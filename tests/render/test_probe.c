@@ -2,8 +2,8 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/view.h"
-#include "render/pbsr/pbsr_def.h"
-#include "render/plane/plane_kernel.h"
+#include "render/particles/plane.h"
+#include "render/views/pbsr/pbsr.h"
 #include "sim/world/method.h"
 
 enum { WIDE = 160, HIGH = 120 };
@@ -71,13 +71,13 @@ static void open_picture(Probed *probed, const ViewDef *def, const WorldDef *wor
                              .id = probed->id};
     arrays.scalar[SCALAR_SPEED] = probed->particles->speed;
     probed->upload = upload_create(full.count, attributes, &error);
-    assert_true(upload_arrays(probed->upload, &arrays, &full, &error));
+    assert_true(upload_write_arrays(probed->upload, &arrays, &full, &error));
     assert_true(upload_take(probed->upload, &probed->state));
     probed->renderer = renderer_create(def, world, WIDE, HIGH, &error);
     if (!probed->renderer)
         fail_msg("%s", error.message);
     probed->sight = (Sight){.box = probed->state.box, .width = WIDE, .height = HIGH};
-    camera_make(def, probed->state.box_size, &probed->state.box, (double)WIDE / HIGH, (Covered){0},
+    camera_make(def, probed->state.box_size, &probed->state.box, (double)WIDE / HIGH, (CoveredParts){0},
                 &probed->sight.camera);
     renderer_draw(probed->renderer, &probed->state, NULL);
 }
@@ -93,9 +93,9 @@ static void close_picture(Probed *probed)
 }
 
 /* What is known in the end. */
-static ViewProbes ask(const Probed *probed, const ViewAsks *asks)
+static ViewProbeAnswers ask(const Probed *probed, const ViewProbeRequest *asks)
 {
-    ViewProbes told;
+    ViewProbeAnswers told;
     for (int tries = 0; tries < 3; tries++) {
         if (!renderer_probe(probed->renderer, asks, &told))
             fail_msg("the view %s tells nothing", probed->def.kind);
@@ -109,11 +109,11 @@ static ViewProbes ask(const Probed *probed, const ViewAsks *asks)
     return told;
 }
 
-static ViewProbes ask_pixel(const Probed *probed, double x, double y)
+static ViewProbeAnswers ask_pixel(const Probed *probed, double x, double y)
 {
-    const ViewAsks asks = {.mouse = true, .pixel = {x, y}};
+    const ViewProbeRequest asks = {.mouse = true, .pixel = {x, y}};
     const double pixel[2] = {x, y};
-    assert_true(renderer_may_probe(probed->renderer, pixel));
+    assert_true(renderer_can_probe(probed->renderer, pixel));
     return ask(probed, &asks);
 }
 
@@ -167,7 +167,7 @@ static int check_balls(const Probed *probed, const double *radii, double (*value
         const double pixel[2] = {4.5 + 13 * column, 3.5 + 11 * row};
         double margin;
         const int first = first_ball(probed, pixel, radii, &margin);
-        const ViewProbes told = ask_pixel(probed, pixel[0] + 0.3, pixel[1] - 0.4);
+        const ViewProbeAnswers told = ask_pixel(probed, pixel[0] + 0.3, pixel[1] - 0.4);
         if (margin < 1e-3)
             continue;
         assert_int_equal(told.mouse, first >= 0);
@@ -229,7 +229,7 @@ static void a_ball_under_the_mouse_has_its_particles_number(void **state)
         if (of[i].scalar == SCALAR_VORTICITY)
             read_vorticity(&probed);
         assert_true(check_balls(&probed, radii, of[i].value) > 30);
-        const ViewProbes told = ask_pixel(&probed, WIDE / 2.0, HIGH / 2.0);
+        const ViewProbeAnswers told = ask_pixel(&probed, WIDE / 2.0, HIGH / 2.0);
         assert_string_equal(told.probe[0].name, scalar_name(of[i].scalar));
         assert_string_equal(told.probe[0].unit, scalar_unit(of[i].scalar));
         close_picture(&probed);
@@ -307,7 +307,7 @@ static int check_means(const Probed *probed, const float *of, size_t stride)
             mean_at(probed, at, of, stride, &field);
         if (there && field < 1e-6)
             continue; /* a layer beside the fluid */
-        const ViewProbes told = ask_pixel(probed, x + 0.7, y + 0.2);
+        const ViewProbeAnswers told = ask_pixel(probed, x + 0.7, y + 0.2);
         assert_int_equal(told.mouse, there);
         if (!there)
             continue;
@@ -359,7 +359,7 @@ static void of_layers_the_nearest_is_under_the_mouse(void **state)
     int on_slice = 0, on_ball = 0;
     for (int i = 0; i < 300; i++) {
         const int column = i % 20, row = i / 20;
-        const ViewProbes told = ask_pixel(&probed, 4.5 + 8 * column, 4.5 + 8 * row);
+        const ViewProbeAnswers told = ask_pixel(&probed, 4.5 + 8 * column, 4.5 + 8 * row);
         if (!told.mouse)
             continue;
         const double *at = told.probe[0].at, middle = probed.state.box_size[1] / 2;
@@ -385,14 +385,14 @@ static void places_that_are_said(void **state)
     for (int v = 0; v < 4; v++) {
         const ViewDef def = view_of(kinds[v], SCALAR_SPEED);
         Probed probed;
-        ViewAsks asks = {.count = VIEW_PROBES_MAX};
+        ViewProbeRequest asks = {.count = VIEW_PROBES_MAX};
         double field;
         open_picture(&probed, &def, &world);
         for (int i = 0; i < asks.count; i++)
             for (int k = 0; k < 3; k++) /* a little beside a particle; the last is where none is */
                 asks.at[i][k] =
                     i == asks.count - 1 ? 0.45 : (double)probed.particles->position[4 * 31 * i + k] + 0.01;
-        ViewProbes told = ask(&probed, &asks);
+        ViewProbeAnswers told = ask(&probed, &asks);
         assert_int_equal(told.count, VIEW_PROBES_MAX);
         assert_false(told.mouse);
         for (int i = 0; i < told.count - 1; i++) {
@@ -427,7 +427,7 @@ static void fluids_have_names_and_solids_nothing(void **state)
         const int column = i % 12, row = i / 12;
         const double at[2] = {4.5 + 13 * column, 3.5 + 11 * row};
         const int first = first_ball(&probed, at, radii, &margin);
-        const ViewProbes told = ask_pixel(&probed, at[0], at[1]);
+        const ViewProbeAnswers told = ask_pixel(&probed, at[0], at[1]);
         if (!told.mouse || first < 0 || margin < 1e-3)
             continue;
         const unsigned fluid = probed.particles->fluid[first];
@@ -450,11 +450,11 @@ static void fluids_stand_for_what_is_not_there(void **state)
     for (int v = 0; v < 3; v++) {
         const ViewDef def = view_of(kinds[v], SCALAR_DENSITY);
         Probed probed;
-        ViewAsks asks = {.count = 1};
+        ViewProbeRequest asks = {.count = 1};
         open_picture(&probed, &def, &world);
         for (int k = 0; k < 3; k++)
             asks.at[0][k] = (double)probed.particles->position[k];
-        const ViewProbes told = ask(&probed, &asks);
+        const ViewProbeAnswers told = ask(&probed, &asks);
         assert_int_equal(told.count, 1);
         assert_non_null(told.probe[0].words);
         assert_string_equal(told.probe[0].name, "fluid");
@@ -484,15 +484,15 @@ static void no_number_is_said_to_be_none(void **state)
         ParticleBuffers next = box_state(count, SPACING);
         arrays.scalar[SCALAR_SPEED] = probed.particles->speed;
         next.step = 1;
-        assert_true(upload_arrays(probed.upload, &arrays, &next, &error));
+        assert_true(upload_write_arrays(probed.upload, &arrays, &next, &error));
         assert_true(upload_take(probed.upload, &probed.state));
         renderer_draw(probed.renderer, &probed.state, NULL);
-        ViewAsks asks = {.count = 2};
+        ViewProbeRequest asks = {.count = 2};
         for (int k = 0; k < 3; k++) {
             asks.at[0][k] = (double)probed.particles->position[k];
             asks.at[1][k] = (double)probed.particles->position[4 * (count - 1) + k];
         }
-        const ViewProbes told = ask(&probed, &asks);
+        const ViewProbeAnswers told = ask(&probed, &asks);
         assert_int_equal(told.probe[0].what, VIEW_PROBE_NAN);
         assert_int_equal(told.probe[1].what, VIEW_PROBE_VALUE);
         assert_true(fabs(told.probe[1].value - 1) < 1e-6);

@@ -1,7 +1,7 @@
 /* The range of a scalar, against sorting in plain C. */
 #include "tests/render/fixture.h"
 
-#include "render/derived/ranges.h"
+#include "render/particles/derived.h"
 
 enum { ALL = 100000 };
 
@@ -67,14 +67,14 @@ static void what_is_late_is_the_same(void **state)
         glNamedBufferSubData(buffer, 0, sizeof values, values);
         particles.step = (uint64_t)k;
         const ScalarRange now = by_sorting(values, COUNT),
-                          late = ranges_follow(&ranges, SCALAR_PRESSURE, &particles, &behind);
+                          late = ranges_find_async(&ranges, SCALAR_PRESSURE, &particles, &behind);
         const ScalarRange *shown = behind ? &before : &now;
         assert_memory_equal(&late, shown, 4 * sizeof(double));
         assert_int_equal(behind, k > 0);
         glFinish();
         for (int again = 0; again < 2; again++) { /* nothing moves */
             behind = false;
-            const ScalarRange settled = ranges_follow(&ranges, SCALAR_PRESSURE, &particles, &behind);
+            const ScalarRange settled = ranges_find_async(&ranges, SCALAR_PRESSURE, &particles, &behind);
             assert_false(behind);
             assert_null(ranges.late[SCALAR_PRESSURE].found.fence);
             assert_memory_equal(&settled, &now, 4 * sizeof(double));
@@ -85,7 +85,7 @@ static void what_is_late_is_the_same(void **state)
     }
     bool behind = false;
     particles.count = 0;
-    assert_true(ranges_follow(&ranges, SCALAR_PRESSURE, &particles, &behind).known && !behind);
+    assert_true(ranges_find_async(&ranges, SCALAR_PRESSURE, &particles, &behind).known && !behind);
     glDeleteBuffers(1, &buffer);
     ranges_destroy(&ranges);
 }

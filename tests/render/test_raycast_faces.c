@@ -2,7 +2,7 @@
    what the view shows of both. */
 #include "tests/render/raycast_fixture.h"
 
-#include "render/volume/bricks.h"
+#include "render/views/volume/volume_private.h"
 
 static const VolumeGrid odd = {{37, 9, 20}, {-0.5, 0.1, -0.2}, 1.0 / 37};
 
@@ -46,7 +46,7 @@ static void bricks_by_brute_force(void **state)
     size_t count;
     int bricks[3], full = 0;
     ray_volume(&scene, &odd, specks_at, NULL);
-    const int side = bricks_of(&odd, bricks);
+    const int side = bricks_count(&odd, bricks);
     assert_true(side == BRICK_CELLS && bricks[0] == 5 && bricks[1] == 1 && bricks[2] == 3);
     free(ray_drawn(&scene, true));
     float *values = field_of(&scene.volume, &count), drawn[5 * 1 * 3];
@@ -69,9 +69,9 @@ static void how_many_bricks(void **state)
 {
     (void)state;
     int count[3];
-    assert_int_equal(bricks_of(&(VolumeGrid){.size = {1, 9, 10}}, count), 8);
+    assert_int_equal(bricks_count(&(VolumeGrid){.size = {1, 9, 10}}, count), 8);
     assert_true(count[0] == 1 && count[1] == 1 && count[2] == 2);
-    assert_int_equal(bricks_of(&(VolumeGrid){.size = {512, 513, 16}}, count), 16);
+    assert_int_equal(bricks_count(&(VolumeGrid){.size = {512, 513, 16}}, count), 16);
     assert_true(count[0] == 32 && count[1] == 32 && count[2] == 1);
 }
 

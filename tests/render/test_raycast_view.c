@@ -3,7 +3,7 @@
 #include "tests/render/raycast_fixture.h"
 
 #include "app/files/pictures.h"
-#include "render/frame/colormap.h"
+#include "render/frame/frame.h"
 
 #define SPACING 0.08
 
@@ -169,7 +169,7 @@ static void coverage_is_counted(void **state)
     Upload *upload = upload_particles(picture.particles, &box, &buffers);
     Renderer *renderer = renderer_create(&picture.def, &picture.world, picture.width, picture.height, &error);
     assert_non_null(renderer);
-    renderer_count(renderer, &buffers, &counts);
+    renderer_draw_counted(renderer, &buffers, &counts);
     renderer_destroy(renderer);
     upload_destroy(upload);
     text_set(picture.def.kind, "none");

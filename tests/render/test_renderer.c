@@ -1,8 +1,8 @@
 /* A renderer whose size and def change while it lives draws what a new one would. */
 #include "tests/render/fixture.h"
 
-#include "render/splat/splat_def.h"
-#include "render/volume/volume_def.h"
+#include "render/views/splat/splat.h"
+#include "render/views/volume/volume.h"
 
 enum { MOST = 3 * 400 * 300 };
 
@@ -121,7 +121,7 @@ static void views_are_kept(void **state)
     counted = view_volume, counted.name = "counted", counted.create = counted_create;
     view_add(&counted);
     ViewDef def = view_def_default();
-    VolumeDef *own = view_own(&def, &counted);
+    VolumeDef *own = view_own_settings(&def, &counted);
     text_set(def.kind, "counted");
     Renderer *renderer = renderer_create(&def, NULL, 16, 16, &error);
     assert_int_equal(created, 1);

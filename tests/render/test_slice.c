@@ -3,14 +3,12 @@
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
-#include "render/frame/colormap.h"
+#include "render/frame/frame.h"
 #include "render/frame/view.h"
-#include "render/particles/half.h"
-#include "render/plane/plane_kernel.h"
-#include "render/plane/plane_probe.h"
-#include "render/plane/plane_sum.h"
-#include "render/slice/slice_def.h"
-#include "render/slice/slice_probe.h"
+#include "render/particles/particles.h"
+#include "render/particles/plane.h"
+#include "render/views/slice/slice.h"
+#include "render/views/slice/slice_private.h"
 #include "sim/gl/program.h"
 #include "sim/kernel/kernel.h"
 #include "sim/world/method.h"
@@ -162,7 +160,7 @@ static void brute_sums(const SliceScene *scene, const double at[3], double sums[
 }
 
 /* The worst of all samples, as shares of the greatest sums. */
-static double worst_sample_by(SliceScene *scene, PlaneBy by)
+static double worst_sample_by(SliceScene *scene, PlaneMethod by)
 {
     scene->job.by = by;
     double worst = 0, range[3] = {1e-30, 1e-30, 1e-30};
@@ -457,15 +455,15 @@ static void half_of_the_particles_is_left(void **state)
     (void)state;
     static const double normal[3] = {0.6, 0.8, 0};
     Error error = {0};
-    ParticleHalf half = {0};
+    ParticleClip half = {0};
     ParticleBuffers buffers, left;
     SliceScene scene = wild_scene(0.08, (double[3]){0, 0, 0}, normal);
     Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
     const size_t count = scene.particles->count, bytes = count * sizeof(float[4]);
     float *found = malloc(bytes);
     size_t kept = 0;
-    assert_true(particle_half_create(&half, &error));
-    particle_half_run(&half, &buffers, normal, 0.4, &left);
+    assert_true(particle_clip_create(&half, &error));
+    particle_clip_run(&half, &buffers, normal, 0.4, &left);
     assert_int_equal(left.count, count);
     assert_int_equal(left.scalar[SCALAR_SPEED].buffer, buffers.scalar[SCALAR_SPEED].buffer);
     glGetNamedBufferSubData(left.position.buffer, (GLintptr)left.position.offset, (GLsizeiptr)bytes, found);
@@ -482,7 +480,7 @@ static void half_of_the_particles_is_left(void **state)
     }
     assert_in_range(kept, count / 5, count - count / 5);
     free(found);
-    particle_half_destroy(&half);
+    particle_clip_destroy(&half);
     upload_destroy(upload);
     free_scene(&scene);
 }
@@ -521,9 +519,9 @@ static void particles_are_those_of_their_own_view(void **state)
 /* ---- probes ---- */
 
 /* What is known in the end: on a GPU it comes later. */
-static ViewProbes ask(Renderer *renderer, const ViewAsks *asks)
+static ViewProbeAnswers ask(Renderer *renderer, const ViewProbeRequest *asks)
 {
-    ViewProbes told;
+    ViewProbeAnswers told;
     for (int tries = 0; tries < 3; tries++) {
         assert_true(renderer_probe(renderer, asks, &told) && told.asked);
         if (told.now)
@@ -548,13 +546,13 @@ static void check_probes(const ViewDef *def, SliceScene *scene)
     for (int i = 0; i < 300; i++) {
         const double pixel[2] = {3.2 + 1.5 * (i % 60), 25.4 + 6.3 * (i / 60)};
         double place[3], sums[3];
-        ViewAsks asks = {.mouse = true, .pixel = {pixel[0], pixel[1]}};
-        ViewProbes told = ask(renderer, &asks);
+        ViewProbeRequest asks = {.mouse = true, .pixel = {pixel[0], pixel[1]}};
+        ViewProbeAnswers told = ask(renderer, &asks);
         const ViewProbe *found = told.probe;
-        assert_int_equal(told.mouse, renderer_may_probe(renderer, pixel));
+        assert_int_equal(told.mouse, renderer_can_probe(renderer, pixel));
         if (!told.mouse)
             continue;
-        asks = (ViewAsks){.count = 2};
+        asks = (ViewProbeRequest){.count = 2};
         for (int k = 0; k < 3; k++) {
             asks.at[0][k] = found[0].at[k];
             asks.at[1][k] = found[0].at[k] + scene->job.plane.normal[k] * 0.1; /* off the plane */
@@ -647,13 +645,14 @@ static void samples_of_the_gpu_come_later(void **state)
     ParticleBuffers buffers;
     SliceScene scene = wild_scene(0.08, (double[3]){0, 0.1, 0}, (double[3]){0, 0.1, 1});
     Upload *upload = upload_particles(scene.particles, &scene.state, &buffers);
-    const PlaneProbes probes = {.count = 3, .sample = {{30, 8}, {-1, 4}, {63, 46}}, .at = {{1}, {2}, {3}}};
+    const PlaneProbeRequest probes = {
+        .count = 3, .sample = {{30, 8}, {-1, 4}, {63, 46}}, .at = {{1}, {2}, {3}}};
     float all[4 * SAMPLES * SAMPLES];
     scene.job.by = PLANE_QUADS;
     assert_true(plane_sum_run(&sum, &scene.job, &buffers, &error));
-    plane_probe_ask(&probe, &sum, &probes);
+    plane_probe_request(&probe, &sum, &probes);
     glFinish();
-    plane_probe_ask(&probe, &sum, &(PlaneProbes){.count = 0});
+    plane_probe_request(&probe, &sum, &(PlaneProbeRequest){.count = 0});
     assert_int_equal(probe.probes.count, 3);
     assert_true(probe.probes.at[2][0] == 3);
     plane_sum_read(&sum, all);

@@ -1,7 +1,7 @@
 /* The plane of the view slice: where it plays to, what drags and keys set. */
 #include "tests/render/fixture.h"
 
-#include "render/slice/slice_plane.h"
+#include "render/views/slice/slice_private.h"
 
 static const double BOX[3] = {2, 1, 0.5};
 

@@ -1,6 +1,6 @@
 /* A writer and a drawer, each at its own pace: no slot is ever touched by both, the writer never waits, and
    the drawer sees states whole and in order. ThreadSanitizer watches the bytes. */
-#include "render/particles/slots.h"
+#include "render/particles/upload.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -42,11 +42,11 @@ static void states_are_whole_and_in_order(void **state)
     assert_int_equal(slots_draw(&shared.slots), SLOT_NONE);
     assert_int_equal(pthread_create(&writer, NULL, write_states, &shared), 0);
     while (last < STATES) {
-        if (!slots_fresh(&shared.slots)) {
+        if (!slots_have_new(&shared.slots)) {
             sched_yield();
             continue;
         }
-        slots_landed(&shared.slots);
+        slots_release_in_flight(&shared.slots);
         const int drawn = slots_draw(&shared.slots);
         assert_true(drawn >= 0 && drawn < SLOTS && drawn != before);
         const int *words = shared.words[drawn];
@@ -84,7 +84,7 @@ static void unread_states_are_overwritten(void **state)
         assert_true(written != first && written != second);
         slots_write_end(&slots);
     }
-    slots_landed(&slots);
+    slots_release_in_flight(&slots);
     bool again = false;
     for (int i = 0; i < 100; i++) {
         again |= slots_write_begin(&slots) == first;

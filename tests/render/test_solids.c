@@ -1,7 +1,7 @@
 /* Solids: their depth against rays in double, and who hides whom. */
 #include "tests/render/solids_fixture.h"
 
-#include "render/frame/solid_mesh.h"
+#include "render/frame/passes.h"
 
 /* How much farther or nearer a ray beside a pixel's goes, m. */
 static double slope_at(const Scene *scene, const Camera *camera, const double place[2], double wanted)

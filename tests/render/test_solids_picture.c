@@ -64,7 +64,7 @@ static void test_shadow_before_the_box(void **state)
     scene.def.camera = (CameraDef){{1.5, 1.5, 3}, {0, 0, 0.9}, 40};
     scene_add(&scene, SOLID_SPHERE, 0, 0.3, 1)->radius = 0.15;
     draw_rgb(&scene, false, rgb);
-    camera_make(&scene.def, scene.state.box_size, &scene.state.box, (double)WIDTH / HEIGHT, (Covered){0},
+    camera_make(&scene.def, scene.state.box_size, &scene.state.box, (double)WIDTH / HEIGHT, (CoveredParts){0},
                 &camera);
     const double drop = (0.3 + 0.11) / 0.84, ground[3] = {0.40 * drop, -0.11, 1 - 0.3666 * drop};
     assert_true(camera_project(&camera, ground, WIDTH, HEIGHT, pixel, &depth));

@@ -96,8 +96,8 @@ static int compare(Scene *scene)
     static float depth[WIDTH * HEIGHT];
     Camera camera;
     int hits = 0;
-    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT, (Covered){0},
-                &camera);
+    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT,
+                (CoveredParts){0}, &camera);
     draw_depth(scene, depth);
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {

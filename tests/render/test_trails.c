@@ -2,8 +2,8 @@
    particles. */
 #include "tests/render/trails_fixture.h"
 
-#include "render/frame/overlay.h"
-#include "render/trails/trail_ring.h"
+#include "render/frame/view.h"
+#include "render/overlays/trails/trails_private.h"
 
 typedef struct Point {
     float x, y, z, value;
@@ -55,7 +55,7 @@ static void take_turn(TrailStore *store, Movers *movers, const ViewDef *def, int
 {
     turn(movers, count, time);
     const ParticleBuffers particles = movers_upload(movers, time);
-    trail_store_take(store, &particles, def);
+    trail_store_add_state(store, &particles, def);
 }
 
 /* The worst distance of all points kept from their circles, m. */
@@ -198,7 +198,7 @@ static void particles_come_and_go(void **state)
         for (int k = ALIVE - 1; k >= 0; k--)
             movers_add(movers, (uint32_t)(i * STEP + k), 0.0001 * (i * STEP + k), 0.5, 0, 0);
         const ParticleBuffers particles = movers_upload(movers, 0.01 * i);
-        trail_store_take(&store, &particles, &def);
+        trail_store_add_state(&store, &particles, &def);
         int seen = 0;
         for (unsigned slot = 0; slot < (unsigned)store.slots; slot++) {
             Point point;
@@ -230,7 +230,7 @@ static void the_older_keeps_its_trail(void **state)
         if (old)
             movers_add(movers, 5, 0.2, 0.5, 0, 0);
         const ParticleBuffers particles = movers_upload(movers, 0.01 * i);
-        trail_store_take(&store, &particles, &def);
+        trail_store_add_state(&store, &particles, &def);
         assert_int_equal(store.slots, 1024);
         assert_int_equal(id_of(&store, store.ring.head, 5), old ? 5 : 5 + 1024 * 3);
     }
@@ -302,7 +302,7 @@ static void ids_are_read(void **state)
         uint32_t ids[TRAILS_LISTED_MAX];
         TrailsDef def = trails_usual;
         snprintf(def.ids, sizeof def.ids, "%s", cases[i].text);
-        if (trails_listed(&def, ids) != cases[i].count)
+        if (trails_listed_ids(&def, ids) != cases[i].count)
             fail_msg("\"%s\"", cases[i].text);
     }
 }
@@ -325,7 +325,7 @@ static void a_click_adds_up_to_sixteen(void **state)
         assert_true(strlen(list) < sizeof own->ids);
         snprintf(own->ids, sizeof own->ids, "%s", list);
         own->show = true;
-        assert_int_equal(trails_listed(own, ids), i + 1);
+        assert_int_equal(trails_listed_ids(own, ids), i + 1);
     }
     assert_non_null(strstr(words, "16 particles have a trail, and no more can"));
     assert_int_equal(overlay_trails.choose(&view, INT32_MAX, settings, words), 2);
@@ -348,7 +348,7 @@ static void those_that_cross_a_plane_are_chosen(void **state)
         for (int k = 0; k < 10; k++) /* number k crosses on its way to state k + 1 */
             movers_add(movers, (uint32_t)k, 0.1 * k, 0.5 + 0.01 * (states[i] - k - 0.5), 0, 0);
         const ParticleBuffers particles = movers_upload(movers, 0.01 * states[i]);
-        trail_store_take(&store, &particles, &def);
+        trail_store_add_state(&store, &particles, &def);
         if (seen_in_head(&store) != states[i])
             fail_msg("state %d: %d have crossed", states[i], seen_in_head(&store));
     }
@@ -368,7 +368,7 @@ static void there_are_so_many_at_most(void **state)
     assert_int_equal(store.slots, TRAILS_MOST);
     trails_def(&def)->every = 0.001;
     take_turn(&store, movers, &def, 300, 0.01);
-    assert_true((double)store.slots * store.ring.room <= 8 << 20);
+    assert_true((double)store.slots * store.ring.capacity <= 8 << 20);
     trail_store_destroy(&store);
     movers_destroy(movers);
 }
@@ -398,11 +398,11 @@ static void what_is_nowhere_has_no_point(void **state)
     movers_add(movers, 1, NAN, 0.1, 0, 0);
     movers_add(movers, 2, 0.1, INFINITY, 0, 0);
     const ParticleBuffers particles = movers_upload(movers, 0);
-    trail_store_take(&store, &particles, &def);
+    trail_store_add_state(&store, &particles, &def);
     assert_int_equal(seen_in_head(&store), 1);
     movers_clear(movers);
     const ParticleBuffers none = movers_upload(movers, 0.01);
-    trail_store_take(&store, &none, &def);
+    trail_store_add_state(&store, &none, &def);
     assert_int_equal(seen_in_head(&store), 0);
     trail_store_destroy(&store);
     movers_destroy(movers);
@@ -428,7 +428,7 @@ static void hidden_ones_cost_nothing(void **state)
     Overlays overlays = {0};
     for (int shown = 1; shown >= 0; shown--) {
         trails_def(&def)->show = shown;
-        assert_true(overlays_follow(&overlays, &subject, &error));
+        assert_true(overlays_update(&overlays, &subject, &error));
         for (int i = 0; overlay_list[i]; i++)
             assert_true((overlays.state[i] != NULL) == (shown && overlay_list[i] == &overlay_trails));
     }
@@ -512,7 +512,7 @@ static void columns_are_in_their_order(void **state)
     TrailRing ring;
     assert_true(trail_ring_create(&ring, 100, 1, 4));
     for (int i = 0; i < 40; i++) { /* every other state becomes fixed */
-        trail_ring_take(&ring, 0.5 * i, SCALAR_SPEED);
+        trail_ring_add(&ring, 0.5 * i, SCALAR_SPEED);
         assert_true(trail_ring_at(&ring, ring.head)->time == 0.5 * i);
         for (uint64_t k = ring.begin; k < ring.head; k++)
             assert_true(trail_ring_at(&ring, k)->time < trail_ring_at(&ring, k + 1)->time);

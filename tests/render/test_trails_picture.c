@@ -2,7 +2,7 @@
    to picture is what would be drawn anew, to the bit. */
 #include "tests/render/trails_fixture.h"
 
-#include "render/pbsr/pbsr_def.h"
+#include "render/views/pbsr/pbsr.h"
 
 enum { WIDE = 240, HIGH = 180, BYTES = 3 * WIDE * HIGH };
 
@@ -78,7 +78,7 @@ static void project(const Show *show, const double at[3], double pixel[2])
     Camera camera;
     double depth;
     const ParticleBuffers *state = &show->movers->state;
-    camera_make(&show->def, state->box_size, &state->box, (double)WIDE / HIGH, (Covered){0, 0}, &camera);
+    camera_make(&show->def, state->box_size, &state->box, (double)WIDE / HIGH, (CoveredParts){0, 0}, &camera);
     assert_true(camera_project(&camera, at, WIDE, HIGH, pixel, &depth));
 }
 
@@ -254,7 +254,7 @@ static void pieces_are_few_while_the_camera_moves(void **state)
         Show show = open_show();
         trails_def(&show.def)->every = 0.001;
         trails_def(&show.def)->moving = moving == 0 ? 0 : moving == 1 ? 1000000 : 2000;
-        renderer_set_more(show.renderer, moving > 0);
+        renderer_set_continuous(show.renderer, moving > 0);
         follow(&show);
         for (int i = 0; i <= 60; i++) {
             wild(show.movers, 0.013 * i);
@@ -296,13 +296,13 @@ static void layers_see_all_pieces(void **state)
         own->repeat = own->moving = 8;
         own->layer_count = 1;
         own->layers[0] = (PbsrLayer){.of = PBSR_SPHERE, .level = 0.4, .opacity = 0.8, .color = {1, 0, 0}};
-        renderer_set_more(show.renderer, more);
+        renderer_set_continuous(show.renderer, more);
         follow(&show);
         ParticleBuffers particles;
         for (int i = 0; i <= 30; i++) {
             wild(show.movers, 0.026 * i);
             particles = movers_upload(show.movers, 0.026 * i);
-            renderer_take(show.renderer, &particles, NULL);
+            renderer_add_state(show.renderer, &particles, NULL);
         }
         renderer_draw(show.renderer, &particles, NULL);
         show.def.camera_auto = false;
@@ -489,7 +489,7 @@ static void states_between_pictures_count(void **state)
         if (i % 50 == 0)
             draw(&show, 0.01 * i, rgb);
         else
-            renderer_take(show.renderer, &particles, NULL);
+            renderer_add_state(show.renderer, &particles, NULL);
     }
     const int drawn = drawn_pixels(&show, rgb);
     double at[3], pixel[2];

@@ -1,6 +1,6 @@
 /* The ring of slots: what is written is what the GPU reads, round and round, without touching what is still
  * drawn. */
-#include "render/particles/slots.h"
+#include "render/particles/upload.h"
 #include "sim/world/world.h"
 #include "tests/render/fixture.h"
 
@@ -46,7 +46,7 @@ static void more_states_than_slots(bool copies)
         ParticleBuffers box = box_state(COUNT, 0.1), buffers;
         fill(particles, number);
         ParticleArrays arrays = arrays_of(particles);
-        assert_true(upload_arrays(upload, &arrays, &box, &error));
+        assert_true(upload_write_arrays(upload, &arrays, &box, &error));
         assert_true(upload_take(upload, &buffers));
         first = number == 0 ? buffers.position.buffer : first;
         assert_true(number != 1 || (buffers.position.buffer == first) == copies);
@@ -81,15 +81,15 @@ static void test_drawn_state_stays(void **state)
         fill(particles, number);
         ParticleArrays arrays = arrays_of(particles);
         box.step = (uint64_t)number;
-        assert_true(upload_arrays(upload, &arrays, &box, &error));
-        assert_true(upload_fresh(upload));
+        assert_true(upload_write_arrays(upload, &arrays, &box, &error));
+        assert_true(upload_has_new(upload));
         if (number % 7 == 0) {
             before = drawn;
             assert_true(upload_take(upload, &drawn));
-            assert_false(upload_fresh(upload));
+            assert_false(upload_has_new(upload));
             assert_int_equal(drawn.step, number);
         }
-        assert_true(upload_fresh(upload) || upload_take(upload, &again));
+        assert_true(upload_has_new(upload) || upload_take(upload, &again));
         fill(particles, number - number % 7);
         assert_on_gpu(&drawn.position, particles->position, 16 * COUNT);
         if (number >= 7) { /* in flight */
@@ -110,7 +110,7 @@ static void test_too_many(void **state)
     ParticleBuffers box = box_state(COUNT, 0.1);
     fill(particles, 0);
     ParticleArrays arrays = arrays_of(particles);
-    assert_false(upload_arrays(upload, &arrays, &box, &error));
+    assert_false(upload_write_arrays(upload, &arrays, &box, &error));
     assert_non_null(strstr(error.message, "999"));
     upload_destroy(upload);
     upload_destroy(NULL);

@@ -1,7 +1,7 @@
 /* The voxels of every method, against sums by brute force. */
 #include "tests/render/volume_fixture.h"
 
-#include "render/volume/voxelize.h"
+#include "render/views/volume/volume_private.h"
 
 /* Those that make a texture. */
 static const VolumeMethod textured[] = {VOLUME_GEOMETRY, VOLUME_LAYERS, VOLUME_PLANES,

@@ -1,8 +1,8 @@
 /* View `volume`, one slice of it: the colours of the field, from wherever one looks. */
 #include "tests/render/volume_fixture.h"
 
-#include "render/frame/colormap.h"
-#include "render/volume/volume_def.h"
+#include "render/frame/frame.h"
+#include "render/views/volume/volume.h"
 
 enum { SIZE = 96 };
 

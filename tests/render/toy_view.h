@@ -18,7 +18,7 @@ static const ViewKind view_toy;
 
 static inline ToyDef *toy_def(const ViewDef *def)
 {
-    return view_own(def, &view_toy);
+    return view_own_settings(def, &view_toy);
 }
 
 static void *toy_create(const Subject *subject, Error *error)
@@ -31,7 +31,7 @@ static void toy_draw(void *state, const ParticleBuffers *particles, const Frame 
 {
     (void)state, (void)particles;
     const float shade = (float)toy_def(frame->def)->shade;
-    frame_cut_to_bounds(frame);
+    frame_set_scissor(frame);
     glClearNamedFramebufferfv(frame->target->framebuffer, GL_COLOR, 0, (float[4]){shade, shade, shade, 1});
     glDisable(GL_SCISSOR_TEST);
 }

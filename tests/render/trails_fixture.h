@@ -4,8 +4,7 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/trails/trail_lines.h"
-#include "render/trails/trail_store.h"
+#include "render/overlays/trails/trails_private.h"
 
 enum { MOVERS_MAX = 4096 };
 
@@ -59,7 +58,7 @@ static inline ParticleBuffers movers_upload(Movers *movers, double time)
     movers->state.count = movers->count;
     movers->state.time = time;
     movers->state.step++;
-    assert_true(upload_arrays(movers->upload, &arrays, &movers->state, &error));
+    assert_true(upload_write_arrays(movers->upload, &arrays, &movers->state, &error));
     assert_true(upload_take(movers->upload, &out));
     return out;
 }

@@ -4,7 +4,7 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/frame/target.h"
+#include "render/frame/frame.h"
 #include "render/ui/ui.h"
 
 #include <epoxy/gl.h>

@@ -4,7 +4,7 @@
 
 #include "tests/render/fixture.h"
 
-#include "render/volume/volume.h"
+#include "render/views/volume/volume_private.h"
 #include "sim/kernel/kernel.h"
 
 #include <epoxy/gl.h>

@@ -4,7 +4,7 @@
 
 #include "app/base/program.h"
 #include "app/scene/keys.h"
-#include "render/pbsr/pbsr_def.h"
+#include "render/views/pbsr/pbsr.h"
 #include "sim/gl/backends.h"
 #include "sim/world/method.h"
 

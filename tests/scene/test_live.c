@@ -1,9 +1,9 @@
 /* Keys of a scene that change while its simulation runs. */
 #include "tests/scene/scene_text.h"
 
-#include "render/pbsr/pbsr_def.h"
-#include "render/splat/splat_def.h"
-#include "render/volume/volume_def.h"
+#include "render/views/pbsr/pbsr.h"
+#include "render/views/splat/splat.h"
+#include "render/views/volume/volume.h"
 
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"

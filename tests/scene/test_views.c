@@ -3,8 +3,8 @@
 
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "render/slice/slice_def.h"
-#include "render/trails/trails_def.h"
+#include "render/overlays/trails/trails.h"
+#include "render/views/slice/slice.h"
 
 #include <stdlib.h>
 
@@ -166,7 +166,7 @@ static void entries_have_sources(void **state)
 #define EIGHT "2147483647, 2147483647, 2147483647, 2147483647, 2147483647, 2147483647, 2147483647, 2147483647"
     uint32_t ids[TRAILS_LISTED_MAX];
     assert_true(parse_set(LEAST, "view.trails.ids=[" EIGHT ", " EIGHT "]", &scene, &error));
-    assert_int_equal(trails_listed(trails_def(&scene.view), ids), TRAILS_LISTED_MAX);
+    assert_int_equal(trails_listed_ids(trails_def(&scene.view), ids), TRAILS_LISTED_MAX);
     assert_false(parse_set(LEAST, "view.trails.ids=[" EIGHT ", " EIGHT ", 1]", &scene, &error));
     assert_non_null(strstr(error.message, "view.trails.ids is too long; use at most 175 bytes"));
     assert_false(parse_set(LEAST, "view.set={gravity: 3}", &scene, &error));

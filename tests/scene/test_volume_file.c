@@ -5,7 +5,7 @@
 
 #include "app/base/program.h"
 #include "app/scene/import/import.h"
-#include "render/pbsr/pbsr_def.h"
+#include "render/views/pbsr/pbsr.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "tests/render/fixture.h"
 
 #include "render/frame/frame.h"
-#include "render/splat/splat.h"
+#include "render/views/splat/splat_private.h"
 #include "sim/gl/timer.h"
 
 #include <epoxy/gl.h>
@@ -128,7 +128,7 @@ static inline SplatDrawing splat_open(SplatScene *scene, SplatGround *ground, bo
     drawing.upload = upload_particles(scene->particles, &scene->state, &buffers);
     buffers.count = scene->empty ? 0 : buffers.count;
     frame_make(&scene->frame, &(Subject){&scene->def, &scene->world}, &buffers, &drawing.target,
-               view_radii(&view_splat, &scene->def, &buffers), (Covered){0});
+               view_radii(&view_splat, &scene->def, &buffers), (CoveredParts){0});
     scene->frame.plain = plain;
     scene->frame.floor_light = no_shadows();
     drawing.uniforms = frame_uniforms_create();

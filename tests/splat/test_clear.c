@@ -69,7 +69,7 @@ static double passes_at(const double ray[3], const double centre[3])
     return sqrt(dot3(to, to));
 }
 
-/* By the formula in render/splat/thickness.h, over all particles. */
+/* By the formula in render/views/splat/splat_private.h, over all particles. */
 static double thickness_wanted(const SplatScene *scene, const double ray[3])
 {
     const double h = scene->state.support_radius, volume = pow(scene->state.spacing, 3);

@@ -19,7 +19,7 @@ static ViewCounts counts_with(const Particles *particles, ViewDef def)
     Renderer *renderer = renderer_create(&def, NULL, WIDTH, HEIGHT, &error);
     if (!renderer)
         fail_msg("%s", error.message);
-    renderer_count(renderer, &buffers, &counts);
+    renderer_draw_counted(renderer, &buffers, &counts);
     renderer_destroy(renderer);
     upload_destroy(upload);
     return counts;

@@ -2,7 +2,7 @@
    in double. */
 #include "tests/splat/splat_level_fixture.h"
 
-#include "render/splat/splat_level.h"
+#include "render/views/splat/splat_private.h"
 
 /* The support is `h`, 2.1 spacings. */
 static SplatScene level_scene(const double from[3], const double to[3], double fov_deg, double h,
@@ -43,7 +43,7 @@ static void the_field_is_one_inside(void **state)
         assert_float_equal(splat_level_gain(0.21, 0.1, dimensions == 2) * sum, 1, 0.02);
     }
     assert_float_equal(splat_level_gain(0.21, 0.1, false), 1e-3 * kernel_poly6(0, 0.21), 1e-12);
-    assert_float_equal(splat_level_alone(0.2, 0.1, 1), 0, 0);
+    assert_float_equal(splat_level_lone_distance(0.2, 0.1, 1), 0, 0);
 }
 
 /* W(r) V = I at the radius of a ball, whose depth is known. */
@@ -58,7 +58,7 @@ static void one_particle_is_a_ball(void **state)
     const double radius = h * sqrt(1 - cbrt(0.08 / gain));
     int covered = 0;
     assert_float_equal(h, 0.6, 1e-6);
-    assert_float_equal(radius, splat_level_alone(0.08, gain, h), 1e-9);
+    assert_float_equal(radius, splat_level_lone_distance(0.08, gain, h), 1e-9);
     scene.frame.particle_radius = (float)radius;
     for (int i = 0; i < scene.width * scene.height; i++) {
         const SplatHit hit = hit_of(&scene, 0, i % scene.width, i / scene.width);

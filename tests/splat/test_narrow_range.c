@@ -2,7 +2,7 @@
    and what it must keep. */
 #include "tests/splat/splat_fixture.h"
 
-#include "render/splat/narrow_range.h"
+#include "render/views/splat/splat_private.h"
 
 enum { W = 64, H = 48, N = W * H };
 
@@ -64,8 +64,8 @@ static void filter_map(Map *map)
     assert_true(target_create(&target, W, H, &error));
     *splat_def(&def) = map->splat, def.radius = 1;
     def.camera_auto = false, def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
-    frame_make(&map->frame, &(Subject){&def, &world}, &buffers, &target, frame_balls(&def, &buffers, 1),
-               (Covered){0});
+    frame_make(&map->frame, &(Subject){&def, &world}, &buffers, &target, frame_ball_radii(&def, &buffers, 1),
+               (CoveredParts){0});
     memcpy(map->frame.bounds, (float[4]){-1, 1, -1, 1}, sizeof map->frame.bounds);
     const unsigned uniforms = frame_uniforms_create();
     frame_uniforms_update(uniforms, &map->frame, buffers.box_size, buffers.spacing);

@@ -54,8 +54,8 @@ static void pixel_at(const Scene *scene, const double at[3], int pixel[2])
 {
     Camera camera;
     double place[2], depth;
-    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT, (Covered){0},
-                &camera);
+    camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT,
+                (CoveredParts){0}, &camera);
     assert_true(camera_project(&camera, at, WIDTH, HEIGHT, place, &depth));
     pixel[0] = (int)place[0], pixel[1] = (int)place[1];
 }

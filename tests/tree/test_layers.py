@@ -41,17 +41,14 @@ BACKENDS = {"sim/gl/compute", "sim/gl/fragment"}  # other floors know them by na
 RENDER = {
     "frame": "",
     "particles": "frame",
-    "derived": "particles",
-    "plane": "particles",
-    "probe": "frame particles plane",
+    "picking": "frame particles",
+    "water": "frame particles",
     "ui": "frame",
-    "clear": "frame particles",
-    "coarse": "frame",
 }
-VIEWS = own_folders("render", "ViewKind view")
-OVERLAYS = own_folders("render", "OverlayKind overlay")
-RENDER |= {name: "frame particles plane" for name in [*VIEWS, *OVERLAYS]}
-RENDER[""] = " ".join(["frame particles derived plane probe ui clear coarse", *VIEWS, *OVERLAYS])
+VIEWS = own_folders("render/views", "ViewKind view")
+OVERLAYS = own_folders("render/overlays", "OverlayKind overlay")
+RENDER |= {name: "frame particles" for name in [*(f"views/{name}" for name in VIEWS), *(f"overlays/{name}" for name in OVERLAYS)]}
+RENDER[""] = " ".join(RENDER)
 APP = {
     "base": "",
     "run/measure": "base",
@@ -83,14 +80,14 @@ DRAWS_NOTHING = {"base", "run/measure", "scene/yaml", "scene/import", "run/recor
 METHOD_LISTS = ["app/cli/new.c", "sim/world/method.c", "app/scene/presets.c", "app/cli/info.c"]
 
 # What names views beside their folders and app/bench/cases: lists.
-VIEW_LISTS = ["render/views.c", "app/bench/bench_table.c"]
+VIEW_LISTS = ["render/lists.c", "app/bench/bench_table.c"]
 
 # What names overlays beside their folders: the list.
-OVERLAY_LISTS = ["render/overlays.c"]
+OVERLAY_LISTS = ["render/lists.c"]
 
 
 
-# What GLSL includes too: C fills it. Methods, views and backends have their own in a folder of their name.
+# What GLSL includes too: C fills it. Methods, views, overlays and backends have their own in a folder of their name.
 SHADERS = {"sim": "", "sim/gl": "shared sim", "render": "shared render"}
 
 
@@ -113,7 +110,7 @@ def may():
                 own.append("sim/gl")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
             down = [where for where in down if where != "sim/dist" or room == "ranks"]  # no other command needs MPI
-            own_shaders = f"sim/{room}" if floor == "sim" else room
+            own_shaders = f"sim/{room}" if floor == "sim" else "derived" if folder(floor, room) == "render/particles" else room.split("/")[-1]
             blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
             allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks]
     return allowed
@@ -216,7 +213,7 @@ class Layers(unittest.TestCase):
             if name in VIEW_LISTS or name.startswith("app/bench/cases/"):
                 continue
             for view in views - {path.parent.name}:
-                word = (rf'\b(view_{view}|{view}_(def|keys|usual))\b|\bview\.{view}\b|"render/{view}/|'
+                word = (rf'\b(view_{view}|{view}_(def|keys|usual))\b|\bview\.{view}\b|"render/views/{view}/|'
                         rf'\b(view|kind)\b.*"{view}"')
                 found += [f"{name}: {match.group()}" for match in re.finditer(word, path.read_text())]
         self.assertEqual(found, [])
@@ -227,7 +224,7 @@ class Layers(unittest.TestCase):
         for path in sources():
             name = str(path.relative_to(ROOT))
             for overlay in set(OVERLAYS) - {path.parent.name}:
-                word = rf'\b(overlay_{overlay}|{overlay}_(def|keys|usual))\b|\bview\.{overlay}\b|"render/{overlay}/'
+                word = rf'\b(overlay_{overlay}|{overlay}_(def|keys|usual))\b|\bview\.{overlay}\b|"render/overlays/{overlay}/'
                 found += [name for match in re.finditer(word, path.read_text()) if name not in OVERLAY_LISTS]
         self.assertEqual(found, [])
 

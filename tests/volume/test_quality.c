@@ -3,7 +3,7 @@
 
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "render/volume/volume_def.h"
+#include "render/views/volume/volume.h"
 #include "sim/gl/limits.h"
 #include "tests/scene/scene_text.h"
 
@@ -91,7 +91,7 @@ static void windows_draw_drafts(void **state)
     assert_non_null(renderer);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, alone);
-    renderer_set_more(renderer, true);
+    renderer_set_continuous(renderer, true);
     renderer_draw(renderer, &buffers, NULL);
     renderer_read(renderer, moving);
     def.quality = VIEW_GOOD;

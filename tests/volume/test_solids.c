@@ -1,8 +1,7 @@
 /* Solids as voxels: where each pixel shows one, against the shape itself, and who hides whom among fluid. */
 #include "tests/render/solids_fixture.h"
 
-#include "render/volume/solid_voxels.h"
-#include "render/volume/volume.h"
+#include "render/views/volume/volume_private.h"
 
 static const char *const looks[] = {"opaque", "water", "translucent"};
 

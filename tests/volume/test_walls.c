@@ -4,7 +4,7 @@
 #include "tests/volume/still_water.h"
 
 #include "render/frame/camera.h"
-#include "render/volume/volume_def.h"
+#include "render/views/volume/volume.h"
 
 #define SPACING 0.1
 enum { WIDTH = 160, HEIGHT = 120 };
@@ -55,7 +55,7 @@ static float *distances(Scene3 *scene)
     if (!renderer)
         fail_msg("%s", error.message);
     camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT,
-                (Covered){0, 0}, &scene->camera);
+                (CoveredParts){0, 0}, &scene->camera);
     float *depth = calloc(WIDTH * HEIGHT, sizeof *depth);
     assert_non_null(depth);
     renderer_draw(renderer, &buffers, NULL);

@@ -362,7 +362,7 @@ static bool start_simulator(ComparedRun *member, const SimulatorSetup *how, Erro
         return false;
     if (!world_on_gpu(def) &&
         !(member->upload = upload_create(compare_simulated_particles(def),
-                                         upload_of_worlds(compare_simulated_attributes(def)), error)))
+                                         upload_attributes(compare_simulated_attributes(def)), error)))
         return false;
     SimulatorSetup setup = *how;
     setup.scene = &member->scene;
@@ -441,7 +441,7 @@ static bool is_fresh(const ComparedRun *member)
     if (member->prefetch)
         return prefetch_has_new(member->prefetch);
     return simulator_on_gpu(member->simulator) ? simulator_fresh(member->simulator)
-                                               : upload_fresh(member->upload);
+                                               : upload_has_new(member->upload);
 }
 
 bool compare_has_new(CompareRuns *compared)

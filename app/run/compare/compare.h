@@ -7,7 +7,7 @@
 #include "app/run/recording/sim_command.h"
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
-#include "render/frame/title.h"
+#include "render/frame/passes.h"
 #include "sim/gl/particle_buffers.h"
 #include "sim/matter/world_def.h"
 

@@ -1,6 +1,6 @@
 #include "app/run/compare/panel_pictures.h"
 
-#include "render/frame/overlay.h"
+#include "render/frame/view.h"
 
 #include <math.h>
 #include <string.h>
@@ -12,7 +12,7 @@ void missing_attributes_add(MissingAttributes *missing, const Panels *panels,
     missing->drawn++;
     for (int i = 0; i < missing->panels; i++) {
         struct PanelMissing *of = &missing->of[i];
-        const char *words = renderer_lacks(panels_renderer(panels, i));
+        const char *words = renderer_missing(panels_renderer(panels, i));
         if (words && of->pictures++ == 0) {
             of->first = states[i]->time;
             snprintf(of->words, sizeof of->words, "%s", words);
@@ -91,7 +91,7 @@ static bool uploads_fit(PictureSource *source, Error *error)
         !(source->upload_interpolated = upload_create(2 * info.capacity, source->attributes, error)))
         return false;
     if (!world_shares(source->session->world) &&
-        !(source->upload = upload_create(info.capacity, upload_of_worlds(source->attributes), error)))
+        !(source->upload = upload_create(info.capacity, upload_attributes(source->attributes), error)))
         return false;
     source->room = info.capacity;
     return true;
@@ -181,7 +181,7 @@ static bool take_between(PictureSource *source, double time, Error *error)
         !state_copy_reserve(between, source->before.state.count + source->after.state.count, attributes) ||
         !interpolate_states(&source->before, &source->after, session->scene.world.periodic, time, between))
         return error_set(error, "out of memory for a picture between two states");
-    return upload_arrays(source->upload_interpolated, &between->arrays, &between->state, error) &&
+    return upload_write_arrays(source->upload_interpolated, &between->arrays, &between->state, error) &&
            upload_take(source->upload_interpolated, &source->state);
 }
 
@@ -209,7 +209,7 @@ bool panel_pictures_watch(PanelPictures *pictures, const Session *session, doubl
     source->taken = false; /* not drawn */
     for (int i = 0; i < panels_count(pictures->panels); i++)
         if (&pictures->sources[pictures->source_of[i]] == source)
-            panels_take(pictures->panels, i, &source->state);
+            panels_add_state(pictures->panels, i, &source->state);
     return true;
 }
 
@@ -225,7 +225,7 @@ static void see(void *user, const ParticleBuffers *particles)
     const PanelPictures *pictures = watched->pictures;
     for (int i = 0; i < panels_count(pictures->panels); i++)
         if (&pictures->sources[pictures->source_of[i]] == watched->source)
-            panels_take(pictures->panels, i, particles);
+            panels_add_state(pictures->panels, i, particles);
     watched->source->taken = false; /* not drawn */
 }
 
@@ -333,7 +333,7 @@ static const uint8_t *pixel(const Image *image, int x, int y)
 
 bool panel_pictures_same(const PanelPictures *pictures, int a, int b, const Title titles[])
 {
-    const PanelPlace *one = &panels_places(pictures->panels)[a], *other = &panels_places(pictures->panels)[b];
+    const PanelRect *one = &panels_rects(pictures->panels)[a], *other = &panels_rects(pictures->panels)[b];
     bool same = one->width == other->width && one->height == other->height;
     const int rows_a = title_rows(&titles[a], one->height), rows_b = title_rows(&titles[b], other->height);
     for (int y = rows_a > rows_b ? rows_a : rows_b; same && y < one->height; y++)

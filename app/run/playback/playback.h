@@ -117,7 +117,7 @@ bool prefetch_status(Prefetch *prefetch, PrefetchStatus *status, Error *error);
 /* Waits until the last prefetch_seek is finished. */
 bool prefetch_wait(Prefetch *prefetch, PrefetchStatus *status, Error *error);
 
-/* See upload_fresh and upload_take. */
+/* See upload_has_new and upload_take. */
 bool prefetch_has_new(Prefetch *prefetch);
 bool prefetch_take(Prefetch *prefetch, ParticleBuffers *out);
 

@@ -1,8 +1,8 @@
 #include "app/run/playback/playback.h"
 
 #include "app/files/snapshot.h"
-#include "render/derived/derived.h"
-#include "render/frame/overlay.h"
+#include "render/frame/view.h"
+#include "render/particles/derived.h"
 #include "sim/gl/particle_buffers.h"
 
 #include <math.h>
@@ -226,7 +226,7 @@ bool recorded_read(Recorded *recorded, size_t index, unsigned attributes, StateC
 static unsigned lacks_scalar(const Recorded *recorded, Scalar scalar)
 {
     const ParticleWants wants = {.scalars = SCALAR_BIT(scalar)};
-    const unsigned needs = wants_attributes(&wants);
+    const unsigned needs = particle_wants_attributes(&wants);
     return needs & ~(recorded->attributes | (needs & PARTICLE_SCALAR(SCALAR_BORN) ? PARTICLE_ID : 0));
 }
 
@@ -250,7 +250,7 @@ static unsigned lacks_size(const Recorded *recorded, const ViewDef *view)
 
 static OverlayShow *show_of(const ViewDef *view, const OverlayKind *kind)
 {
-    return overlay_own(view, kind);
+    return overlay_own_settings(view, kind);
 }
 
 static unsigned lacks_overlay(const Recorded *recorded, const ViewDef *view, const OverlayKind *kind)
@@ -259,7 +259,7 @@ static unsigned lacks_overlay(const Recorded *recorded, const ViewDef *view, con
     if (!show_of(view, kind)->show)
         return 0;
     kind->wants(view, &wants);
-    return wants_attributes(&wants) & ~recorded->attributes;
+    return particle_wants_attributes(&wants) & ~recorded->attributes;
 }
 
 /* ---- in words ---- */

@@ -164,7 +164,7 @@ static bool show(Prefetch *prefetch, const KeptStep *kept, Error *error)
     if (!goes_on || prefetch->shown == kept->index)
         return goes_on;
     prefetch->shown = kept->index;
-    return upload_arrays(prefetch->upload, &kept->copy.arrays, &kept->copy.state, error);
+    return upload_write_arrays(prefetch->upload, &kept->copy.arrays, &kept->copy.state, error);
 }
 
 /* Updates the status, with the mutex locked: the requested place in the file, even if the step cannot be
@@ -448,12 +448,12 @@ bool prefetch_wait(Prefetch *prefetch, PrefetchStatus *status, Error *error)
 
 bool prefetch_has_new(Prefetch *prefetch)
 {
-    return upload_fresh(prefetch->upload);
+    return upload_has_new(prefetch->upload);
 }
 
 bool prefetch_take(Prefetch *prefetch, ParticleBuffers *out)
 {
-    if (prefetch->before && !upload_fresh(prefetch->upload))
+    if (prefetch->before && !upload_has_new(prefetch->upload))
         return upload_take(prefetch->before, out);
     upload_destroy(prefetch->before);
     prefetch->before = NULL;

@@ -1,7 +1,7 @@
 /* Widget of a live key. */
 #include "app/scene/keys.h"
 #include "app/window/panel/panel_private.h"
-#include "render/frame/legend.h"
+#include "render/frame/passes.h"
 #include "render/frame/view.h"
 #include "sim/base/color.h"
 #include "sim/base/control_points.h"

@@ -1,4 +1,4 @@
-// Smooths the rim between a pane of the box and the fluid's top, for render/splat/panes.h: a pixel belongs to the pane if most
+// Smooths the rim between a pane of the box and the fluid's top, for render/views/splat/splat_private.h: a pixel belongs to the pane if most
 // pixels around do. Thus single spheres that end before the wall, or reach the wall, leave no dots.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"

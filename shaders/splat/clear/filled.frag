@@ -1,4 +1,4 @@
-// The thickness of render/splat/thickness.h if fluid filled the box up to the first solid: the field of such a fluid along the
+// The thickness of render/views/splat/splat_private.h if fluid filled the box up to the first solid: the field of such a fluid along the
 // ray. Beside a wall the field is below 1, beside an edge even lower, like the particles' field.
 #include "common/frame.glsl"
 #include "common/within_box.glsl"

@@ -1,4 +1,4 @@
-// The surface cut at the box, for render/splat/panes.h: where a ray enters fluid through a wall, the surface is the wall.
+// The surface cut at the box, for render/views/splat/splat_private.h: where a ray enters fluid through a wall, the surface is the wall.
 #include "common/frame.glsl"
 #include "shaders/splat/splat_bindings.h"
 #include "common/within_box.glsl"

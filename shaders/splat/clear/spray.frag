@@ -1,4 +1,4 @@
-// An isolated drop, for render/splat/spray.h: a lens of fluid. The background is a copy of the picture so far, at the point where
+// An isolated drop, for render/views/splat/splat_private.h: a lens of fluid. The background is a copy of the picture so far, at the point where
 // the ray from the drop leaves the box.
 #define FLOOR_SHADOW 1
 #include "common/frame.glsl"

@@ -1,4 +1,4 @@
-// Lists the isolated drops, in the particles' order, and writes the drawing command, for render/splat/spray.c. One workgroup does
+// Lists the isolated drops, in the particles' order, and writes the drawing command, for render/views/splat/splat_shapes.c. One workgroup does
 // all the work.
 #define ELLIPSOID 1
 #include "common/frame.glsl"

@@ -1,4 +1,4 @@
-// A particle's contribution to the fluid's thickness, render/splat/thickness.h: its field along the whole ray, if the centre is
+// A particle's contribution to the fluid's thickness, render/views/splat/splat_private.h: its field along the whole ray, if the centre is
 // in front of the solid.
 #include "common/frame.glsl"
 #include "common/sphere.glsl"

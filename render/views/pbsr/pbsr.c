@@ -1,0 +1,713 @@
+#include "render/views/pbsr/pbsr.h"
+
+#include "render/particles/particles.h"
+#include "render/views/pbsr/pbsr_layers.h"
+#include "render/views/pbsr/pbsr_sets.h"
+#include "sim/base/key_rows.h"
+#include "sim/base/parallel.h"
+#include "sim/base/stage.h"
+#include "sim/gl/debug.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const PbsrDef pbsr_usual = {.repeat = 64, .budget = 40, .cell = 0.75, .points = 1.2e7, .seed = 1};
+
+/* The layer of an empty list. */
+static const PbsrLayer usual_layer = {
+    .of = PBSR_SURFACE, .level = 0.5, .opacity = 0.4, .file = "none", .axis = {0, 1, 0}};
+
+static const char *const sampler_names[] = {
+    [PBSR_SAMPLER_AUTO] = "auto", [PBSR_SAMPLER_WALK] = "walk", [PBSR_SAMPLER_TRIANGLES] = "triangles", NULL};
+
+static const char *interpolation_name(int index)
+{
+    return index == PBSR_BY_ITSELF ? "auto"
+                                   : volume_interpolation_name((VolumeInterpolation)(index - PBSR_BY_GRID));
+}
+
+const char *pbsr_layer_name(int index)
+{
+    static const char *const names[PBSR_SCALARS] = {
+        [PBSR_SURFACE] = "surface", [PBSR_VOLUME] = "volume",   [PBSR_SLICE_X] = "slice_x",
+        [PBSR_SLICE_Y] = "slice_y", [PBSR_SLICE_Z] = "slice_z", [PBSR_SPHERE] = "sphere",
+        [PBSR_TORUS] = "torus",     [PBSR_GYROID] = "gyroid",   [PBSR_WAVE] = "wave",
+        [PBSR_SOLIDS] = "solids"};
+    return index < PBSR_SCALARS ? names[index] : scalar_list[index - PBSR_SCALARS].name;
+}
+
+static const char *const method_names[] = {
+    [PBSR_AUTO] = "auto", [PBSR_CPU] = "cpu", [PBSR_GPU] = "gpu", NULL};
+
+static void layer_init(void *element, int index)
+{
+    (void)index;
+    *(PbsrLayer *)element = usual_layer;
+}
+
+#define AT(field)    offsetof(PbsrDef, field)
+#define LAYER(field) offsetof(PbsrLayer, field)
+
+/* clang-format off */
+const Key pbsr_keys[] = {
+    MAPPING("view.pbsr", "of the view pbsr: transparent layers of points, without sorting"),
+    LIST("view.pbsr.layers", 0, 0, PBSR_LAYERS_MAX, AT(layers), AT(layer_count), PbsrLayer, layer_init,
+         "surfaces, slices and volume, which may cross each other; none: the fluid's surface alone"),
+    CHOICE("view.pbsr.layers[].of", L | KEY_INDEX, pbsr_layer_name, LAYER(of),
+           "surface: the fluid's; volume: the fluid itself; slice_x, slice_y, slice_z: a plane across that axis; sphere, torus, gyroid, wave: such a surface about the middle of the box; solids: those of the scene, which are opaque without such a layer; a scalar: where it has the level. With a file surface, volume and slices are of its data"),
+    TEXT("view.pbsr.layers[].file", 0, PBSR_FILE_SIZE, LAYER(file), NULL, "volume data that the layer is of instead of the fluid: its header, a small .yaml beside the raw values, found from the scene's folder"),
+    CHOICE("view.pbsr.layers[].interpolation", L | KEY_INDEX, interpolation_name, LAYER(interpolation), "of a file: between its values; auto: trilinear. Of the fluid's surface with sampler walk: between the values of the grid; auto: the sum over the particles themselves"),
+    CHOICE_OF("view.pbsr.layers[].sampler", L | KEY_INDEX, sampler_names, LAYER(sampler), "how points come onto a surface. walk: by a Brownian walk on it, on the fluid on the sum over its particles; triangles: by marching cubes; auto: walk, and triangles on the fluid"),
+    VEC3("view.pbsr.layers[].position", L, "m", -1e6, 1e6, LAYER(position), "of what is no fluid: moved by that, in the box's frame; no points are made anew"),
+    VEC3("view.pbsr.layers[].axis", L, "", -1000, 1000, LAYER(axis), "of what is no fluid: what it is turned about, through its middle"),
+    NUMBER("view.pbsr.layers[].angle", L, "degrees", -360, 360, LAYER(angle_deg), "of what is no fluid: how far it is turned"),
+    NUMBER("view.pbsr.layers[].level", L, "", -1e30, 1e30, LAYER(level),
+           "of surface: of the field, which is 0.5 where a fluid ends at a plane; of a slice: its place on the axis, m, in the box's frame; of a scalar or a file: in its unit; m: radius of sphere and torus, period of gyroid, height of wave"),
+    NUMBER("view.pbsr.layers[].opacity", L, "", 0, 1, LAYER(opacity),
+           "of what is seen from the front, tilted it is more; of volume: of fluid one spacing deep, or of a file's greatest value as deep as its shortest side"),
+    COLOR("view.pbsr.layers[].color", L, LAYER(color), NULL, "sRGB: [red, green, blue], each 0 to 1; black: what view.color_by says, of a formula where it is in the fluid; of a file: its values; of solids: their own"),
+    INTEGER("view.pbsr.repeat", L, 1, 4096, AT(repeat), "sets of points that a picture is the mean of, once nothing moves: noise falls with its root"),
+    INTEGER("view.pbsr.moving", L, 0, 4096, AT(moving), "the same while something moves in the window or in bench, and what each picture at rest adds; 0: by the budget"),
+    NUMBER("view.pbsr.budget", L | O, "ms", 0, 1e5, AT(budget), "of wall time for the sets of a picture, where moving is 0 and the CPU projects; the GPU has eight sets"),
+    NUMBER("view.pbsr.cell", L | O, "spacings", 0, 10, AT(cell), "side of a cell of the grid on which layers are found"),
+    NUMBER("view.pbsr.curved", L, "", 0, 100, AT(curved), "of the fluid's surfaces by triangles: where one is bent there are up to so many times as many points more, so that drops and rims stand out; density is 1 + curved min(h / R, 1) times what opacity says, with the support radius h and the radius of curvature R"),
+    NUMBER("view.pbsr.edges", L, "", 0, 100, AT(edges), "of surfaces: where one is seen edge on there are so many times as many points more, so that outlines stand out; by theta from the normal density is 1 + edges (1 - cos theta)^4 times what opacity says"),
+    NUMBER("view.pbsr.points", L, "", 1e5, 2e9, AT(points), "of a layer that does not change with the fluid the points that are kept, 24 bytes each: they are dealt to as many of the sets of repeat, at least one, which may have 48 million whatever this says; all solids share those of one layer"),
+    CHOICE_OF("view.pbsr.method", L | KEY_INDEX | KEY_REBUILD, method_names, AT(method), "who strews and projects points, and walks on the surfaces of formulas; auto: the CPU on a software driver, whose memory is the CPU's, else the GPU"),
+    INTEGER("view.pbsr.seed", L, 0, 1000000000, AT(seed), "of the points: the same gives the same picture"),
+    KEYS_END,
+};
+/* clang-format on */
+
+const ViewGrade pbsr_grades[] = {
+    {"view.pbsr.repeat", {"4", "16", "64", "256"}, NULL, NULL, true},
+    {"view.pbsr.cell", {"2", "1.5", "1", "0.75", "0.5"}, NULL, NULL, false},
+    {0},
+};
+
+PbsrDef *pbsr_def(const ViewDef *def)
+{
+    return view_own_settings(def, &view_pbsr);
+}
+
+/* ViewKind.files */
+static int pbsr_files(const ViewDef *def, ViewFile files[VIEW_FILES_MAX])
+{
+    PbsrDef *own = pbsr_def(def);
+    int count = 0;
+    for (int i = 0; i < own->layer_count; i++) {
+        PbsrLayer *layer = &own->layers[i];
+        if (!pbsr_is_of_file(layer))
+            continue;
+        ViewFile *file = &files[count++];
+        *file = (ViewFile){.name = layer->file, .data = &layer->data};
+        snprintf(file->key, sizeof file->key, "pbsr.layers[%d].file", i);
+        if (layer->of > PBSR_SLICE_Z)
+            file->wrong = "of a file a layer is a surface, volume, slice_x, slice_y or slice_z; leave `file` "
+                          "out for what is of the fluid or a formula";
+    }
+    return count;
+}
+
+bool pbsr_is_of_file(const PbsrLayer *layer)
+{
+    return *layer->file && strcmp(layer->file, "none") != 0;
+}
+
+VolumeInterpolation pbsr_interpolation(const PbsrLayer *layer)
+{
+    return layer->interpolation == PBSR_BY_ITSELF
+               ? VOLUME_TRILINEAR
+               : (VolumeInterpolation)(layer->interpolation - PBSR_BY_GRID);
+}
+
+bool pbsr_is_rigid(const PbsrLayer *layer)
+{
+    return pbsr_is_of_file(layer) || (layer->of >= PBSR_SPHERE && layer->of <= PBSR_WAVE);
+}
+
+bool pbsr_has_color(const PbsrLayer *layer)
+{
+    return layer->color[0] > 0 || layer->color[1] > 0 || layer->color[2] > 0;
+}
+
+bool pbsr_takes_fluid_colors(const PbsrLayer *layer)
+{
+    return pbsr_is_rigid(layer) && !pbsr_is_of_file(layer) && !pbsr_has_color(layer);
+}
+
+int pbsr_layers(const PbsrDef *def, PbsrLayer layers[PBSR_LAYERS_MAX])
+{
+    layers[0] = usual_layer;
+    memcpy(layers, def->layers, (size_t)def->layer_count * sizeof *layers);
+    return def->layer_count > 0 ? def->layer_count : 1;
+}
+
+/* The scalars of the layers, SCALAR_BIT. */
+static uint64_t pbsr_scalars(const PbsrDef *def)
+{
+    uint64_t scalars = 0;
+    for (int i = 0; i < def->layer_count; i++)
+        if (def->layers[i].of >= PBSR_SCALARS)
+            scalars |= SCALAR_BIT(def->layers[i].of - PBSR_SCALARS);
+    return scalars;
+}
+
+/* Fixed number: timings from a GPU come too late for a budget. */
+enum { GPU_SETS = 8 };
+
+/* Number of sets of rigid layers while looks change, if the def gives none. */
+enum { FEW_SETS = 8 };
+
+/* Inputs of the layers: layers stay valid while these are equal. */
+typedef struct LayersFrom {
+    PbsrDef def;
+    uint64_t step;
+    double time;
+    size_t count;
+    unsigned buffer;
+    size_t offset;
+    Scalar color;
+    double box_size[3], spacing, support;
+    WorldDef world; /* a new scene may have equal count, buffer and time */
+} LayersFrom;
+
+/* Inputs of a picture: while equal, further sets are added to the mean. */
+typedef struct PictureFrom {
+    LayersFrom layers;
+    ViewDef def;
+    Camera camera;
+    float box_to_world[16];
+    double range[2];
+    unsigned target;
+    bool plain, split, coarse;
+} PictureFrom;
+
+typedef struct PbsrView {
+    FluidLayers layers;
+    FluidWalk steps[PBSR_LAYERS_MAX]; /* used by layers with a walk on the fluid */
+    RigidLayer rigid[PBSR_LAYERS_MAX];
+    SolidLayers solids;
+    Average average;
+    Projector project; /* zero if the CPU projects */
+    SurfaceGpu walks;  /* zero if the CPU projects; makes the points of rigid layers */
+    ShadowCaster casting;
+    LayersFrom made;
+    PictureFrom drawn;
+    bool valid;     /* `made` and `drawn` are of the last picture */
+    int wanted;     /* sets of a picture at rest */
+    int there;      /* sets for which rigid layers have points */
+    int added;      /* sets of the last picture whose points were not counted */
+    bool uncounted; /* counting points failed: memory was short */
+    char lack[1400], note[1500];
+    size_t lacked; /* length of `lack` */
+    Error trouble;
+} PbsrView;
+
+static void destroy(void *state)
+{
+    PbsrView *view = state;
+    fluid_layers_free(&view->layers);
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++) {
+        fluid_walk_free(&view->steps[i]);
+        rigid_layer_free(&view->rigid[i]);
+    }
+    solid_layers_free(&view->solids);
+    average_destroy(&view->average);
+    if (view->project.program)
+        surface_gpu_destroy(&view->walks);
+    projector_destroy(&view->project);
+    shadow_caster_destroy(&view->casting);
+    free(view);
+}
+
+/* The level of a formula's surface is a length. */
+static bool check(const Subject *subject, const char **key, Error *error)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(pbsr_def(subject->def), said);
+    *key = "view.pbsr.layers";
+    for (int i = 0; i < count; i++)
+        if (!pbsr_is_of_file(&said[i]) && said[i].of >= PBSR_SPHERE && said[i].of <= PBSR_GYROID &&
+            !(said[i].level > 0))
+            return error_set(
+                error, "a layer that is a sphere, a torus or a gyroid has a level above 0: a length in m");
+    const int solids = solid_layers_number(pbsr_def(subject->def));
+    if (solids >= 0 && !pbsr_has_color(&said[solids]) &&
+        solid_layers_colors(subject->world) > SOLID_COLORS_MAX)
+        return error_set(error,
+                         "the solids have %d colours, and a layer of solids shows %d: give the layer a color",
+                         solid_layers_colors(subject->world), SOLID_COLORS_MAX);
+    return true;
+}
+
+static bool projects_on_cpu(const PbsrDef *def)
+{
+    return def->method == PBSR_CPU || (def->method == PBSR_AUTO && gl_renderer_is_software());
+}
+
+/* The GPU that projects also makes the kept points. */
+static bool create_gpu(PbsrView *view, Error *error)
+{
+    if (!projector_create(&view->project, error))
+        return false;
+    surface_gpu_create(&view->walks);
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++)
+        view->rigid[i].gpu = &view->walks;
+    return true;
+}
+
+static void *create(const Subject *subject, Error *error)
+{
+    PbsrView *view = calloc(1, sizeof *view);
+    if (!view) {
+        error_set(error, "out of memory for the view");
+        return NULL;
+    }
+    const bool by_cpu = projects_on_cpu(pbsr_def(subject->def));
+    if (average_create(&view->average, subject, by_cpu, error) && (by_cpu || create_gpu(view, error)) &&
+        shadow_caster_create(&view->casting, NULL, error))
+        return view;
+    destroy(view);
+    return NULL;
+}
+
+static void cast(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    const PbsrView *view = state;
+    (void)frame;
+    shadow_caster_draw(&view->casting, particles);
+}
+
+/* ---- inputs of a picture ---- */
+
+/* For structs zeroed first, so that padding is 0. */
+static bool same_bytes(const void *a, const void *b, size_t size)
+{
+    return memcmp(a, b, size) == 0;
+}
+
+static void layers_from(LayersFrom *from, const ParticleBuffers *particles, const Frame *frame)
+{
+    memset(from, 0, sizeof *from);
+    memcpy(&from->def, pbsr_def(frame->def), sizeof from->def);
+    from->def.repeat = from->def.moving = 0;
+    from->def.budget = from->def.points = from->def.edges = from->def.seed = 0;
+    for (int i = 0; i < from->def.layer_count; i++) { /* a new pose needs no new layer */
+        PbsrLayer *layer = &from->def.layers[i];
+        layer->angle_deg = 0;
+        memset(layer->position, 0, sizeof layer->position);
+        memset(layer->axis, 0, sizeof layer->axis);
+    }
+    from->step = particles->step;
+    from->time = particles->time;
+    from->count = particles->count;
+    from->buffer = particles->position.buffer;
+    from->offset = particles->position.offset;
+    from->color = frame->by_fluid ? SCALAR_FLUID : view_color_by(frame->def);
+    memcpy(from->box_size, particles->box_size, sizeof from->box_size);
+    from->spacing = particles->spacing;
+    from->support = particles->support_radius;
+    memcpy(&from->world, frame->world, sizeof from->world);
+}
+
+static void picture_from(PictureFrom *from, const LayersFrom *layers, const Frame *frame)
+{
+    memset(from, 0, sizeof *from);
+    memcpy(&from->layers, layers, sizeof *layers);
+    memcpy(&from->def, frame->def, sizeof from->def);
+    from->camera = frame->camera;
+    memcpy(from->box_to_world, frame->box_to_world, sizeof from->box_to_world);
+    memcpy(from->range, frame->range, sizeof from->range);
+    from->target = frame->target->number;
+    from->plain = frame->plain;
+    from->split = frame->overlay_depth != 0;
+    from->coarse = frame->overlay_depth_coarse;
+}
+
+static void turn_of(const PbsrLayer *said, float turn[3][3])
+{
+    double of[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    if (pbsr_is_rigid(said))
+        rigid_rotation(said, of);
+    for (int i = 0; i < 9; i++)
+        turn[i / 3][i % 3] = (float)of[i / 3][i % 3];
+}
+
+static bool leaves_box(const PbsrDef *def, const double box[3])
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    for (int i = 0; i < count; i++)
+        if (said[i].of == PBSR_SOLIDS || rigid_leaves_box(&said[i], box))
+            return true;
+    return false;
+}
+
+static void find_looks(const PbsrDef *def, const WorldDef *world, bool by_gpu,
+                       AverageLook looks[AVERAGE_NUMBERS_MAX])
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    memset(looks, 0, AVERAGE_NUMBERS_MAX * sizeof *looks);
+    for (int i = 0; i < count; i++) {
+        looks[i].own = pbsr_has_color(&said[i]);
+        looks[i].lit = said[i].of != PBSR_VOLUME && (said[i].of < PBSR_SLICE_X || said[i].of > PBSR_SLICE_Z);
+        looks[i].by_map = pbsr_is_of_file(&said[i]);
+        turn_of(&said[i], looks[i].turn);
+        for (int k = 0; k < 3; k++)
+            looks[i].color[k] = (float)said[i].color[k];
+    }
+    solid_layers_fill_looks(def, world, looks);
+    looks[OUTSIDE_NUMBER] = (AverageLook){
+        .own = true, .color = {0.5F, 0.5F, 0.5F}, .lit = true, .turn = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (int i = 0; by_gpu && i < count; i++)
+        if (pbsr_takes_fluid_colors(&said[i])) {
+            looks[i].own = true;
+            memcpy(looks[i].color, looks[OUTSIDE_NUMBER].color, sizeof looks[i].color);
+        }
+}
+
+/* If no further pictures follow, as for a file, rigid layers make all sets at once. */
+static void hurry(PbsrView *view, const PbsrDef *def, const Frame *frame)
+{
+    const int moving = !frame->more ? 0 : def->moving > 0 ? def->moving : FEW_SETS;
+    for (int i = 0; i < PBSR_LAYERS_MAX; i++)
+        view->rigid[i].moving = moving;
+    view->solids.moving = moving;
+}
+
+static bool layers_wait(const PbsrView *view)
+{
+    bool any = false;
+    for (int k = 0; k < view->layers.count; k++)
+        any |= rigid_layer_is_unfinished(&view->rigid[k]);
+    for (int k = 0; k < view->solids.count; k++)
+        any |= rigid_layer_is_unfinished(&view->solids.rigid[k]);
+    return any;
+}
+
+/* Updates the parts of layers that depend on the sight. */
+static bool see_layers(PbsrView *view, const ParticleBuffers *particles, const PbsrDef *def,
+                       const Frame *frame)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const int count = pbsr_layers(def, said);
+    hurry(view, def, frame);
+    for (int i = 0; i < count; i++) {
+        if (!layer_make_shares(&view->layers.layers[i], &view->average.sight))
+            return error_set(&view->trouble, "no memory for the points of a layer");
+        fluid_walk_select(&view->steps[i], &said[i], &view->layers.layers[i], &view->average.sight);
+        (void)rigid_layer_update(&view->rigid[i], &said[i], def, particles->box_size, (unsigned)i,
+                                 &view->average.sight); /* a layer that fails is left out, and the note
+                                                           says so */
+        rigid_layer_set_colors(&view->rigid[i], &said[i], &view->layers);
+        if (view->project.program &&
+            !projector_upload(&view->project, i, layer_pieces(&view->rigid[i], &view->layers.layers[i]),
+                              &view->rigid[i], &view->trouble))
+            return false;
+    }
+    solid_layers_update(&view->solids, def, particles->time, frame, &view->average.sight);
+    for (int i = 0; view->project.program && i < view->solids.count; i++)
+        if (!projector_upload_solid(&view->project, i, &view->solids.rigid[i], &view->trouble))
+            return false;
+    return true;
+}
+
+static bool make_layers(PbsrView *view, const ParticleBuffers *particles, const Frame *frame, Scalar color)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    const PbsrDef *def = pbsr_def(frame->def);
+    if (!fluid_layers_make(&view->layers, def, particles, color, frame->slab, &view->trouble))
+        return false;
+    for (int i = 0; i < pbsr_layers(def, said); i++)
+        fluid_walk_begin(&view->steps[i], &said[i], &view->layers, particles, frame->slab,
+                         view->project.program != 0);
+    return true;
+}
+
+/* Updates layers and sums for this picture; valid results of the last picture stay. */
+static bool follow(PbsrView *view, const ParticleBuffers *particles, const Frame *frame)
+{
+    AverageLook looks[AVERAGE_NUMBERS_MAX];
+    LayersFrom layers;
+    PictureFrom picture;
+    layers_from(&layers, particles, frame);
+    picture_from(&picture, &layers, frame);
+    const bool same_layers = view->valid && same_bytes(&layers, &view->made, sizeof layers);
+    if (view->valid && same_bytes(&picture, &view->drawn, sizeof picture) && !layers_wait(view))
+        return true;
+    view->valid = false;
+    find_looks(pbsr_def(frame->def), frame->world, view->project.program != 0, looks);
+    if ((!same_layers && !make_layers(view, particles, frame, layers.color)) ||
+        !average_begin(&view->average, frame, looks, leaves_box(pbsr_def(frame->def), particles->box_size),
+                       &view->trouble) ||
+        !see_layers(view, particles, pbsr_def(frame->def), frame))
+        return false;
+    memcpy(&view->made, &layers, sizeof layers);
+    memcpy(&view->drawn, &picture, sizeof picture);
+    return view->valid = true;
+}
+
+/* ---- sets of a picture ---- */
+
+typedef struct ProjectJob {
+    const PbsrView *view;
+    uint64_t seed;
+    int first; /* number of the set in the buffer's first place */
+} ProjectJob;
+
+static void project_some(void *context, size_t begin, size_t end)
+{
+    const ProjectJob *projecting = context;
+    const PbsrView *view = projecting->view;
+    for (size_t i = begin; i < end; i++) {
+        const SetImage image = average_image(&view->average, (int)i);
+        set_image_clear(&image, &view->average.sight);
+        const uint64_t set = (uint64_t)projecting->first + i;
+        for (int k = 0; k < view->layers.count; k++) {
+            if (view->steps[k].walks)
+                rigid_layer_project(&view->steps[k].rigid, projecting->seed, set, &image);
+            else
+                layer_project(&view->layers.layers[k], projecting->seed, set, &view->average.sight, &image);
+            rigid_layer_project(&view->rigid[k], projecting->seed, set, &image);
+        }
+        for (int k = 0; k < view->solids.count; k++)
+            rigid_layer_project(&view->solids.rigid[k], projecting->seed, set, &image);
+    }
+}
+
+static void walk_on_fluid(PbsrView *view, int count, const PbsrDef *def)
+{
+    PbsrLayer said[PBSR_LAYERS_MAX];
+    pbsr_layers(def, said);
+    for (int i = 0; i < view->layers.count; i++)
+        fluid_walk_sample(&view->steps[i], &said[i], &view->layers, (unsigned)i, def->seed,
+                          view->average.count, count);
+}
+
+static void project_sets(PbsrView *view, int count, int seed)
+{
+    const int first = view->average.count;
+    ProjectJob projecting = {view, (uint64_t)seed, first};
+    const ProjectorSets sets = {
+        view->layers.layers, view->rigid, &view->solids, view->layers.count, seed, first, count};
+    if (view->project.program)
+        projector_run(&view->project, &view->average, &sets);
+    else
+        parallel_ranges(parallel_processors(), (size_t)count, 1, project_some, &projecting);
+}
+
+static void add_sets(PbsrView *view, int count, const Frame *frame)
+{
+    GL_STAGE(frame->timer, STAGE_VOXELIZE)
+    walk_on_fluid(view, count, pbsr_def(frame->def));
+    for (int band = 0; average_band(&view->average, band); band++) {
+        GL_STAGE(frame->timer, STAGE_BLEND)
+        project_sets(view, count, pbsr_def(frame->def)->seed);
+        GL_STAGE(frame->timer, STAGE_SHADE)
+        average_add(&view->average, count, frame);
+    }
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+static bool walks_on_fluid(const PbsrView *view)
+{
+    for (int i = 0; i < view->layers.count; i++)
+        if (view->steps[i].walks)
+            return true;
+    return false;
+}
+
+/* Adds as many sets at a time as there are threads; one set if a walk on the fluid uses all threads. The
+   first sets are drawn at any cost. */
+static void add_in_budget(PbsrView *view, double begun, const Frame *frame)
+{
+    const PbsrDef *def = pbsr_def(frame->def);
+    const int some = walks_on_fluid(view) ? 1
+                                          : least(view->average.capacity,
+                                                  parallel_processors() > 1 ? parallel_processors() : 2);
+    double cost = 0;
+    for (bool first = true;
+         view->average.count < view->there && (first || wall_ms() - begun + cost <= def->budget);
+         first = false) {
+        const double before = wall_ms();
+        add_sets(view, least(some, view->there - view->average.count), frame);
+        cost = wall_ms() - before;
+    }
+}
+
+/* Kept points fill as many sets as memory allows: drawing a set twice adds no information. */
+static void limit_sets(PbsrView *view, const RigidLayer *rigid)
+{
+    if (rigid->sets == 0)
+        return;
+    view->there = least(view->there, rigid->sets);
+    if (!rigid->few)
+        view->wanted = least(view->wanted, rigid->sets);
+}
+
+static void find_sets_wanted(PbsrView *view, const PbsrDef *def)
+{
+    view->wanted = view->there = def->repeat;
+    for (int k = 0; k < view->layers.count; k++)
+        limit_sets(view, &view->rigid[k]);
+    for (int k = 0; k < view->solids.count; k++)
+        limit_sets(view, &view->solids.rigid[k]);
+}
+
+/* Adds a picture's sets to the mean, up to all wanted sets. */
+static void add_wanted(PbsrView *view, double begun, const Frame *frame)
+{
+    const PbsrDef *def = pbsr_def(frame->def);
+    const int some = def->moving > 0 ? def->moving : view->project.program ? GPU_SETS : 0;
+    find_sets_wanted(view, def);
+    if (frame->more && some == 0) {
+        add_in_budget(view, begun, frame);
+        return;
+    }
+    const int capacity =
+        walks_on_fluid(view) ? least(view->average.capacity, FLUID_WALK_SETS) : view->average.capacity;
+    const int most = frame->more ? least(view->average.count + some, view->there) : view->there;
+    while (view->average.count < most)
+        add_sets(view, least(capacity, most - view->average.count), frame);
+}
+
+/* Called once per picture. */
+static void find_lacks(PbsrView *view, const Frame *frame)
+{
+    const PbsrDef *def = pbsr_def(frame->def);
+    const DrawnLayers drawn = {.def = def,
+                               .layers = &view->layers,
+                               .walks = view->steps,
+                               .rigid = view->rigid,
+                               .solids = &view->solids,
+                               .by_gpu = view->project.program != 0,
+                               .sets = view->wanted,
+                               .uncounted = view->uncounted,
+                               .overlay_depth_missing = frame->overlay_depth_missing};
+    view->lacked = layers_describe_missing(&drawn, view->lack, sizeof view->lack);
+}
+
+static void draw(void *state, const ParticleBuffers *particles, const Frame *frame)
+{
+    PbsrView *view = state;
+    const double begun = wall_ms();
+    bool made = false;
+    GL_STAGE(frame->timer, STAGE_VOXELIZE)
+    made = follow(view, particles, frame);
+    if (!made) { /* memory that was there before may be gone: the note says so */
+        view->average.count = 0;
+        return;
+    }
+    const int before = view->average.count;
+    add_wanted(view, begun, frame);
+    if (!frame->counts)
+        view->added = view->average.count - before;
+    view->uncounted =
+        frame->counts && !count_set_points(&view->layers, view->steps, view->rigid, &view->solids,
+                                           &view->average.sight, view->added, frame);
+    find_lacks(view, frame);
+    average_show_back(&view->average, frame);
+}
+
+static void draw_front(void *state, const Frame *frame)
+{
+    const PbsrView *view = state;
+    GL_STAGE(frame->timer, STAGE_SHADE)
+    average_show_front(&view->average, frame);
+}
+
+/* The value under the mouse is of the nearest point of all sets. */
+static ViewProbing probing(const void *state, const ViewDef *def)
+{
+    (void)state;
+    (void)def;
+    return (ViewProbing){.by = VIEW_PROBE_MEAN};
+}
+
+static bool unfinished(const void *state)
+{
+    const PbsrView *view = state;
+    return view->valid && (view->average.count < view->wanted || layers_wait(view));
+}
+
+static const char *missing(const void *state)
+{
+    const PbsrView *view = state;
+    if (view->average.count == 0)
+        return view->trouble.message;
+    return view->lacked > 0 ? view->lack : NULL;
+}
+
+static const char *note(void *state, bool *stale)
+{
+    PbsrView *view = state;
+    (void)stale;
+    const int count = view->average.count;
+    if (count == 0)
+        return view->trouble.message;
+    snprintf(view->note, sizeof view->note, "%s%s%d of %d sets, noise up to %.2g %%", view->lack,
+             view->lacked > 0 ? "; " : "", count, view->wanted, 100 * opacity_noise(0.5, count));
+    return view->note;
+}
+
+/* In the legend, solids of several colours have the first solid's colour. */
+static float part_color(const WorldDef *world, const PbsrLayer *layer, int k)
+{
+    if (layer->of == PBSR_SOLIDS && !pbsr_has_color(layer) && world->solid_count > 0)
+        return world->solids[0].color[k];
+    return (float)layer->color[k];
+}
+
+/* Lists the def's layers in the legend; the colour bar is shown if a layer uses it. */
+static void show(const ViewDef *def, Frame *frame)
+{
+    const PbsrDef *own = pbsr_def(def);
+    frame->part_count = own->layer_count;
+    frame->no_colors = own->layer_count > 0;
+    frame->no_solids = solid_layers_number(own) >= 0;
+    for (int i = 0; i < own->layer_count; i++) {
+        const PbsrLayer *layer = &own->layers[i];
+        FramePart *part = &frame->parts[i];
+        part->own = pbsr_has_color(layer) || layer->of == PBSR_SOLIDS;
+        frame->no_colors &= part->own || pbsr_is_of_file(layer); /* the bar is of the fluid's scalar */
+        for (int k = 0; k < 3; k++)
+            part->color[k] = part_color(frame->world, layer, k);
+        layer_text(layer, part->words);
+    }
+}
+
+static void want(const ViewDef *def, ParticleWants *wants)
+{
+    wants->scalars |= pbsr_scalars(pbsr_def(def));
+}
+
+const ViewKind view_pbsr = {
+    .name = "pbsr",
+    .help = "transparent surfaces, slices and volume of points, without sorting",
+    .radius = 0.5,
+    .keys = pbsr_keys,
+    .grades = pbsr_grades,
+    .def = &pbsr_usual,
+    .def_size = sizeof pbsr_usual,
+    .check = check,
+    .files = pbsr_files,
+    .want = want,
+    .create = create,
+    .destroy = destroy,
+    .show = show,
+    .cast = cast,
+    .draw = draw,
+    .draw_front = draw_front,
+    .unfinished = unfinished,
+    .note = note,
+    .missing = missing,
+    .probing = probing,
+};

@@ -1,0 +1,57 @@
+/* Parts of the view slice: position, handles and keys of the plane; values at positions. */
+#ifndef RENDER_VIEWS_SLICE_SLICE_PRIVATE_H
+#define RENDER_VIEWS_SLICE_SLICE_PRIVATE_H
+
+#include "render/views/slice/slice.h"
+
+#include "render/frame/view.h"
+#include "render/particles/plane.h"
+
+/* The plane of the view slice: position, handles for the mouse, and keys. Pure. */
+
+/* A point of the plane at a time: the def's point, moved by view.slice.play. */
+void slice_point(const SliceDef *def, const double box_size[3], double time, double point[3]);
+
+/* The plane for a state; in two dimensions the scene's own plane. Returns false if the plane misses the
+   box. */
+bool slice_plane(const SliceDef *def, const ParticleBuffers *particles, Plane *plane);
+
+/* As in ViewKind. */
+int slice_handles(const ViewDef *view, const ParticleBuffers *particles, Handle handles[HANDLES_MAX]);
+int slice_drag(const ViewDef *view, const ParticleBuffers *particles, int index, const Handle *taken,
+               const double at[3], ViewSetting settings[VIEW_SETTINGS_MAX]);
+int slice_step(const ViewDef *view, const ParticleBuffers *particles, ViewStep step,
+               ViewSetting settings[VIEW_SETTINGS_MAX]);
+
+/* Values that the last picture of the view slice shows at positions. */
+
+/* The state of the sums. */
+typedef struct PlaneSource {
+    uint64_t step;
+    double time;
+    size_t count;
+    ParticleAttribute position;
+} PlaneSource;
+
+/* The last picture. Zero-initialise. */
+typedef struct SliceProbe {
+    PlaneProbe probe;
+    bool drawn;   /* the plane is in the picture: */
+    uint64_t run; /* number of the sums: changes whenever the sums may change */
+    PlaneSource from;
+    PlaneJob job;
+    Sight sight;
+    bool flat;
+    int part[4];    /* for a flat slice, the slice's rectangle in the picture: x, y from below, width,
+                       height */
+    unsigned shown; /* SLICE_MEAN, ... */
+    double cut;
+    const char *name, *unit; /* name and unit of the quantity shown */
+} SliceProbe;
+
+/* As in ViewKind. */
+bool slice_probe_pick(const SliceProbe *probe, const double pixel[2], double at[3]);
+int slice_probe_read(SliceProbe *probe, const PlaneSum *sum, const double (*at)[3], int count,
+                     ViewProbe *out);
+
+#endif
