@@ -6,12 +6,23 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Room for so many of both, to which the models add. */
 static inline Triangles model_room(size_t vertices, size_t triangles)
 {
     return (Triangles){.vertex = malloc((vertices + 1) * sizeof(float[3])),
                        .triangle = malloc((triangles + 1) * sizeof(uint32_t[3]))};
+}
+
+static inline Triangles model_copy(const Triangles *of)
+{
+    Triangles model = model_room(of->vertex_count, of->triangle_count);
+    model.vertex_count = of->vertex_count;
+    model.triangle_count = of->triangle_count;
+    memcpy(model.vertex, of->vertex, of->vertex_count * sizeof *of->vertex);
+    memcpy(model.triangle, of->triangle, of->triangle_count * sizeof *of->triangle);
+    return model;
 }
 
 static inline uint32_t model_vertex(Triangles *model, double x, double y, double z)
@@ -75,12 +86,44 @@ static inline void model_ball(Triangles *model, double radius, int n)
     }
 }
 
+/* A triangular pyramid from a far tip; `thin`: the distance of the corners of its base from its middle. */
+static inline void model_needle(Triangles *model, const double tip[3], const double base[3], double thin)
+{
+    const double d[3] = {base[0] - tip[0], base[1] - tip[1], base[2] - tip[2]},
+                 flat = sqrt(d[0] * d[0] + d[1] * d[1]), length = sqrt(flat * flat + d[2] * d[2]);
+    const double u[3] = {-d[1] / flat, d[0] / flat, 0},
+                 w[3] = {-d[2] * u[1] / length, d[2] * u[0] / length, flat / length};
+    const uint32_t at = model_vertex(model, tip[0], tip[1], tip[2]);
+    for (int c = 0; c < 3; c++) {
+        const double s = thin * cos(c * 2 * M_PI / 3), t = thin * sin(c * 2 * M_PI / 3);
+        model_vertex(model, base[0] + s * u[0] + t * w[0], base[1] + s * u[1] + t * w[1],
+                     base[2] + s * u[2] + t * w[2]);
+    }
+    for (uint32_t c = 0; c < 3; c++)
+        model_triangle(model, at, at + 1 + (c + 1) % 3, at + 1 + c);
+    model_triangle(model, at + 1, at + 2, at + 3);
+}
+
+/* `count` needles of length 2 in all directions about 0, from corner to corner of a box of about 2. */
+static inline Triangles model_needles(int count, double thin)
+{
+    Triangles model = model_room(4 * (size_t)count, 4 * (size_t)count);
+    for (int i = 0; i < count; i++) {
+        const double up = 1 - 2 * (i + 0.5) / count, out = sqrt(1 - up * up), turn = 2.399963 * i;
+        const double d[3] = {out * cos(turn), out * sin(turn), up},
+                     aside[3] = {0.3 * sin(1.0 * i), 0.3 * sin(2.0 * i), 0.3 * sin(3.0 * i)};
+        model_needle(&model, (double[]){aside[0] - d[0], aside[1] - d[1], aside[2] - d[2]},
+                     (double[]){aside[0] + d[0], aside[1] + d[1], aside[2] + d[2]}, thin);
+    }
+    return model;
+}
+
 static inline MeshShape *model_box_shape(double x, double y, double z)
 {
     Triangles model = model_room(24 * 4, 48);
     MeshState state;
     model_box(&model, (double[3]){0}, (double[3]){x, y, z}, 2);
-    return mesh_shape_make(&model, 1, &state, NULL);
+    return mesh_shape_make(&model, 1, NULL, &state, NULL);
 }
 
 #endif

@@ -85,6 +85,11 @@ bool interrupted(void)
     return first != 0;
 }
 
+int interrupt_exit_code(int code)
+{
+    return first && code == EXIT_USAGE ? EXIT_INTERRUPTED : code;
+}
+
 int interrupt_signal(void)
 {
     return first;

@@ -32,6 +32,9 @@ enum { EXIT_INTERRUPTED = 130 };
    file size limit becomes an error of the write instead of a signal. */
 void interrupt_install(void);
 
+/* The exit code of a command that returned `code`: a scene given up because of a signal is not wrong. */
+int interrupt_exit_code(int code);
+
 /* True after such a signal: loops poll this flag and end early, with a complete file. */
 bool interrupted(void);
 int interrupt_signal(void); /* number of the signal; 0: none */

@@ -89,5 +89,5 @@ int main(int argc, char *argv[])
         return EXIT_USAGE;
     }
     shader_source_set_directory(args.shaders);
-    return standard_streams_flush("slosh", with_gl_errors(run_command(&args)));
+    return standard_streams_flush("slosh", interrupt_exit_code(with_gl_errors(run_command(&args))));
 }

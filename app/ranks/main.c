@@ -107,7 +107,7 @@ int main(int argc, char *argv[])
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &threads);
     backends_add();
     backend_add(&backend_ranks);
-    const int code = command(argc, argv);
+    const int code = interrupt_exit_code(command(argc, argv));
     MPI_Finalize();
     return standard_streams_flush("slosh-dist", code);
 }

@@ -31,3 +31,21 @@ int triangle_crossing(const Triangles *of, size_t t, const double p[3], double *
     *x = (s[0] * of->vertex[c[0]][0] + s[1] * of->vertex[c[1]][0] + s[2] * of->vertex[c[2]][0]) / sum;
     return in ? 1 : -1;
 }
+
+void triangle_slice(const Triangles *of, size_t t, double z, double margin, double *low, double *high)
+{
+    *low = INFINITY, *high = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        const float *a = of->vertex[of->triangle[t][c]], *b = of->vertex[of->triangle[t][(c + 1) % 3]];
+        const double from = a[2] - z, to = b[2] - z, way = to - from;
+        const double ends[2] = {way != 0 ? fmin(fmax((-margin - from) / way, 0), 1) : 0,
+                                way != 0 ? fmin(fmax((margin - from) / way, 0), 1) : 1};
+        if (fmax(from, to) < -margin || fmin(from, to) > margin)
+            continue;
+        for (int e = 0; e < 2; e++) {
+            const double y = a[1] + ends[e] * ((double)b[1] - a[1]);
+            *low = fmin(*low, y - margin);
+            *high = fmax(*high, y + margin);
+        }
+    }
+}

@@ -9,4 +9,8 @@
    counts as moved slightly aside, so that each crossing counts once. */
 int triangle_crossing(const Triangles *of, size_t t, const double p[3], double *x);
 
+/* The range along y of triangle t between z - `margin` and z + `margin`, and `margin` more. Lines along x
+   elsewhere at this z do not cross the triangle. Empty (low above high) if the triangle is not there. */
+void triangle_slice(const Triangles *of, size_t t, double z, double margin, double *low, double *high);
+
 #endif

@@ -1,6 +1,5 @@
 #include "sim/mesh/distance.h"
 
-#include "sim/base/bins.h"
 #include "sim/base/parallel.h"
 #include "sim/mesh/crossing.h"
 
@@ -62,8 +61,8 @@ static void shape(DistanceGrid *grid, const Triangles *of)
 typedef struct Work {
     DistanceGrid *grid;
     const TriangleTree *tree;
-    const Bins *bins; /* of triangles, by layers of the grid along z */
-    int16_t *winding;
+    const Stop *stop;
+    int32_t *winding; /* change on the way to each node from the node before */
 } Work;
 
 static void place_of(const DistanceGrid *grid, int i, int j, int k, double x[3])
@@ -98,7 +97,7 @@ static void coarse_range(void *context, size_t begin, size_t end)
         const int rows = (grid->size[1] - 1) / COARSE + 1;
         const int j = (int)row % rows * COARSE, k = (int)row / rows * COARSE;
         uint32_t near = 0;
-        for (int i = 0; i < grid->size[0]; i += COARSE)
+        for (int i = 0; i < grid->size[0] && !stop_wanted(work->stop); i += COARSE)
             grid->value[index_of(grid, i, j, k)] = nearly_at(work, i, j, k, &near);
     }
 }
@@ -163,7 +162,7 @@ static void fine_range(void *context, size_t begin, size_t end)
     uint32_t near = 0;
     for (size_t layer = begin; layer < end; layer++)
         for (int j = 0; j + 1 < grid->size[1]; j += COARSE)
-            for (int i = 0; i + 1 < grid->size[0]; i += COARSE) {
+            for (int i = 0; i + 1 < grid->size[0] && !stop_wanted(work->stop); i += COARSE) {
                 block_at(grid, i, j, (int)layer * COARSE, &block);
                 fill_block(work, &block, &near);
             }
@@ -171,39 +170,50 @@ static void fine_range(void *context, size_t begin, size_t end)
 
 /* ---- the sign ---- */
 
-static void span_of(const DistanceGrid *grid, const Triangles *of, size_t t, int axis, int *begin, int *end)
+static const double MARGIN = 1e-6; /* cells: more than the rounding error of a crossing */
+
+/* Nodes along an axis from `low` to `high`, m. */
+static void nodes_between(const DistanceGrid *grid, int axis, double low, double high, int *begin, int *end)
 {
-    double low = INFINITY, high = -INFINITY;
-    for (int c = 0; c < 3; c++) {
-        const double x = of->vertex[of->triangle[t][c]][axis];
-        low = fmin(low, x);
-        high = fmax(high, x);
-    }
-    *begin = (int)fmax(0, ceil((low - grid->low[axis]) / grid->cell - 1e-6));
-    *end = (int)fmin(grid->size[axis], floor((high - grid->low[axis]) / grid->cell + 1e-6) + 1);
+    *begin = (int)fmax(0, ceil((low - grid->low[axis]) / grid->cell - MARGIN));
+    *end = (int)fmin(grid->size[axis], floor((high - grid->low[axis]) / grid->cell + MARGIN) + 1);
 }
 
-static BinSpan layers_of(const void *context, size_t t)
-{
-    const Work *work = context;
-    int begin, end;
-    span_of(work->grid, work->tree->of, t, 2, &begin, &end);
-    return (BinSpan){(size_t)begin, (size_t)(end > begin ? end : begin)};
-}
-
-/* Records winding changes where the grid lines of layer k cross triangle t. */
+/* Records winding changes where the grid lines of layer k cross triangle t. Whole numbers: their sum is the
+   same in any order. */
 static void cross_layer(const Work *work, size_t t, int k)
 {
     const DistanceGrid *grid = work->grid;
+    double low, high;
     int begin, end;
-    span_of(grid, work->tree->of, t, 1, &begin, &end);
+    triangle_slice(work->tree->of, t, grid->low[2] + k * grid->cell, MARGIN * grid->cell, &low, &high);
+    if (low > high)
+        return;
+    nodes_between(grid, 1, low, high, &begin, &end);
     for (int j = begin; j < end; j++) {
         double p[3], x = 0;
         place_of(grid, 0, j, k, p);
         const int way = triangle_crossing(work->tree->of, t, p, &x);
         const double at = floor((x - grid->low[0]) / grid->cell) + 1;
         if (way != 0 && at >= 0 && at < grid->size[0])
-            work->winding[index_of(grid, (int)at, j, k)] -= (int16_t)way;
+            __atomic_fetch_sub(&work->winding[index_of(grid, (int)at, j, k)], way, __ATOMIC_RELAXED);
+    }
+}
+
+static void cross_range(void *context, size_t first, size_t last)
+{
+    const Work *work = context;
+    const Triangles *of = work->tree->of;
+    for (size_t t = first; t < last && !stop_wanted(work->stop); t++) {
+        double low = INFINITY, high = -INFINITY;
+        int begin, end;
+        for (int c = 0; c < 3; c++) {
+            low = fmin(low, of->vertex[of->triangle[t][c]][2]);
+            high = fmax(high, of->vertex[of->triangle[t][c]][2]);
+        }
+        nodes_between(work->grid, 2, low, high, &begin, &end);
+        for (int k = begin; k < end; k++)
+            cross_layer(work, t, k);
     }
 }
 
@@ -212,9 +222,7 @@ static void sign_range(void *context, size_t begin, size_t end)
     const Work *work = context;
     const DistanceGrid *grid = work->grid;
     bool overlaps = false;
-    for (size_t k = begin; k < end; k++) {
-        for (size_t m = work->bins->begin[k]; m < work->bins->begin[k + 1]; m++)
-            cross_layer(work, work->bins->member[m], (int)k);
+    for (size_t k = begin; k < end; k++)
         for (int j = 0; j < grid->size[1]; j++)
             for (int i = 0, winding = 0; i < grid->size[0]; i++) {
                 const size_t at = index_of(grid, i, j, (int)k);
@@ -223,7 +231,6 @@ static void sign_range(void *context, size_t begin, size_t end)
                     grid->value[at] = -grid->value[at];
                 overlaps |= winding < 0 || winding > 1;
             }
-    }
     if (!overlaps)
         return;
     parallel_lock();
@@ -305,29 +312,27 @@ static bool leave_inner_surfaces(DistanceGrid *grid)
     return true;
 }
 
-bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads)
+bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads, const Stop *stop)
 {
-    Bins bins = {0};
     *grid = (DistanceGrid){0};
     shape(grid, tree->of);
     const size_t layers = (size_t)grid->size[2], rows = (size_t)(grid->size[1] - 1) / COARSE + 1;
-    Work work = {.grid = grid, .tree = tree, .bins = &bins};
+    Work work = {.grid = grid, .tree = tree, .stop = stop};
     grid->value = malloc(distance_count(grid) * sizeof *grid->value);
     work.winding = calloc(distance_count(grid), sizeof *work.winding);
-    bool ok =
-        grid->value && work.winding && bins_fill(&bins, layers, tree->of->triangle_count, layers_of, &work);
+    bool ok = grid->value && work.winding;
     for (size_t i = 0; ok && i < distance_count(grid); i++)
         grid->value[i] = (float)(ROOM * grid->cell); /* for the last planes, outside all blocks */
     if (ok) {
         parallel_ranges(threads, rows * ((layers - 1) / COARSE + 1), 8, coarse_range, &work);
         parallel_ranges(threads, (layers - 1) / COARSE, 1, fine_range, &work);
+        parallel_ranges(threads, tree->of->triangle_count, 64, cross_range, &work);
         parallel_ranges(threads, layers, 4, sign_range, &work);
-        ok = !grid->overlaps || leave_inner_surfaces(grid);
+        ok = !stop_wanted(stop) && (!grid->overlaps || leave_inner_surfaces(grid));
     }
     if (!ok)
         distance_free(grid);
     free(work.winding);
-    bins_free(&bins);
     return ok;
 }
 

@@ -8,6 +8,7 @@
 #ifndef SLOSH_DISTANCE_H
 #define SLOSH_DISTANCE_H
 
+#include "sim/base/stop.h"
 #include "sim/mesh/triangle_tree.h"
 
 typedef struct DistanceGrid {
@@ -20,8 +21,8 @@ typedef struct DistanceGrid {
 } DistanceGrid;
 
 /* Makes the grid for the triangles of `tree`, centred on 0; free with distance_free. The same bits for any
-   number of threads. Returns false if memory is short. */
-bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads);
+   number of threads. Returns false if memory is short, or stopped. */
+bool distance_make(DistanceGrid *grid, const TriangleTree *tree, int threads, const Stop *stop);
 void distance_free(DistanceGrid *grid); /* a zeroed grid is allowed */
 
 size_t distance_count(const DistanceGrid *grid);

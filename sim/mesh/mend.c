@@ -169,12 +169,13 @@ static bool close_edges(Triangles *triangles, Edges *edges, TrianglesState *stat
     return true;
 }
 
-/* Turns each part outwards; removes copies and walls. Returns false if memory is short. */
-static bool settle_parts(Triangles *triangles, Edges *edges, TrianglesState *state, double middle[3])
+/* Turns each part outwards; removes copies and walls. Returns false if memory is short, or stopped. */
+static bool settle_parts(Triangles *triangles, Edges *edges, const Stop *stop, TrianglesState *state,
+                         double middle[3])
 {
     Parts parts = {0};
     size_t count = 0;
-    bool ok = parts_make(&parts, triangles, edges) && parts_turn(triangles, &parts, &state->turned);
+    bool ok = parts_make(&parts, triangles, edges) && parts_turn(triangles, &parts, stop, &state->turned);
     parts_free(&parts);
     if (ok && state->turned > 0) {
         edges_free(edges);
@@ -189,7 +190,7 @@ static bool settle_parts(Triangles *triangles, Edges *edges, TrianglesState *sta
     return ok;
 }
 
-static bool mend_surface(Triangles *triangles, double middle[3], TrianglesState *state)
+static bool mend_surface(Triangles *triangles, const Stop *stop, double middle[3], TrianglesState *state)
 {
     Edges edges = {0};
     bool ok = drop_unused(triangles);
@@ -203,12 +204,13 @@ static bool mend_surface(Triangles *triangles, double middle[3], TrianglesState 
         ok = edges_make(&edges, triangles);
     }
     if (ok && state->open + state->crowded + state->opposed == 0)
-        ok = settle_parts(triangles, &edges, state, middle);
+        ok = settle_parts(triangles, &edges, stop, state, middle);
     edges_free(&edges);
     return ok;
 }
 
-bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *state, Error *error)
+bool triangles_mend(Triangles *triangles, const Stop *stop, double middle[3], TrianglesState *state,
+                    Error *error)
 {
     *state = (TrianglesState){0};
     middle[0] = middle[1] = middle[2] = 0;
@@ -219,6 +221,8 @@ bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *stat
     state->flat = drop_flat(triangles);
     if (triangles->triangle_count == 0)
         return error_set(error, "none of its triangles has an area; a solid is a closed surface of them");
-    return mend_surface(triangles, middle, state) ||
-           error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
+    if (mend_surface(triangles, stop, middle, state))
+        return true;
+    return stop_wanted(stop) ? error_set(error, "stopped")
+                             : error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
 }

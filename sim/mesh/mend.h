@@ -2,6 +2,7 @@
 #ifndef SLOSH_MEND_H
 #define SLOSH_MEND_H
 
+#include "sim/base/stop.h"
 #include "sim/mesh/triangles.h"
 
 /* Faults found by triangles_mend. */
@@ -20,8 +21,9 @@ typedef struct TrianglesState {
 /* Mends the surface in place. Joins vertices within a millionth of the longest side, drops unused vertices,
    turns the whole to a positive volume, then each closed part outwards, except cavities. Removes copies of
    triangles and walls between parts. Moves the middle of the bounding box to 0; `middle`: the former
-   position. Returns false with the error set if all triangles are degenerate, a number is not finite, or
-   memory is short. The caller must refuse open, crowded and opposed edges. */
-bool triangles_mend(Triangles *triangles, double middle[3], TrianglesState *state, Error *error);
+   position. Returns false with the error set if all triangles are degenerate, a number is not finite, memory
+   is short, or stopped. The caller must refuse open, crowded and opposed edges. */
+bool triangles_mend(Triangles *triangles, const Stop *stop, double middle[3], TrianglesState *state,
+                    Error *error);
 
 #endif

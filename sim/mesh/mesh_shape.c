@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { CUTS_COUNTED = 1000, PAIRS_MOST = 20000000 };
+enum { PAIRS_MOST = 20000000 };
 
 static const double COARSE = 1e-4; /* relative to the mesh's length: a tenth of the finest distance cell */
 
@@ -75,22 +75,24 @@ static void say_coarse(const Triangles *of, MeshState *state)
             of->largest, step, longest);
 }
 
-static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
+static bool make(MeshShape *shape, int threads, const Stop *stop, MeshState *state, Error *error)
 {
     TriangleTree tree;
-    if (!triangles_mend(&shape->triangles, state->middle, &state->triangles, error) ||
+    if (!triangles_mend(&shape->triangles, stop, state->middle, &state->triangles, error) ||
         !check(&shape->triangles, &state->triangles, error))
         return false;
-    bool ok = triangle_tree_make(&tree, &shape->triangles);
+    bool ok = triangle_tree_make(&tree, &shape->triangles, true);
     if (ok) {
-        state->cutting = triangle_tree_cuts(&tree, CUTS_COUNTED, PAIRS_MOST, &state->all_looked_at);
-        ok = distance_make(&shape->distance, &tree, threads);
+        state->cutting = triangle_tree_cuts(&tree, PAIRS_MOST, &state->all_looked_at);
+        ok = distance_make(&shape->distance, &tree, threads, stop);
         if (ok && (shape->distance.overlaps || state->cutting > 0))
-            ok = overlap_excess(&shape->triangles, threads, &shape->excess);
+            ok = overlap_excess(&shape->triangles, threads, stop, &shape->excess);
         triangle_tree_free(&tree);
     }
     if (!ok)
-        return error_set(error, "no memory for its %zu triangles", shape->triangles.triangle_count);
+        return stop_wanted(stop)
+                   ? error_set(error, "stopped")
+                   : error_set(error, "no memory for its %zu triangles", shape->triangles.triangle_count);
     measure(shape);
     shape->hash = hash_add(HASH_NONE, shape->triangles.vertex,
                            shape->triangles.vertex_count * sizeof *shape->triangles.vertex);
@@ -102,7 +104,8 @@ static bool make(MeshShape *shape, int threads, MeshState *state, Error *error)
                                  shape->distance.cell));
 }
 
-MeshShape *mesh_shape_make(Triangles *triangles, int threads, MeshState *state, Error *error)
+MeshShape *mesh_shape_make(Triangles *triangles, int threads, const Stop *stop, MeshState *state,
+                           Error *error)
 {
     MeshShape *shape = calloc(1, sizeof *shape);
     *state = (MeshState){0};
@@ -114,9 +117,9 @@ MeshShape *mesh_shape_make(Triangles *triangles, int threads, MeshState *state, 
     shape->triangles = *triangles;
     *triangles = (Triangles){0};
     say_coarse(&shape->triangles, state);
-    if (make(shape, threads, state, error))
+    if (make(shape, threads, stop, state, error))
         return shape;
-    if (state->coarse[0])
+    if (state->coarse[0] && !stop_wanted(stop))
         error_set(error, "%s", state->coarse);
     mesh_shape_free(shape);
     return NULL;

@@ -29,9 +29,11 @@ typedef struct MeshState {
 } MeshState;
 
 /* Makes a shape; free with mesh_shape_free. Takes ownership of the triangles: `triangles` is empty on return.
-   Returns NULL if the mesh encloses nothing, is open, or memory is short; `error` says "what is wrong; what
-   would be right". */
-MeshShape *mesh_shape_make(Triangles *triangles, int threads, MeshState *state, Error *error);
+   Returns NULL if the mesh encloses nothing, is open, memory is short, or `stop` (may be NULL) is wanted;
+   `error` says "what is wrong; what would be right". Millions of long triangles that cut each other take
+   hours. */
+MeshShape *mesh_shape_make(Triangles *triangles, int threads, const Stop *stop, MeshState *state,
+                           Error *error);
 void mesh_shape_free(MeshShape *shape); /* NULL is allowed */
 
 #endif

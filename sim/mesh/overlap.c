@@ -27,7 +27,9 @@ typedef struct Lines {
     Strips strips[2]; /* along y and z */
     Bins bins;        /* of triangles, by strips along z */
     Moments *sum;     /* of each strip along z */
-    bool short_of_memory;
+    double margin;    /* m: more than the rounding error of a crossing */
+    const Stop *stop;
+    bool ended; /* memory was short, or stopped */
 } Lines;
 
 /* ---- where the lines are ---- */
@@ -71,6 +73,7 @@ static void lay(Lines *lines, const Parts *parts)
         count = cuts_of(lines->of, parts, a + 1, cut[a]);
         longest = fmax(longest, cut[a][count - 1] - cut[a][0]);
     }
+    lines->margin = 1e-9 * longest;
     for (int a = 0; a < 2; a++)
         for (size_t i = 0; i + 1 < count; i++)
             strips_between(&lines->strips[a], cut[a][i], cut[a][i + 1], longest / STRIPS);
@@ -90,22 +93,28 @@ static size_t first_from(const Strips *strips, double x)
     return low;
 }
 
-/* The strips along a triangle. */
-static BinSpan span_of(const Lines *lines, size_t t, int a)
+static BinSpan strips_from(const Strips *strips, double low, double high)
 {
-    double low = INFINITY, high = -INFINITY;
-    for (int c = 0; c < 3; c++) {
-        const double x = lines->of->vertex[lines->of->triangle[t][c]][a + 1];
-        low = fmin(low, x);
-        high = fmax(high, x);
-    }
-    const Strips *strips = &lines->strips[a];
     return (BinSpan){first_from(strips, low), first_from(strips, nextafter(high, INFINITY))};
 }
 
 static BinSpan along_z(const void *context, size_t t)
 {
-    return span_of(context, t, 1);
+    const Lines *lines = context;
+    double low = INFINITY, high = -INFINITY;
+    for (int c = 0; c < 3; c++) {
+        low = fmin(low, lines->of->vertex[lines->of->triangle[t][c]][2]);
+        high = fmax(high, lines->of->vertex[lines->of->triangle[t][c]][2]);
+    }
+    return strips_from(&lines->strips[1], low, high);
+}
+
+/* The strips along y of a triangle in a row. */
+static BinSpan along_y(const Lines *lines, size_t t, size_t row)
+{
+    double low, high;
+    triangle_slice(lines->of, t, lines->strips[1].at[row], lines->margin, &low, &high);
+    return low > high ? (BinSpan){0, 0} : strips_from(&lines->strips[0], low, high);
 }
 
 /* ---- along the lines ---- */
@@ -120,7 +129,7 @@ static int by_line(const void *a, const void *b)
 
 static bool cross(const Lines *lines, size_t t, size_t row, Crossing **all, size_t *count, size_t *room)
 {
-    const BinSpan span = span_of(lines, t, 0);
+    const BinSpan span = along_y(lines, t, row);
     for (size_t j = span.first; j < span.end; j++) {
         const double p[3] = {0, lines->strips[0].at[j], lines->strips[1].at[row]};
         Crossing crossing = {.line = j};
@@ -183,7 +192,7 @@ static void rows_range(void *context, size_t begin, size_t end)
     for (size_t row = begin; row < end && ok; row++) {
         size_t count = 0;
         for (size_t m = lines->bins.begin[row]; ok && m < lines->bins.begin[row + 1]; m++)
-            ok = cross(lines, lines->bins.member[m], row, &all, &count, &room);
+            ok = !stop_wanted(lines->stop) && cross(lines, lines->bins.member[m], row, &all, &count, &room);
         if (count == 0)
             continue;
         qsort(all, count, sizeof *all, by_line);
@@ -191,7 +200,7 @@ static void rows_range(void *context, size_t begin, size_t end)
     }
     free(all);
     parallel_lock();
-    lines->short_of_memory |= !ok;
+    lines->ended |= !ok;
     parallel_unlock();
 }
 
@@ -207,7 +216,7 @@ static void add_all(const Moments *sum, size_t count, Moments *excess)
     }
 }
 
-bool overlap_excess(const Triangles *triangles, int threads, Moments *excess)
+bool overlap_excess(const Triangles *triangles, int threads, const Stop *stop, Moments *excess)
 {
     Lines *lines = calloc(1, sizeof *lines);
     Edges edges = {0};
@@ -216,6 +225,7 @@ bool overlap_excess(const Triangles *triangles, int threads, Moments *excess)
     bool ok = lines && edges_make(&edges, triangles) && parts_make(&parts, triangles, &edges);
     if (ok) {
         lines->of = triangles;
+        lines->stop = stop;
         lay(lines, &parts);
         lines->sum = calloc(lines->strips[1].count + 1, sizeof *lines->sum);
         ok = lines->sum &&
@@ -223,7 +233,7 @@ bool overlap_excess(const Triangles *triangles, int threads, Moments *excess)
     }
     if (ok) {
         parallel_ranges(threads, lines->strips[1].count, 4, rows_range, lines);
-        ok = !lines->short_of_memory;
+        ok = !lines->ended;
         add_all(lines->sum, lines->strips[1].count, excess);
     }
     if (lines) {

@@ -2,6 +2,7 @@
 
 #include "sim/base/bins.h"
 #include "sim/mesh/crossing.h"
+#include "sim/mesh/triangle_tree.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -81,7 +82,7 @@ void parts_free(Parts *parts)
 
 /* ---- turning ---- */
 
-enum { LAYERS = 1024, ASKED = 8 }; /* bins of triangles; test points on each part */
+enum { ASKED = 8 }; /* test points on each part */
 
 typedef struct Part {
     double volume;
@@ -95,27 +96,10 @@ typedef struct Turner {
     const uint32_t *of;
     Part *part;
     uint32_t part_count, *order; /* by rank */
-    double low[3], high[3], aside;
-    Bins bins; /* of triangles, by layers along z */
+    double aside;
+    TriangleTree tree;
+    const Stop *stop;
 } Turner;
-
-static int layer_at(const Turner *turner, double z)
-{
-    const double t = (z - turner->low[2]) / (turner->high[2] - turner->low[2]);
-    return (int)fmin(fmax(t * LAYERS, 0), LAYERS - 1);
-}
-
-static BinSpan layers_of(const void *context, size_t t)
-{
-    const Turner *turner = context;
-    double low = INFINITY, high = -INFINITY;
-    for (int c = 0; c < 3; c++) {
-        const double z = turner->triangles->vertex[turner->triangles->triangle[t][c]][2];
-        low = fmin(low, z);
-        high = fmax(high, z);
-    }
-    return (BinSpan){(size_t)layer_at(turner, low), (size_t)layer_at(turner, high) + 1};
-}
 
 static void measure(Turner *turner)
 {
@@ -155,22 +139,32 @@ static bool rank(Turner *turner)
     return true;
 }
 
-/* Winding number of the greater parts around x. */
+/* Winding number around x of the parts of a rank below `rank`. */
+typedef struct Winding {
+    const Turner *turner;
+    const double *x;
+    uint32_t rank;
+    int sum;
+} Winding;
+
+static void wind(void *context, uint32_t t)
+{
+    Winding *winding = context;
+    const Turner *turner = winding->turner;
+    const Part *part = &turner->part[turner->of[t]];
+    double at;
+    if (part->rank >= winding->rank)
+        return;
+    const int way = triangle_crossing(turner->triangles, t, winding->x, &at);
+    if (way != 0 && at > winding->x[0])
+        winding->sum += part->turned ? -way : way;
+}
+
 static int winding_at(const Turner *turner, const double x[3], uint32_t rank)
 {
-    const int layer = layer_at(turner, x[2]);
-    int winding = 0;
-    for (size_t m = turner->bins.begin[layer]; m < turner->bins.begin[layer + 1]; m++) {
-        const uint32_t t = turner->bins.member[m];
-        const Part *part = &turner->part[turner->of[t]];
-        double at;
-        if (part->rank >= rank)
-            continue;
-        const int way = triangle_crossing(turner->triangles, t, x, &at);
-        if (way != 0 && at > x[0])
-            winding += part->turned ? -way : way;
-    }
-    return winding;
+    Winding winding = {.turner = turner, .x = x, .rank = rank};
+    triangle_tree_ahead(&turner->tree, x, wind, &winding);
+    return winding.sum;
 }
 
 /* A point just outside the volume of an inside-out part, at the middle of triangle t. */
@@ -204,7 +198,7 @@ static bool is_cavity(const Turner *turner, uint32_t p, const uint32_t *member)
 static size_t decide(Turner *turner, const uint32_t *member, const uint32_t *first)
 {
     size_t turned = 0;
-    for (uint32_t r = 0; r < turner->part_count; r++) {
+    for (uint32_t r = 0; r < turner->part_count && !stop_wanted(turner->stop); r++) {
         const uint32_t p = turner->order[r];
         Part *part = &turner->part[p];
         part->turned = part->volume < 0 && !is_cavity(turner, p, member + first[p]);
@@ -224,7 +218,7 @@ static bool find_turned(Turner *turner, size_t *turned)
     Bins members = {0};
     const size_t count = turner->triangles->triangle_count;
     uint32_t *first = malloc((turner->part_count + 1) * sizeof *first);
-    const bool ok = first && rank(turner) && bins_fill(&turner->bins, LAYERS, count, layers_of, turner) &&
+    const bool ok = first && rank(turner) && triangle_tree_make(&turner->tree, turner->triangles, false) &&
                     bins_fill(&members, turner->part_count, count, part_of, turner->of);
     for (uint32_t p = 0; ok && p < turner->part_count; p++)
         first[p] = (uint32_t)members.begin[p];
@@ -232,8 +226,8 @@ static bool find_turned(Turner *turner, size_t *turned)
         *turned = decide(turner, members.member, first);
     free(first);
     bins_free(&members);
-    bins_free(&turner->bins);
-    return ok;
+    triangle_tree_free(&turner->tree);
+    return ok && !stop_wanted(turner->stop);
 }
 
 static bool any_inside_out(const Turner *turner)
@@ -244,15 +238,16 @@ static bool any_inside_out(const Turner *turner)
     return false;
 }
 
-bool parts_turn(Triangles *triangles, const Parts *parts, size_t *turned)
+bool parts_turn(Triangles *triangles, const Parts *parts, const Stop *stop, size_t *turned)
 {
-    Turner turner = {.triangles = triangles, .of = parts->of, .part_count = parts->count};
+    double low[3], high[3];
+    Turner turner = {.triangles = triangles, .of = parts->of, .part_count = parts->count, .stop = stop};
     *turned = 0;
     turner.part = calloc(parts->count + 1, sizeof *turner.part);
     turner.order = malloc((parts->count + 1) * sizeof *turner.order);
-    triangles_bounds(triangles, turner.low, turner.high);
+    triangles_bounds(triangles, low, high);
     for (int k = 0; k < 3; k++)
-        turner.aside = fmax(turner.aside, 1e-5 * (turner.high[k] - turner.low[k]));
+        turner.aside = fmax(turner.aside, 1e-5 * (high[k] - low[k]));
     bool ok = turner.part && turner.order;
     if (ok)
         measure(&turner);

@@ -3,6 +3,7 @@
 #ifndef SLOSH_PARTS_H
 #define SLOSH_PARTS_H
 
+#include "sim/base/stop.h"
 #include "sim/mesh/edges.h"
 
 typedef struct Parts {
@@ -17,8 +18,8 @@ void parts_free(Parts *parts); /* zeroed parts are allowed */
 
 /* Turns parts of negative volume outwards, except cavities: parts of negative volume inside larger parts.
    Every edge must have as many triangles forwards as backwards. *turned: number of parts turned. Returns
-   false if memory is short. */
-bool parts_turn(Triangles *triangles, const Parts *parts, size_t *turned);
+   false if memory is short, or stopped. */
+bool parts_turn(Triangles *triangles, const Parts *parts, const Stop *stop, size_t *turned);
 
 /* Removes triangles with the same corners as earlier triangles: copies, unless edges would lack triangles
    without the copies. `walls`: also removes pairs of opposite directions, with the same part of space on both

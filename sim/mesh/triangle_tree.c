@@ -21,11 +21,151 @@ static double triple(const double a[3], const double b[3], const double c[3])
            a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
+/* ---- long triangles in pieces ---- */
+
+/* A triangle whose block has a surface of more than ASKEW times the triangle's area is in pieces; of
+   triangles with good angles it is 9 at most. Pieces are at most 1 / FINEST of the mesh's length, longer if
+   there would be more than PIECES_MORE beyond a piece a triangle. */
+enum { FINEST = 128, PIECES_MORE = 500000, CORNERS = 16 };
+static const double ASKEW = 20;
+
+typedef struct Piece {
+    float low[3], high[3];
+    uint32_t of;
+    bool whole; /* the whole triangle */
+} Piece;
+
+/* A convex part of a triangle. */
+typedef struct Polygon {
+    int count;
+    double corner[CORNERS][3];
+} Polygon;
+
+typedef struct Pieces {
+    const Triangles *of;
+    Piece *piece; /* NULL: only counted */
+    size_t count, most;
+    double longest; /* side of a piece's block, m */
+} Pieces;
+
+static void polygon_bounds(const Polygon *polygon, double low[3], double high[3])
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = INFINITY, high[k] = -INFINITY;
+        for (int c = 0; c < polygon->count; c++) {
+            low[k] = fmin(low[k], polygon->corner[c][k]);
+            high[k] = fmax(high[k], polygon->corner[c][k]);
+        }
+    }
+}
+
+/* The part on one side of x[axis] = at; way 1: above, -1: below. */
+static void clip(const Polygon *from, int axis, double at, double way, Polygon *to)
+{
+    to->count = 0;
+    for (int c = 0; c < from->count; c++) {
+        const double *a = from->corner[c], *b = from->corner[(c + 1) % from->count];
+        const double da = way * (a[axis] - at), db = way * (b[axis] - at);
+        if (da >= 0 && to->count < CORNERS)
+            memcpy(to->corner[to->count++], a, sizeof *to->corner);
+        if (((da > 0 && db < 0) || (da < 0 && db > 0)) && to->count < CORNERS) {
+            double *x = to->corner[to->count++];
+            for (int k = 0; k < 3; k++)
+                x[k] = a[k] + (b[k] - a[k]) * da / (da - db);
+            x[axis] = at;
+        }
+    }
+}
+
+static void add_piece(Pieces *pieces, uint32_t t, bool whole, const double low[3], const double high[3])
+{
+    if (pieces->piece && pieces->count < pieces->most) {
+        Piece *piece = &pieces->piece[pieces->count];
+        *piece = (Piece){.of = t, .whole = whole};
+        for (int k = 0; k < 3; k++) {
+            piece->low[k] = whole ? (float)low[k] : nextafterf((float)low[k], -INFINITY);
+            piece->high[k] = whole ? (float)high[k] : nextafterf((float)high[k], INFINITY);
+        }
+    }
+    pieces->count++;
+}
+
+static int longest_side(const double low[3], const double high[3])
+{
+    int axis = 0;
+    for (int k = 1; k < 3; k++)
+        if (high[k] - low[k] > high[axis] - low[axis])
+            axis = k;
+    return axis;
+}
+
+static void split(Pieces *pieces, uint32_t t, const Polygon *polygon)
+{
+    double low[3], high[3];
+    Polygon part;
+    polygon_bounds(polygon, low, high);
+    const int axis = longest_side(low, high);
+    if (high[axis] - low[axis] <= pieces->longest) {
+        add_piece(pieces, t, false, low, high);
+        return;
+    }
+    for (int way = -1; way <= 1; way += 2) {
+        clip(polygon, axis, 0.5 * (low[axis] + high[axis]), way, &part);
+        if (part.count > 0)
+            split(pieces, t, &part);
+    }
+}
+
+static bool is_askew(const Triangles *of, size_t t, const double low[3], const double high[3])
+{
+    const double side[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+    double normal[3];
+    triangle_normal(of, t, normal);
+    const double surface = 2 * (side[0] * side[1] + side[1] * side[2] + side[2] * side[0]);
+    return surface > ASKEW * 0.5 * sqrt(dot(normal, normal));
+}
+
+static void take_pieces(Pieces *pieces)
+{
+    const Triangles *of = pieces->of;
+    pieces->count = 0;
+    for (size_t t = 0; t < of->triangle_count; t++) {
+        Polygon polygon = {.count = 3};
+        double low[3], high[3];
+        for (int c = 0; c < 9; c++)
+            polygon.corner[c / 3][c % 3] = of->vertex[of->triangle[t][c / 3]][c % 3];
+        polygon_bounds(&polygon, low, high);
+        const int axis = longest_side(low, high);
+        if (high[axis] - low[axis] > pieces->longest && is_askew(of, t, low, high))
+            split(pieces, (uint32_t)t, &polygon);
+        else
+            add_piece(pieces, (uint32_t)t, true, low, high);
+    }
+}
+
+/* Finds the pieces; the caller frees `piece`. Returns false if memory is short. */
+static bool make_pieces(Pieces *pieces, bool split_long)
+{
+    double low[3], high[3];
+    triangles_bounds(pieces->of, low, high);
+    const int axis = longest_side(low, high);
+    pieces->longest = split_long ? (high[axis] - low[axis]) / FINEST : INFINITY;
+    pieces->most = pieces->of->triangle_count + PIECES_MORE;
+    for (take_pieces(pieces); pieces->count > pieces->most; take_pieces(pieces))
+        pieces->longest *= 2;
+    pieces->most = pieces->count;
+    pieces->piece = malloc((pieces->count + 1) * sizeof *pieces->piece);
+    if (pieces->piece)
+        take_pieces(pieces);
+    return pieces->piece;
+}
+
 /* ---- making the tree ---- */
 
 typedef struct Maker {
     TriangleTree *tree;
-    float (*middle)[3]; /* of each triangle */
+    const Piece *piece;
+    float (*middle)[3]; /* of each piece, times three */
 } Maker;
 
 static void swap(uint32_t *a, uint32_t *b)
@@ -60,16 +200,27 @@ static void select_middle(const Maker *maker, uint32_t *item, long count, long a
 
 static void bound(const Maker *maker, const uint32_t *item, size_t count, TreeNode *node)
 {
-    const Triangles *of = maker->tree->of;
     for (int k = 0; k < 3; k++)
         node->low[k] = INFINITY, node->high[k] = -INFINITY;
-    for (size_t i = 0; i < 3 * count; i++) {
-        const float *x = of->vertex[of->triangle[item[i / 3]][i % 3]];
+    for (size_t i = 0; i < count; i++) {
+        const Piece *piece = &maker->piece[item[i]];
         for (int k = 0; k < 3; k++) {
-            node->low[k] = x[k] < node->low[k] ? x[k] : node->low[k];
-            node->high[k] = x[k] > node->high[k] ? x[k] : node->high[k];
+            node->low[k] = piece->low[k] < node->low[k] ? piece->low[k] : node->low[k];
+            node->high[k] = piece->high[k] > node->high[k] ? piece->high[k] : node->high[k];
         }
     }
+}
+
+/* A disc around whole triangles; none around pieces. */
+static Disc disc_of(const Maker *maker, const uint32_t *item, uint32_t count)
+{
+    uint32_t triangle[DISC_MOST];
+    bool whole = count <= DISC_MOST;
+    for (uint32_t i = 0; whole && i < count; i++) {
+        triangle[i] = maker->piece[item[i]].of;
+        whole = maker->piece[item[i]].whole;
+    }
+    return whole ? disc_around(maker->tree->of, triangle, count) : (Disc){.radius = INFINITY};
 }
 
 static int longest_axis(const TreeNode *node)
@@ -87,7 +238,7 @@ static void make_node(const Maker *maker, uint32_t first, uint32_t count)
     uint32_t *item = tree->order + first;
     TreeNode *node = &tree->node[tree->node_count++];
     bound(maker, item, count, node);
-    node->disc = count > DISC_MOST ? (Disc){.radius = INFINITY} : disc_around(tree->of, item, count);
+    node->disc = disc_of(maker, item, count);
     node->first = first;
     node->count = count;
     if (count <= LEAF)
@@ -116,38 +267,55 @@ static void plane_of(const float corner[9], double plane[4])
     }
 }
 
-static void middles(const Triangles *of, float (*middle)[3])
+static void middles(const Pieces *pieces, float (*middle)[3])
 {
-    for (size_t t = 0; t < of->triangle_count; t++)
+    const Triangles *of = pieces->of;
+    for (size_t i = 0; i < pieces->count; i++) {
+        const Piece *piece = &pieces->piece[i];
+        const uint32_t *corner = of->triangle[piece->of];
         for (int k = 0; k < 3; k++)
-            middle[t][k] = of->vertex[of->triangle[t][0]][k] + of->vertex[of->triangle[t][1]][k] +
-                           of->vertex[of->triangle[t][2]][k];
+            middle[i][k] =
+                piece->whole ? of->vertex[corner[0]][k] + of->vertex[corner[1]][k] + of->vertex[corner[2]][k]
+                             : 1.5F * (piece->low[k] + piece->high[k]);
+    }
 }
 
-bool triangle_tree_make(TriangleTree *tree, const Triangles *triangles)
+static void fill(TriangleTree *tree, const Pieces *pieces, const Maker *maker)
 {
-    const size_t count = triangles->triangle_count;
+    const Triangles *of = tree->of;
+    const size_t count = pieces->count;
+    middles(pieces, maker->middle);
+    for (size_t i = 0; i < count; i++)
+        tree->order[i] = (uint32_t)i;
+    make_node(maker, 0, (uint32_t)count);
+    for (size_t i = 0; i < count; i++)
+        tree->order[i] = pieces->piece[tree->order[i]].of;
+    for (size_t i = 0; i < 3 * count; i++)
+        memcpy(tree->corner[i / 3] + 3 * (i % 3), of->vertex[of->triangle[tree->order[i / 3]][i % 3]],
+               3 * sizeof(float));
+    for (size_t i = 0; i < count; i++)
+        plane_of(tree->corner[i], tree->plane[i]);
+}
+
+bool triangle_tree_make(TriangleTree *tree, const Triangles *triangles, bool pieces)
+{
+    Pieces all = {.of = triangles};
     *tree = (TriangleTree){.of = triangles};
-    tree->node = malloc((count + 1) * sizeof *tree->node); /* leaves have two triangles at least */
+    if (!make_pieces(&all, pieces))
+        return false;
+    const size_t count = tree->piece_count = all.count;
+    tree->node = malloc((count + 1) * sizeof *tree->node); /* leaves have two pieces at least */
     tree->order = malloc((count + 1) * sizeof *tree->order);
     tree->corner = malloc((count + 1) * sizeof *tree->corner);
     tree->plane = malloc((count + 1) * sizeof *tree->plane);
-    Maker maker = {tree, malloc((count + 1) * sizeof *maker.middle)};
+    const Maker maker = {tree, all.piece, malloc((count + 1) * sizeof *maker.middle)};
     const bool ok = tree->node && tree->order && tree->corner && tree->plane && maker.middle;
-    if (ok) {
-        middles(triangles, maker.middle);
-        for (size_t t = 0; t < count; t++)
-            tree->order[t] = (uint32_t)t;
-        make_node(&maker, 0, (uint32_t)count);
-        for (size_t i = 0; i < 3 * count; i++)
-            memcpy(tree->corner[i / 3] + 3 * (i % 3),
-                   triangles->vertex[triangles->triangle[tree->order[i / 3]][i % 3]], 3 * sizeof(float));
-        for (size_t i = 0; i < count; i++)
-            plane_of(tree->corner[i], tree->plane[i]);
-    } else {
+    if (ok)
+        fill(tree, &all, &maker);
+    else
         triangle_tree_free(tree);
-    }
     free(maker.middle);
+    free(all.piece);
     return ok;
 }
 
@@ -258,11 +426,40 @@ double triangle_tree_near(const TriangleTree *tree, const double x[3], double pa
     return sqrt(best);
 }
 
+/* ---- triangles along a line ---- */
+
+static bool is_ahead(const TreeNode *node, const double p[3])
+{
+    return node->low[1] <= p[1] && p[1] <= node->high[1] && node->low[2] <= p[2] && p[2] <= node->high[2] &&
+           p[0] <= node->high[0];
+}
+
+void triangle_tree_ahead(const TriangleTree *tree, const double p[3],
+                         void (*met)(void *context, uint32_t triangle), void *context)
+{
+    uint32_t left[DEPTH];
+    int count = 0;
+    left[count++] = 0;
+    while (count > 0) {
+        const uint32_t at = left[--count];
+        const TreeNode *node = &tree->node[at];
+        if (!is_ahead(node, p))
+            continue;
+        for (uint32_t i = node->first; i < node->first + node->count; i++)
+            met(context, tree->order[i]);
+        if (node->count > 0)
+            continue;
+        left[count++] = node->first;
+        left[count++] = at + 1;
+    }
+}
+
 /* ---- intersecting triangles ---- */
 
 typedef struct Cuts {
     const TriangleTree *tree;
-    size_t found, most, tests;
+    size_t found, tests;
+    uint32_t pair[CUTS_MOST][2]; /* triangles of the found pairs: pieces meet several times */
 } Cuts;
 
 static double volume6(const float a[3], const float b[3], const float c[3], const float d[3])
@@ -312,6 +509,17 @@ static bool share_vertex(const TriangleTree *tree, uint32_t i, uint32_t j)
     return false;
 }
 
+static void add_pair(Cuts *cuts, uint32_t i, uint32_t j)
+{
+    const uint32_t a = cuts->tree->order[i], b = cuts->tree->order[j], low = a < b ? a : b,
+                   high = a < b ? b : a;
+    for (size_t k = 0; k < cuts->found; k++)
+        if (cuts->pair[k][0] == low && cuts->pair[k][1] == high)
+            return;
+    cuts->pair[cuts->found][0] = low;
+    cuts->pair[cuts->found++][1] = high;
+}
+
 static void test_pair(Cuts *cuts, uint32_t i, uint32_t j)
 {
     const TriangleTree *tree = cuts->tree;
@@ -324,7 +532,8 @@ static void test_pair(Cuts *cuts, uint32_t i, uint32_t j)
     if (all_beside(of_a))
         return;
     sides_of(a, b, of_b);
-    cuts->found += pierces(a, of_a, b) || pierces(b, of_b, a);
+    if (pierces(a, of_a, b) || pierces(b, of_b, a))
+        add_pair(cuts, i, j);
 }
 
 static bool blocks_meet(const TreeNode *a, const TreeNode *b)
@@ -339,7 +548,7 @@ static void leaves_cut(Cuts *cuts, const TreeNode *a, const TreeNode *b)
 {
     for (uint32_t i = a->first; i < a->first + a->count; i++)
         for (uint32_t j = a == b ? i + 1 : b->first; j < b->first + b->count; j++)
-            if (cuts->found < cuts->most && cuts->tests > 0)
+            if (cuts->found < CUTS_MOST && cuts->tests > 0)
                 test_pair(cuts, i, j);
 }
 
@@ -348,7 +557,7 @@ static void leaves_cut(Cuts *cuts, const TreeNode *a, const TreeNode *b)
 static void parts_cut(Cuts *cuts, uint32_t a, uint32_t b)
 {
     const TreeNode *one = &cuts->tree->node[a], *other = &cuts->tree->node[b];
-    if (cuts->found >= cuts->most || cuts->tests == 0 || !blocks_meet(one, other))
+    if (cuts->found >= CUTS_MOST || cuts->tests == 0 || !blocks_meet(one, other))
         return;
     if (one->count > 0 && other->count > 0) {
         leaves_cut(cuts, one, other);
@@ -365,10 +574,10 @@ static void parts_cut(Cuts *cuts, uint32_t a, uint32_t b)
     }
 }
 
-size_t triangle_tree_cuts(const TriangleTree *tree, size_t most, size_t tests, bool *whole)
+size_t triangle_tree_cuts(const TriangleTree *tree, size_t tests, bool *whole)
 {
-    Cuts cuts = {.tree = tree, .most = most, .tests = tests};
+    Cuts cuts = {.tree = tree, .tests = tests};
     parts_cut(&cuts, 0, 0);
-    *whole = cuts.tests > 0 && cuts.found < most;
+    *whole = cuts.tests > 0 && cuts.found < CUTS_MOST;
     return cuts.found;
 }

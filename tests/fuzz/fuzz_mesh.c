@@ -36,13 +36,13 @@ static void check_mended(const Triangles *made)
     TriangleTree tree;
     bool whole;
     must(triangles_volume(made) >= 0);
-    must(triangle_tree_make(&tree, made));
-    triangle_tree_cuts(&tree, 100, 100000, &whole);
+    must(triangle_tree_make(&tree, made, true));
+    triangle_tree_cuts(&tree, 100000, &whole);
     for (size_t i = 0; i < made->vertex_count; i++) {
         const double x[3] = {made->vertex[i][0], made->vertex[i][1], made->vertex[i][2]};
         uint32_t near = 0;
         const double d = triangle_tree_nearest(&tree, x, &near); /* a vertex is on its triangle */
-        must(d <= 1e-5 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2])) && near < made->triangle_count);
+        must(d <= 1e-5 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2])) && near < tree.piece_count);
     }
     triangle_tree_free(&tree);
 }
@@ -66,7 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     TrianglesState state;
     double middle[3];
     Error error;
-    if (triangles_mend(&made, middle, &state, &error) && made.triangle_count > 0)
+    if (triangles_mend(&made, NULL, middle, &state, &error) && made.triangle_count > 0)
         check_mended(&made);
     triangles_free(&made);
     return 0;

@@ -2,6 +2,8 @@
 #include "tests/mesh_models.h"
 #include "tests/near.h"
 
+#include "sim/mesh/crossing.h"
+
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -13,7 +15,7 @@ static const char *said(Triangles *model, MeshState *state)
 {
     static Error error;
     error.message[0] = '\0';
-    mesh_shape_free(mesh_shape_make(model, 1, state, &error));
+    mesh_shape_free(mesh_shape_make(model, 1, NULL, state, &error));
     return error.message;
 }
 
@@ -69,7 +71,7 @@ static void what_can_be_is_mended(void **state)
         model.triangle[t][0] = model.triangle[t][1];
         model.triangle[t][1] = other;
     }
-    MeshShape *shape = mesh_shape_make(&model, 1, &found, NULL);
+    MeshShape *shape = mesh_shape_make(&model, 1, NULL, &found, NULL);
     assert_non_null(shape);
     assert_true(found.triangles.inside_out);
     check_near(shape->volume, 1, 1e-6, "volume of what was inside out");
@@ -85,7 +87,7 @@ static void what_can_be_is_mended(void **state)
     model = model_room(1000, 1000); /* two boxes into each other: one body */
     model_box(&model, origin, unit, 3);
     model_box(&model, (double[3]){0.6, 0.1, 0.1}, unit, 3);
-    shape = mesh_shape_make(&model, 1, &found, NULL);
+    shape = mesh_shape_make(&model, 1, NULL, &found, NULL);
     assert_true(found.cutting > 8);
     check_near(found.middle[0], 0.3, 1e-6, "its middle");
     assert_true(distance_at(&shape->distance, (double[3]){0.05, 0, 0}, NULL) < 0); /* in both */
@@ -102,7 +104,7 @@ static void distance_from_a_ball(void **state)
     Triangles model = model_room(20000, 40000);
     MeshState found;
     model_ball(&model, 0.5, 90);
-    MeshShape *shape = mesh_shape_make(&model, 2, &found, NULL);
+    MeshShape *shape = mesh_shape_make(&model, 2, NULL, &found, NULL);
     assert_non_null(shape);
     assert_int_equal(found.cutting, 0);
     const double cell = shape->distance.cell;
@@ -151,7 +153,7 @@ static void any_number_of_threads_gives_the_same(void **state)
         MeshState found;
         model_box(&model, origin, (double[3]){1, 0.7, 0.4}, 8);
         model_ball(&model, 0.4, 20);
-        shape[k] = mesh_shape_make(&model, 1 + 3 * k, &found, NULL);
+        shape[k] = mesh_shape_make(&model, 1 + 3 * k, NULL, &found, NULL);
     }
     const DistanceGrid *a = &shape[0]->distance, *b = &shape[1]->distance;
     assert_int_equal(distance_count(a), distance_count(b));
@@ -180,19 +182,121 @@ static void a_hundred_thousand_are_soon_ready(void **state)
     model_ball(&model, 0.5, 159);
     const size_t count = model.triangle_count;
     const clock_t began = clock();
-    MeshShape *shape = mesh_shape_make(&model, 1, &found, NULL);
+    MeshShape *shape = mesh_shape_make(&model, 1, NULL, &found, NULL);
     const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
     assert_non_null(shape);
     printf("%zu triangles, %zu values: %.2f s\n", count, distance_count(&shape->distance), seconds);
     mesh_shape_free(shape);
 }
 
+/* Long triangles askew, in pieces and slices: each node has the side and the distance that all triangles
+   together give. */
+static void needles_have_an_inside(void **state)
+{
+    (void)state;
+    enum { NEEDLES = 12 };
+    Triangles model = model_needles(NEEDLES, 0.1);
+    TriangleTree tree, plain;
+    DistanceGrid grid;
+    size_t inside = 0;
+    assert_true(triangle_tree_make(&tree, &model, true) && triangle_tree_make(&plain, &model, false));
+    assert_true(tree.piece_count > 50 * model.triangle_count && plain.piece_count == model.triangle_count);
+    assert_true(distance_make(&grid, &tree, 2, NULL));
+    uint32_t near = 0;
+    for (size_t i = 0; i < distance_count(&grid); i += 11) {
+        const size_t at[3] = {i % (size_t)grid.size[0], i / (size_t)grid.size[0] % (size_t)grid.size[1],
+                              i / (size_t)grid.size[0] / (size_t)grid.size[1]};
+        double p[3], x;
+        int winding = 0;
+        for (int k = 0; k < 3; k++)
+            p[k] = grid.low[k] + (double)at[k] * grid.cell;
+        for (size_t t = 0; t < model.triangle_count; t++) {
+            const int way = triangle_crossing(&model, t, p, &x);
+            winding += way != 0 && x > p[0] ? way : 0;
+        }
+        assert_true((grid.value[i] < 0) == (winding != 0));
+        inside += winding != 0;
+        const double d = triangle_tree_nearest(&plain, p, &near);
+        assert_true(winding != 0 || d > 2 * grid.cell || fabs((double)grid.value[i] - d) < 1e-6);
+    }
+    assert_true(inside > 1000);
+    distance_free(&grid);
+    triangle_tree_free(&tree);
+    triangle_tree_free(&plain);
+    triangles_free(&model);
+}
+
+static double seconds_of(Triangles model)
+{
+    MeshState found;
+    const clock_t began = clock();
+    MeshShape *shape = mesh_shape_make(&model, 1, NULL, &found, NULL);
+    const double seconds = (double)(clock() - began) / CLOCKS_PER_SEC;
+    assert_non_null(shape);
+    mesh_shape_free(shape);
+    return seconds;
+}
+
+/* 16 times as many take 4 times as long. With a block around each whole triangle it was 16 times. */
+static void needles_are_soon_ready(void **state)
+{
+    (void)state;
+    const double few = seconds_of(model_needles(25, 0.002)), many = seconds_of(model_needles(400, 0.002));
+    printf("needles: 100 triangles %.2f s, 1600 %.2f s\n", few, many);
+    assert_true(many < 8 * few);
+}
+
+/* Wanted after a number of questions. */
+typedef struct Patience {
+    size_t asked, most;
+} Patience;
+
+static bool out_of_patience(void *user)
+{
+    Patience *patience = user;
+    return ++patience->asked > patience->most;
+}
+
+/* Wherever it is, it ends with few questions more. */
+static void it_ends_when_asked(void **state)
+{
+    (void)state;
+    Patience whole = {.most = SIZE_MAX};
+    Triangles parts = model_room(100, 100);
+    model_box(&parts, origin, unit, 1);
+    model_box(&parts, (double[]){0.5, 0.2, 0.1}, (double[]){0.9, 0.9, 0.9}, 1);
+    model_box(&parts, (double[]){2, 0, 0}, unit, 1);
+    for (size_t t = 24; t < 36; t++)
+        triangle_turn(&parts, t);
+    Stop stop = {out_of_patience, &whole};
+    MeshState found;
+    Error error = {""};
+    Triangles model = model_copy(&parts);
+    MeshShape *shape = mesh_shape_make(&model, 1, &stop, &found, &error);
+    assert_non_null(shape);
+    assert_true(shape->excess.volume != 0 && found.triangles.turned > 0);
+    mesh_shape_free(shape);
+    printf("asked %zu times\n", whole.asked);
+    for (int k = 0; k < 12; k++) {
+        Patience patience = {.most = k < 3 ? (size_t)k : whole.asked * (size_t)k / 13};
+        stop.user = &patience;
+        model = model_copy(&parts);
+        assert_null(mesh_shape_make(&model, 1, &stop, &found, &error));
+        assert_string_equal(error.message, "stopped");
+        if (patience.asked > patience.most + whole.asked / 50)
+            fail_msg("after %zu questions %zu more", patience.most, patience.asked - patience.most);
+    }
+    triangles_free(&parts);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_is_wrong_is_said), cmocka_unit_test(what_can_be_is_mended),
-        cmocka_unit_test(distance_from_a_ball),  cmocka_unit_test(any_number_of_threads_gives_the_same),
-        cmocka_unit_test(a_plate_has_two_sides), cmocka_unit_test(a_hundred_thousand_are_soon_ready),
+        cmocka_unit_test(what_is_wrong_is_said),  cmocka_unit_test(what_can_be_is_mended),
+        cmocka_unit_test(distance_from_a_ball),   cmocka_unit_test(any_number_of_threads_gives_the_same),
+        cmocka_unit_test(a_plate_has_two_sides),  cmocka_unit_test(a_hundred_thousand_are_soon_ready),
+        cmocka_unit_test(needles_have_an_inside), cmocka_unit_test(needles_are_soon_ready),
+        cmocka_unit_test(it_ends_when_asked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

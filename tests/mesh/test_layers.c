@@ -19,7 +19,7 @@ static MeshShape *ball_shape(double radius, int n)
     Triangles model = model_room(2 * (size_t)(n * n) + 2, 4 * (size_t)(n * n));
     MeshState state;
     model_ball(&model, radius, n);
-    return mesh_shape_make(&model, 1, &state, NULL);
+    return mesh_shape_make(&model, 1, NULL, &state, NULL);
 }
 
 /* Where the mesh is the shape, so is its distance, in the frame and the unit of the scene. */

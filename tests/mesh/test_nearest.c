@@ -75,7 +75,7 @@ static void compare(const char *name, Triangles *model)
     TriangleTree tree;
     uint32_t near = 0, nearly = 0;
     double worst = 0, part = 0;
-    assert_true(triangle_tree_make(&tree, model));
+    assert_true(triangle_tree_make(&tree, model, true));
     for (int n = 0; n < PLACES; n++) {
         double x[3];
         place(model, n, x);

@@ -35,7 +35,7 @@ static inline const MeshShape *scene_mesh(void)
         return shape;
     model = model_room(2 * STEPS * STEPS, 4 * STEPS * STEPS);
     model_ball(&model, 0.25, STEPS);
-    return shape = mesh_shape_make(&model, 1, &state, NULL);
+    return shape = mesh_shape_make(&model, 1, NULL, &state, NULL);
 }
 
 static inline SolidDef *scene_add(Scene *scene, SolidKind kind, double x, double y, double z)

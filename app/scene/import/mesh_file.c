@@ -371,7 +371,9 @@ bool mesh_child_read(MeshRead *read, const char *path, double seconds, Triangles
     return ok;
 }
 
-enum { HEAD_SIZE = 1 << 16, SECONDS_MOST = 30 };
+/* Seconds for the process that reads, and for the solid made of the triangles: a hundred times what 100,000
+   triangles take. */
+enum { HEAD_SIZE = 1 << 16, SECONDS_MOST = 30, MAKING_MOST = 300 };
 
 static const double FAR = 8; /* relative to the mesh's length: costs three bits of a float */
 
@@ -553,12 +555,30 @@ static const KeptMesh *find_kept(uint64_t of, size_t size)
     return kept;
 }
 
+static bool takes_too_long(void *until_ms)
+{
+    return interrupted() || wall_ms() > *(const double *)until_ms;
+}
+
+/* Makes a shape; takes ownership of the triangles. Returns NULL with the error set. */
+static MeshShape *make_shape(Triangles *triangles, MeshState *state, Error *error)
+{
+    double until_ms = wall_ms() + 1000.0 * MAKING_MOST;
+    const Stop stop = {takes_too_long, &until_ms};
+    MeshShape *shape = mesh_shape_make(triangles, parallel_processors(), &stop, state, error);
+    if (!shape && !interrupted() && wall_ms() > until_ms)
+        error_set(error,
+                  "making a solid of it took more than %d s and was stopped; simplify the mesh in a modeller",
+                  MAKING_MOST);
+    return shape;
+}
+
 /* Makes and keeps a shape; takes ownership of the triangles. Returns NULL with the error set. */
 static const KeptMesh *keep(Triangles *triangles, uint64_t of, size_t size, Error *error)
 {
     KeptMesh *kept = calloc(1, sizeof *kept);
     if (kept)
-        kept->shape = mesh_shape_make(triangles, parallel_processors(), &kept->state, error);
+        kept->shape = make_shape(triangles, &kept->state, error);
     else
         error_set(error, "no memory for its %zu triangles", triangles->triangle_count);
     triangles_free(triangles);
