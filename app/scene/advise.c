@@ -12,6 +12,7 @@
 #include "sim/matter/solid.h"
 #include "sim/matter/viscosity.h"
 #include "sim/world/backend.h"
+#include "sim/world/energy_unwatched.h"
 #include "sim/world/method.h"
 #include "sim/world/step_control.h"
 
@@ -109,6 +110,15 @@ static void advise_method(const YamlTree *tree, const Scene *scene, Notes *notes
     Asked asked = {tree, scene, notes};
     if (method->advise)
         method->advise(&(MethodAdvice){&def, &friction, &asked, say, chosen});
+}
+
+static void advise_energy(const YamlTree *tree, const Scene *scene, Notes *notes)
+{
+    const WorldDef *def = &scene->world;
+    const char *why = def->retries > 0 ? energy_unwatched(def) : NULL;
+    if (why)
+        advise(tree, method_find(def->method)->leaps ? "solver.method" : "solver.backend", notes,
+               "energy that grows without work is not watched here: %s", why);
 }
 
 /* Checks the lattice of particles made from fills. */
@@ -443,9 +453,9 @@ enum { PATH_SIZE = 256 };
 /* A check: examines the scene and adds lines. */
 typedef void SceneAdvice(const YamlTree *tree, const Scene *scene, Notes *notes);
 
-static SceneAdvice *const advices[] = {
-    advise_fills,    advise_step, advise_places, advise_method, advise_sound, advise_borne,
-    advise_cohesion, advise_slip, advise_probes, advise_solids, NULL};
+static SceneAdvice *const advices[] = {advise_fills,  advise_step,   advise_places,   advise_method,
+                                       advise_sound,  advise_borne,  advise_cohesion, advise_slip,
+                                       advise_probes, advise_solids, advise_energy,   NULL};
 
 void advise(const YamlTree *tree, const char *path, Notes *notes, const char *format, ...)
 {

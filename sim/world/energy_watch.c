@@ -16,9 +16,6 @@ static const double GAIN = 0.1, STEPS = 200;
    tenth. */
 static const double GAIN_SUSPECT = 0.25;
 
-static const double STILL = 1e-6; /* m/s, rad/s: a box approaches the position of a resting hand like a
-                                     spring */
-
 /* Largest uncertainty of the work by the box's velocity change between two looks, as a share of the allowed
    gain. Above, looks are closer, down to a look at each end of a step, where the work is exact. */
 static const double JOLT = 0.02;
@@ -42,26 +39,33 @@ static bool any_driven(const WorldDef *def)
     return any;
 }
 
-/* True if the gauge suffices: it has energy and no momenta. */
-static bool gauge_does(const World *world)
+/* Not a finger that pours: no finger is watched. */
+static bool any_emits(const WorldDef *def)
 {
-    const WorldDef *def = &world->def;
-    bool still = def->motion_count == 0 && !world->constants.emits && !any_driven(def);
-    for (int k = 0; k < 3; k++) {
-        still &= fabs(world->box.velocity[k]) < STILL && fabs(world->box.angular_velocity[k]) < STILL;
-        still &= !(def->periodic[k] && def->gravity[k] != 0);
-    }
-    return still;
+    bool any = false;
+    for (int f = 0; f < def->fluid_count; f++)
+        any |= def->fluids[f].emit_count > 0;
+    return any;
 }
 
-/* False if solids push a method that moves positions: energy pressed in comes out steps later, and neither
-   shows in the forces on solids. */
+const char *energy_unwatched(const WorldDef *def)
+{
+    const Method *method = method_find(def->method);
+    const Backend *backend = backend_find(def->backend);
+    if (method && method->leaps && any_driven(def))
+        return "the work of solids on ways of their own is not known to a method that moves places";
+    if (method && !method->energy && !method->incompressible)
+        return "the method has no energy";
+    if (backend && backend->gpu && any_driven(def))
+        return "the work of solids on ways of their own is not summed on a GPU";
+    if (backend && backend->gpu && any_emits(def))
+        return "the work of emitters is not summed on a GPU";
+    return NULL;
+}
+
 static bool watched(const World *world)
 {
-    return !finger_on(&world->finger) && world->def.retries > 0 &&
-           !(world->method->leaps && any_driven(&world->def)) &&
-           (world->method->energy || world->method->incompressible) &&
-           (world->backend->energy || gauge_does(world));
+    return !finger_on(&world->finger) && world->def.retries > 0 && !energy_unwatched(&world->def);
 }
 
 static bool turns(const BoxState *box)
@@ -209,33 +213,13 @@ static double too_much(const World *world, const EnergyMark *now, const Felt *fe
     return (suspect ? fmin(gain, GAIN_SUSPECT * free) : gain) + now->surface + lid;
 }
 
-/* Sums from the gauge: first moment along gravity only, the greatest particle mass for all particles, and a
-   free surface for each particle. */
-static void sums_of_gauge(World *world, EnergySums *sums)
-{
-    const Constants *s = &world->constants;
-    WorldGauge gauge;
-    double gravity[3], m = 0;
-    quat_rotate_inverse(world->box.orientation, world->def.gravity, gravity);
-    const double g2 = dot(gravity, gravity), count = (double)world->count;
-    *sums = (EnergySums){.own = 0};
-    if (!world_gauge_now(world, &gauge))
-        return;
-    for (int f = 0; f < s->fluid_count; f++)
-        m = fmax(m, constants_mass(s, f));
-    sums->own = gauge.kinetic_energy + gauge.compression_energy;
-    sums->mass = count * m;
-    for (int k = 0; k < 3 && g2 > 0; k++)
-        sums->first[k] = -gauge.potential_energy * gravity[k] / g2;
-    sums->bare = 2 * s->dimensions * count * pow((double)s->spacing, s->dimensions - 1);
-}
-
+/* A GPU does not count the surface of cells: a free surface for each particle. */
 static void sums_now(World *world, bool turning, EnergySums *sums)
 {
-    if (world->backend->energy)
-        world->backend->energy(world->state, turning, sums);
-    else
-        sums_of_gauge(world, sums);
+    const Constants *s = &world->constants;
+    world->backend->energy(world->state, turning, sums);
+    if (world->backend->gpu)
+        sums->bare = 2 * s->dimensions * (double)world->count * pow((double)s->spacing, s->dimensions - 1);
     if (world->bodies)
         bodies_sums(world->bodies, sums);
 }
@@ -254,9 +238,8 @@ static Felt look(World *world, const BoxState *box, bool turning)
     mark->time = time;
     mark->box = *box;
     mark->turning = turning;
-    mark->gauged = !world->backend->energy;
     mark->speed = world->stepping.max_speed;
-    mark->next = (double)world->step + (world->backend->energy ? EVERY : EVERY_ON_GPU);
+    mark->next = (double)world->step + (world->backend->gpu ? EVERY_ON_GPU : EVERY);
     mark->jolted = 0;
     return felt;
 }
@@ -264,7 +247,7 @@ static Felt look(World *world, const BoxState *box, bool turning)
 void energy_brace(World *world, const BoxState *begin)
 {
     EnergyMark *mark = &world->energy;
-    if (mark->until == 0 || !world->backend->energy || !jolts(world, begin, &world->box))
+    if (mark->until == 0 || !jolts(world, begin, &world->box))
         return;
     if (mark->turning != 0 || !turns(begin))
         look(world, begin, turns(begin) || turns(&world->box));
@@ -284,13 +267,7 @@ static void take_as_least(World *world)
 static bool goes_on(const World *world)
 {
     const EnergyMark *mark = &world->energy;
-    const bool gauged = !world->backend->energy;
-    bool same = mark->until > 0 && (mark->gauged != 0) == gauged;
-    for (int k = 0; k < 3 && gauged; k++)
-        same &= fabs(mark->box.position[k] - world->box.position[k]) < STILL;
-    for (int k = 0; k < 4 && gauged; k++)
-        same &= fabs(mark->box.orientation[k] - world->box.orientation[k]) < STILL;
-    return same && (gauged || mark->turning != 0 || !turns(&world->box));
+    return mark->until > 0 && mark->gauged == 0 && (mark->turning != 0 || !turns(&world->box));
 }
 
 /* Compares with the recent minimum, then takes a new minimum. */

@@ -13,12 +13,12 @@
    For surface energy only a bound is known: tension may free all surface energy present, as a lid may drag
    fluid to the lid's speed. A world touched by a finger is not watched.
 
-   On a GPU, the gauge is read now and then, at the end of a frame whose results were waited for. The gauge
-   has no momenta. So a GPU does not watch moving boxes, emitters, solids with prescribed motion, or gravity
-   along a periodic axis. */
+   On a GPU, the sums are read now and then, at the end of a frame whose results were waited for, and at both
+   ends of a step in which the box's velocity jumps. */
 #ifndef SLOSH_ENERGY_WATCH_H
 #define SLOSH_ENERGY_WATCH_H
 
+#include "sim/world/energy_unwatched.h"
 #include "sim/world/world_struct.h"
 
 /* Call after each sound step (on a GPU: each frame) and for the initial state. Returns false if energy has

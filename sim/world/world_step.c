@@ -353,9 +353,11 @@ bool world_substep(World *world, StageClock *clock, Error *error)
     tell_forces(world, &step);
     world->kicked = true;
     count_step(world);
-    if (world->backend->gpu)
+    if (world->backend->gpu) {
         sentinel_note_solves(world);
-    else if (!world_sound(world) || !energy_sound(world))
+        if (s->frame_left > 1) /* the end of a frame is looked at when it was waited for */
+            energy_sound(world);
+    } else if (!world_sound(world) || !energy_sound(world))
         return sentinel_back(world, world_time_at(world, (double)world->step), error);
     if (world->method->solvers[0].name || world->constants.implicit.on)
         solve_tally_add(&world->tally, world->solves);

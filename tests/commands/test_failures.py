@@ -45,6 +45,15 @@ class Failures(unittest.TestCase):
                     self.assertRegex(json_['outcome_words'], r'it is pressed by \d')
                     self.assertEqual('--resume' in more, json_['outcome_time'] >= 1)
 
+    def test_energy_that_is_not_watched_is_said(self):
+        """Where a solid on a way of its own does work that nobody sums."""
+        words = 'energy that grows without work is not watched here: the work of solids'
+        for more, unwatched in ((['--method', 'pbf'], True), (['--backend', 'compute'], True), ([], False),
+                                (['--method', 'pbf', '--set', 'solids=[]'], False), (['--backend', 'compute', '--set', 'solids=[]'], False)):
+            said, code = self.said_by(['info', 'washing_machine', *more])
+            self.assertEqual(code, 0, said)
+            self.assertEqual(words in said, unwatched, (more, said))
+
     def test_each_is_said_and_mended(self):
         self.assertGreater(len(SCENES), 16)
         for path in SCENES:

@@ -639,6 +639,30 @@ class Signals(CommandTest):
         self.assertEqual(self.entries(), ['a.png'])
         self.assertIn(b'IEND', self.read('a.png')[-12:])
 
+    def test_interrupt_mesh(self):
+        """A solid of 80,000 long triangles that cut each other, while it is made: behind the process that read it."""
+        number = random.Random(1)
+        with open(self.path('needles.obj'), 'w', encoding='ascii') as file:
+            for k in range(20000):
+                tip, end = ([number.uniform(-1, 1) for _ in range(3)] for _ in range(2))
+                for corner in (tip, end, [end[0] + 0.002, *end[1:]], [end[0], end[1] + 0.002, end[2]]):
+                    file.write('v {} {} {}\n'.format(*corner))
+                for face in ((1, 3, 2), (1, 4, 3), (1, 2, 4), (2, 3, 4)):
+                    file.write('f {} {} {}\n'.format(*(4 * k + corner for corner in face)))
+        before, read = self.entries(), []
+
+        def is_read(process):
+            children = pathlib.Path(f'/proc/{process.pid}/task/{process.pid}/children').read_text()
+            read.append(bool(children))
+            return not children and any(read)
+
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--set', 'solids=[{mesh: {file: needles.obj}}]')
+        self.wait_for(lambda: is_read(process), process)
+        began = time.monotonic()
+        self.assertIn('needles.obj: stopped', self.stop(process, signal.SIGINT))
+        self.assertLess(time.monotonic() - began, 10)
+        self.assertEqual(self.entries(), before)
+
 
 if __name__ == '__main__':
     command.main()

@@ -3,6 +3,7 @@
 
 #include "sim/matter/tension.h"
 #include "sim/wcsph/wcsph.h"
+#include "sim/world/energy_unwatched.h"
 #include "sim/world/world_state.h"
 
 static Error error;
@@ -90,7 +91,6 @@ static void boiling_is_found_and_mended(void **state)
 static void it_gives_up_and_names_friction(void **state)
 {
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
     WorldDef def = viscous_tank(4);
     def.retries = 1;
     World *world = fixture_world(&def);
@@ -139,7 +139,6 @@ static void work_of_a_moving_box_is_counted(void **state)
 {
     const Motion motions[] = {SHAKEN, ROCKED, SPUN};
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (size_t i = 0; i < sizeof motions / sizeof *motions; i++) {
         WorldDef def = dam("mueller");
         def.motions[def.motion_count++] = motions[i];
@@ -167,7 +166,6 @@ static void boiling_is_found_in_a_box_that_moves(void **state)
 {
     const Motion motions[] = {SHAKEN, ROCKED, SPUN};
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (size_t i = 0; i < sizeof motions / sizeof *motions; i++)
         for (int boils = 0; boils < 2; boils++) {
             WorldDef def = viscous_tank(boils ? 1.15 : 0.6);
@@ -184,7 +182,6 @@ static void boiling_is_found_in_a_box_that_moves(void **state)
 static void work_is_no_trouble(void **state)
 {
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
     WorldDef def = dam("mueller");
     def.motions[def.motion_count] = SHAKEN;
     def.motions[def.motion_count].start = 0.1003;
@@ -232,9 +229,8 @@ static void jolts_are_counted(void **state)
 {
     static const double frames[] = {0.001, 0.004, 0.016};
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
     for (int i = 0; i < 12; i++) {
-        WorldDef def = dam(i % 4 < 3 ? "mueller" : "dfsph");
+        WorldDef def = dam(i % 4 < 3 || fixture_on_fragment() ? "mueller" : "dfsph");
         const double start = 0.05 + 0.0007 * i, way = i % 2 ? 1 : -1;
         def.motions[def.motion_count++] = i % 4 < 2 ? jolt(start, way) : wrench(start, way);
         def.dt = frames[i / 4];
@@ -299,7 +295,7 @@ static void open_worlds_are_watched(void **state)
 {
     static const char *const names[] = {"mueller", "wcsph", "dfsph", "pbf"};
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
+    fixture_needs_cpu("a GPU sums no work of solids and emitters");
     for (int i = 0; i < OPEN_COUNT; i++)
         for (int m = 0; m < 4; m++) {
             const WorldDef def = open_world(dam(names[m]), (Open)i);
@@ -347,7 +343,7 @@ static void a_drop_that_is_pressed_is_not_accused(void **state)
 static void a_ball_that_falls_brings_its_energy(void **state)
 {
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
+    fixture_needs_cpu("a GPU sums no work of solids and emitters");
     WorldDef def = dam("mueller");
     def.fluids[0].fill_count = 0;
     fixture_block(&def, 0, -0.5, 0, -1, 0.5, 0.2, 1);
@@ -370,7 +366,7 @@ static void a_ball_that_falls_brings_its_energy(void **state)
 static void boiling_is_found_in_open_worlds(void **state)
 {
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
+    fixture_needs_cpu("a GPU sums no work of solids and emitters");
     for (int i = 0; i < OPEN_COUNT; i++)
         for (int boils = 0; boils < 2; boils++) {
             const WorldDef def = open_world(viscous_tank(boils ? 1.15 : 0.6), (Open)i);
@@ -382,30 +378,23 @@ static void boiling_is_found_in_open_worlds(void **state)
         }
 }
 
-/* Where the gauge is all there is: what it does not know is not watched, and begins anew behind a move. */
-static void gauges_watch_boxes_at_rest(void **state)
+/* What is not watched has a reason, and all else has none. */
+static void what_is_not_watched_is_said(void **state)
 {
     (void)state;
-    if (fixture_on_cpu())
-        skip();
-    for (int moves = 0; moves < 2; moves++) {
-        WorldDef def = viscous_tank(0.6);
-        World *world = fixture_world(&def);
-        fixture_step(world, 60);
-        if (moves)
-            world_set_target(world, &(BoxTarget){{0.3, 0, 0}, {0, 0, 0, 1}});
-        fixture_step(world, 60);
-        assert_true((numbers_of(world).energy.until > 0) == !moves);
-        fixture_step(world, 600);
-        assert_int_equal(trouble_of(world).count, 0);
-        world_destroy(world);
-    }
-    WorldDef def = viscous_tank(0.6);
-    def.motions[def.motion_count++] = SHAKEN;
-    World *world = fixture_world(&def);
-    fixture_step(world, 5);
-    assert_true(numbers_of(world).energy.until == 0);
-    world_destroy(world);
+    static const char *const names[] = {"mueller", "pbf"};
+    for (int i = 0; i < OPEN_COUNT; i++)
+        for (int m = 0; m < (fixture_on_cpu() ? 2 : 1); m++) {
+            if (fixture_on_fragment() && i != LID)
+                continue;
+            const WorldDef def = open_world(dam(names[m]), (Open)i);
+            World *world = fixture_world(&def);
+            const bool on_gpu = !fixture_on_cpu() && (i == PADDLE || i == EMIT);
+            fixture_step(world, 3);
+            assert_true((energy_unwatched(&def) != NULL) == (on_gpu || (m == 1 && i == PADDLE)));
+            assert_true((numbers_of(world).energy.until > 0) == !energy_unwatched(&def));
+            world_destroy(world);
+        }
 }
 
 static void a_finger_is_not_watched(void **state)
@@ -428,7 +417,7 @@ static void a_finger_is_not_watched(void **state)
 static void save_load_step_is_step(void **state)
 {
     (void)state;
-    fixture_needs_cpu("a GPU's gauge has no momenta");
+    fixture_needs_cpu("a GPU sums no work of solids and emitters");
     const WorldDef def = viscous_tank(1.15);
     World *straight = fixture_world(&def), *loaded = fixture_world(&def);
     WorldState saved = {.count = 0};
@@ -472,7 +461,7 @@ int main(void)
         cmocka_unit_test(a_drop_that_is_pressed_is_not_accused),
         cmocka_unit_test(a_ball_that_falls_brings_its_energy),
         cmocka_unit_test(boiling_is_found_in_open_worlds),
-        cmocka_unit_test(gauges_watch_boxes_at_rest),
+        cmocka_unit_test(what_is_not_watched_is_said),
         cmocka_unit_test(a_finger_is_not_watched),
         cmocka_unit_test(save_load_step_is_step),
     };

@@ -39,6 +39,7 @@ static void compute_destroy(void *state)
     glDeleteBuffers(COMPUTE_SHOWN, c->shown);
     mailbox_destroy(&c->watch);
     mailbox_destroy(&c->gauge);
+    mailbox_destroy(&c->energy);
     mailbox_destroy(&c->solve);
     mailbox_destroy(&c->parts);
     compute_boundary_destroy(c);
@@ -152,7 +153,8 @@ static bool pass_wanted(const Compute *c, ComputePass pass)
         return true;
     if (pass == COMPUTE_OWN_MOVE || pass == COMPUTE_OWN_GATHER)
         return c->own.count > 0;
-    return pass == COMPUTE_GAUGE ? c->program[pass] != 0 : compute_pass_named(c->constants, pass);
+    return pass == COMPUTE_GAUGE || pass == COMPUTE_ENERGY ? c->program[pass] != 0
+                                                           : compute_pass_named(c->constants, pass);
 }
 
 static void all_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
@@ -349,6 +351,7 @@ const Backend backend_compute = {
     .felt = compute_felt,
     .gauge = compute_gauge,
     .gauged = compute_gauged,
+    .energy = compute_energy,
     .save = compute_save,
     .load = compute_load,
     .info = compute_info,

@@ -58,6 +58,7 @@ typedef struct ComputeScratch {
     X(KICK, "compute/kick")                                                                                  \
     X(TOUCH, "compute/touch")                                                                                \
     X(GAUGE, "compute/gauge")                                                                                \
+    X(ENERGY, "compute/energy")                                                                              \
     X(EXCESS, "compute/excess")                                                                              \
     X(DECIDE, "compute/decide")                                                                              \
     X(SHOW, "compute/show")                                                                                  \
@@ -138,6 +139,7 @@ typedef struct Compute {
     bool decided;                         /* the method's passes take their number of work groups from
                                              SolveBlock */
     Mailbox gauge;                        /* GaugePart per group; none before the first `gauge` */
+    Mailbox energy;                       /* energy.comp: sums per group; none before the first */
     size_t gauged;                        /* particles in the last gauge */
     ComputeFelt felt;
     unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 before the first request */
@@ -318,6 +320,7 @@ void compute_sums(void *state, WorldSums *sums);
 bool compute_read(void *state, const ParticleArrays *out);
 bool compute_gauge(void *state, const double gravity[3]);
 bool compute_gauged(void *state, WorldGauge *gauge, bool waits);
+void compute_energy(void *state, bool turning, EnergySums *sums);
 bool compute_save(void *state, const ParticleColumns *to);
 bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void compute_info(const void *state, WorldInfo *info);

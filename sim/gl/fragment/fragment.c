@@ -237,6 +237,7 @@ const Backend backend_fragment = {
     .read = fragment_read,
     .gauge = fragment_gauge,
     .gauged = fragment_gauged,
+    .energy = fragment_energy,
     .save = fragment_save,
     .load = fragment_load,
     .info = fragment_info,

@@ -40,7 +40,8 @@ enum {
     X(PLACE, "fragment/screen.vert", "fragment/place.frag", "")                                              \
     X(SHOW, "fragment/screen.vert", "fragment/show.frag", "")                                                \
     X(GAUGE_FIRST, "fragment/screen.vert", "fragment/gauge.frag", "#define FIRST 1\n")                       \
-    X(GAUGE_MORE, "fragment/screen.vert", "fragment/gauge.frag", "")
+    X(GAUGE_MORE, "fragment/screen.vert", "fragment/gauge.frag", "")                                         \
+    X(ENERGY_FIRST, "fragment/screen.vert", "fragment/energy.frag", "")
 
 typedef enum FragmentPass {
 #define X(NAME, vertex, next, defines) FRAGMENT_##NAME,
@@ -78,6 +79,7 @@ typedef enum FragmentPass {
     X(felt_alpha)                                                                                            \
     X(felt_omega)                                                                                            \
     X(gravity)                                                                                               \
+    X(which)                                                                                                 \
     X(scalar)                                                                                                \
     X(c2)                                                                                                    \
     X(finger_at)                                                                                             \
@@ -141,6 +143,7 @@ typedef struct Fragment {
     unsigned shown_position, shown_velocity, shown[SCALAR_STATE_COUNT + 2]; /* buffers; 0 before the first
                                                                                request */
     Mailbox gauge;                                                          /* 5 float: see gauge.frag */
+    Mailbox energy;                                                         /* vec4 each: see energy.frag */
     unsigned framebuffer, bucket_framebuffer[FRAGMENT_LAYERS_MOST], vertex_array;
     GlState kept; /* the caller's state, while passes run */
     unsigned program[FRAGMENT_PASS_COUNT];
@@ -227,6 +230,7 @@ void fragment_sums(void *state, WorldSums *sums);
 bool fragment_read(void *state, const ParticleArrays *out);
 bool fragment_gauge(void *state, const double gravity[3]);
 bool fragment_gauged(void *state, WorldGauge *gauge, bool waits);
+void fragment_energy(void *state, bool turning, EnergySums *sums);
 bool fragment_save(void *state, const ParticleColumns *to);
 bool fragment_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
 void fragment_info(const void *state, WorldInfo *info);

@@ -112,7 +112,7 @@ void fragment_set_fluids(const Fragment *f)
 
 static bool is_gauge(int pass)
 {
-    return pass == FRAGMENT_GAUGE_FIRST || pass == FRAGMENT_GAUGE_MORE;
+    return pass == FRAGMENT_GAUGE_FIRST || pass == FRAGMENT_GAUGE_MORE || pass == FRAGMENT_ENERGY_FIRST;
 }
 
 bool fragment_gauge_programs(Fragment *f, Error *error)

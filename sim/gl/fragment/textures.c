@@ -180,4 +180,5 @@ void fragment_textures_destroy(Fragment *f)
     glDeleteBuffers(sizeof f->shown / sizeof *f->shown, f->shown);
     mailbox_destroy(&f->watched);
     mailbox_destroy(&f->gauge);
+    mailbox_destroy(&f->energy);
 }
