@@ -16,6 +16,7 @@
 #ifndef SLOSH_VISCOSITY_H
 #define SLOSH_VISCOSITY_H
 
+#include "sim/box/wall_drag.h"
 #include "sim/kernel/lattice.h"
 
 typedef enum ViscosityForm { VISCOSITY_MORRIS, VISCOSITY_RADIAL } ViscosityForm;
@@ -47,5 +48,13 @@ typedef enum Friction { FRICTION_LAPLACIAN, FRICTION_MORRIS, FRICTION_RADIAL, FR
    film and lattice counts. NULL: particles carry density. */
 double friction_rate(const Lattice *lattice, double spacing, Friction friction, double support_radius,
                      const Kernel *summed);
+
+/* Rate of friction (sim/matter/viscosity.h) for a def's method, kernel, support and dimensions, 1/m2. */
+typedef struct StepFriction {
+    double laminar, artificial; /* artificial: 0 if not in the def */
+    double alpha;               /* of the artificial viscosity */
+    double numerical;           /* alpha of the least viscosity between pairs of fluid */
+    DragWeight walls;           /* weights of the friction at no-slip walls */
+} StepFriction;
 
 #endif

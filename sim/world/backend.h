@@ -5,6 +5,7 @@
 
 #include "sim/base/key.h"
 #include "sim/box/box_step.h"
+#include "sim/matter/energy_sums.h"
 #include "sim/matter/flow.h"
 #include "sim/matter/solid_step.h"
 #include "sim/touch/finger.h"

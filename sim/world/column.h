@@ -5,6 +5,7 @@
 
 #include "sim/base/particle_id.h"
 #include "sim/base/scalar.h"
+#include "sim/world/step_types.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -13,7 +14,7 @@
 struct Constants; /* sim/world/constants.h */
 struct WorldDef;  /* sim/matter/world_def.h */
 
-enum { COLUMNS_OWN = 44, COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
+enum { COLUMNS_TERM = 36, COLUMNS_MAX = 48 };
 enum { COLUMNS_KEPT = 32, COLUMNS_LEFT = 38, COLUMNS_SHOWN = 41 }; /* indices in ParticleColumns.own */
 
 /* All possible data of a particle, a column each; NULL if not needed. */

@@ -14,7 +14,7 @@
 #include "sim/matter/world_def.h"
 #include "sim/world/column.h"
 #include "sim/world/step_control.h"
-#include "sim/world/step_parts.h"
+#include "sim/world/step_types.h"
 
 struct Method; /* sim/world/method.h */
 

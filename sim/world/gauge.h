@@ -3,6 +3,7 @@
 #ifndef SLOSH_GAUGE_H
 #define SLOSH_GAUGE_H
 
+#include "sim/matter/energy_sums.h"
 #include "sim/world/constants.h"
 #include "sim/world/method.h"
 #include "sim/world/reading.h"

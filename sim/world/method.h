@@ -7,9 +7,10 @@
 #include "sim/base/stage.h"
 #include "sim/kernel/kernel.h"
 #include "sim/kernel/lattice.h"
+#include "sim/matter/viscosity.h"
 #include "sim/matter/world_def.h"
 #include "sim/world/column.h"
-#include "sim/world/step_parts.h"
+#include "sim/world/step_types.h"
 
 struct ApparentGravity; /* sim/box/box_step.h */
 struct Constants;       /* sim/world/constants.h */

@@ -2,12 +2,10 @@
 #ifndef SLOSH_READING_H
 #define SLOSH_READING_H
 
+#include "sim/base/particle_id.h"
 #include "sim/base/scalar.h"
-#include "sim/box/box_filter.h"
-#include "sim/matter/energy_sums.h"
-#include "sim/world/column.h"
-#include "sim/world/step_control.h"
-#include "sim/world/step_parts.h"
+#include "sim/matter/world_def.h"
+#include "sim/world/step_types.h"
 
 #include <stdint.h>
 

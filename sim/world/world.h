@@ -11,7 +11,7 @@
 #include "sim/matter/world_def.h"
 #include "sim/touch/finger.h"
 #include "sim/world/reading.h"
-#include "sim/world/step_control.h"
+#include "sim/world/step_types.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -5,10 +5,11 @@
 
 #include "sim/base/births.h"
 #include "sim/body/body_state.h"
+#include "sim/matter/energy_sums.h"
 #include "sim/world/column.h"
 #include "sim/world/live.h"
 #include "sim/world/reading.h"
-#include "sim/world/step_control.h"
+#include "sim/world/step_types.h"
 #include "sim/world/world.h"
 
 #include <stddef.h>
