@@ -5,7 +5,7 @@
 #include "render/particles/derived.h"
 #include "render/picking/picking.h"
 #include "render/water/water.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -9,9 +9,9 @@
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
 #include "render/frame/picture_def.h"
-#include "sim/base/error.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/timer.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stdint.h>

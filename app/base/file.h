@@ -2,7 +2,7 @@
 #ifndef APP_BASE_FILE_H
 #define APP_BASE_FILE_H
 
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <jansson.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #ifndef APP_BASE_OUTPUT_H
 #define APP_BASE_OUTPUT_H
 
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <limits.h>
 #include <stdbool.h>

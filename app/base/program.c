@@ -2,7 +2,7 @@
 #include "app/base/program.h"
 
 #include "app/base/output.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <fcntl.h>

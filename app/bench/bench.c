@@ -222,7 +222,7 @@ static bool measure(BenchRun *stand, const BenchSetup *setup, Progress *progress
     if (!look(stand, error))
         return false;
     world_info(stand->world, &first);
-    world_tally_anew(stand->world);
+    world_solved_restart(stand->world);
     while (samples->frames < frames && !interrupted()) {
         StageClock clock;
         if (!advance(stand, first.time + setup->seconds * (samples->frames + 0.5) / frames, error))
@@ -242,7 +242,8 @@ static bool measure(BenchRun *stand, const BenchSetup *setup, Progress *progress
         samples->steps += last.step - before.step;
         samples->simulated += last.time - before.time;
     }
-    if (!world_sound(stand->world) && !world_substep(stand->world, NULL, error)) /* goes back, or gives up */
+    if (!world_is_valid(stand->world) &&
+        !world_substep(stand->world, NULL, error)) /* goes back, or gives up */
         return false;
     world_info(stand->world, &last);
     samples->lost = last.lost > samples->lost ? last.lost : samples->lost;

@@ -6,8 +6,8 @@
 #include "app/run/measure/outcome.h"
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
-#include "sim/gl/timer.h"
-#include "sim/world/world.h"
+#include "sim/gpu/timer.h"
+#include "slosh/world.h"
 
 #include <stdio.h>
 

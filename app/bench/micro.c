@@ -3,7 +3,7 @@
 
 #include "app/base/file.h"
 #include "app/base/program.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,10 +1,10 @@
-/* Times each part of a substep alone, and compares with the limits of the machine. See sim/world/micro.h
+/* Times each part of a substep alone, and compares with the limits of the machine. See sim/step/method.h
    for the counting. */
 #ifndef APP_BENCH_MICRO_H
 #define APP_BENCH_MICRO_H
 
 #include "app/scene/scene.h"
-#include "sim/world/micro.h"
+#include "sim/step/method.h"
 
 #include <stdio.h>
 

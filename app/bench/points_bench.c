@@ -3,11 +3,9 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "sim/base/parallel.h"
-#include "sim/base/stage.h"
-#include "sim/surface/analytic.h"
-#include "sim/surface/sampling.h"
-#include "sim/surface/sph_field.h"
-#include "sim/surface/volume_field.h"
+#include "sim/points/fields.h"
+#include "sim/points/sampling.h"
+#include "slosh/world.h"
 
 #include <jansson.h>
 #include <math.h>

@@ -16,8 +16,9 @@
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "app/window/play.h"
-#include "sim/matter/seed.h"
+#include "sim/start/seed.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,8 +95,10 @@ static bool plan_micro(BenchPlan *plan, Error *error)
     bool chosen = args->settings.particles > 0;
     if (args->table || args->play || args->device)
         return error_set(error, "slosh bench: --micro stands alone; leave --table, --play and --device out");
-    for (int i = 0; i < plan->sweep_count; i++)
+    for (int i = 0; i < plan->sweep_count; i++) {
+        assert(plan->sweeps[i].key);
         chosen |= strcmp(plan->sweeps[i].key, counts.key) == 0;
+    }
     if (chosen)
         return true;
     if (plan->sweep_count == ARGS_SWEEPS_MAX)
@@ -294,6 +297,7 @@ static int bench_micro(const BenchPlan *plan)
         fprintf(stderr, "%s\n", error.message);
         return EXIT_USAGE;
     }
+    assert(bench_plan_cases(plan) > 0);
     micro.results = calloc(2 * bench_plan_cases(plan), sizeof *micro.results);
     if (!micro.results) {
         fprintf(stderr, "no memory for the results\n");
@@ -455,6 +459,7 @@ static int bench_ablate(const BenchPlan *plan)
         return EXIT_USAGE;
     }
     Headless *context = NULL;
+    assert(bench_plan_cases(plan) > 0);
     Ablation *ablations = calloc(bench_plan_cases(plan), sizeof *ablations);
     bool ok = ablations ? !args->json || json_file_check(args->json, &error)
                         : error_set(&error, "no memory for the results");

@@ -6,7 +6,7 @@
 #include "app/lab/error_chart.h"
 #include "app/lab/run_table.h"
 #include "app/lab/view_benchmark.h"
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/program.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "app/base/program.h"
 #include "app/cli/cli_private.h"
 #include "app/run/playback/playback.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "app/files/pathlines.h"
 #include "app/files/snapshot.h"
 #include "app/run/offscreen.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <math.h>

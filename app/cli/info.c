@@ -8,12 +8,11 @@
 #include "app/scene/save.h"
 #include "app/scene/scene_files.h"
 #include "render/frame/view.h"
+#include "sim/def/fluids.h"
 #include "sim/kernel/kernel.h"
-#include "sim/matter/seed.h"
-#include "sim/matter/tension.h"
-#include "sim/matter/viscosity.h"
-#include "sim/world/step_control.h"
-#include "sim/world/world.h"
+#include "sim/start/seed.h"
+#include "sim/step/step_control.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,9 +1,9 @@
-#include "app/base/program.h"
 #include "app/cli/cli.h"
+
+#include "app/base/program.h"
 #include "app/cli/cli_private.h"
-#include "sim/gl/backends.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,7 +9,7 @@
 #include "app/run/playback/playback.h"
 #include "app/run/recording/recording.h"
 #include "app/scene/scene_files.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,10 +3,9 @@
 #include "app/cli/sweep.h"
 #include "app/run/compare/compare.h"
 #include "app/scene/scene.h"
-#include "sim/base/stage.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
-#include "sim/world/world.h"
+#include "sim/flow/flow.h"
+#include "sim/start/seed.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <string.h>

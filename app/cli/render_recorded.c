@@ -10,7 +10,7 @@
 #include "app/run/session.h"
 #include "render/frame/view.h"
 #include "render/panels.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <inttypes.h>
 #include <math.h>

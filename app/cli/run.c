@@ -34,7 +34,7 @@ static bool step(Session *session, RunProgress *look, Error *error)
     do
         ok = session_substep(session, error) && probe_series_step(&look->probes, session, error);
     while (ok && session->info.within_frame);
-    world_sound(session->world); /* waits for a GPU, as part of the timing */
+    world_is_valid(session->world); /* waits for a GPU, as part of the timing */
     look->step_seconds += (wall_ms() - begin) / 1000;
     return ok;
 }
@@ -176,7 +176,7 @@ static int run(Session *session, const Args *args, Error *error)
     bool busy = false;
     const bool resumed = args->resume && access(args->output, F_OK) == 0;
     const bool feels = args->forces || (args->probes && probe_list_has_forces(&session->scene.probes));
-    if (!run_probes_check(session, args, error) || (feels && !world_feel(session->world, error)))
+    if (!run_probes_check(session, args, error) || (feels && !world_enable_forces(session->world, error)))
         return complain(EXIT_USAGE, error);
     if ((args->json && !json_file_check(args->json, error)) ||
         (args->forces && !output_check(args->forces, error)) || !run_probes_check_table(args, resumed, error))

@@ -6,7 +6,7 @@
 #include "app/bench/gnuplot.h"
 #include "app/cli/cli_private.h"
 #include "app/run/offscreen.h"
-#include "sim/matter/seed.h"
+#include "sim/start/seed.h"
 
 #include <errno.h>
 #include <math.h>

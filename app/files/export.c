@@ -3,7 +3,7 @@
 #include "app/base/output.h"
 #include "app/base/program.h"
 #include "app/files/export_formats.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <errno.h>
 #include <jansson.h>

@@ -8,7 +8,7 @@
 #include "app/files/snapshot.h"
 #include "app/files/surface.h"
 #include "render/particles/plane.h"
-#include "sim/base/scalar.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 #include "app/files/export_formats.h"
 
-#include "sim/base/scalar.h"
+#include "slosh/world.h"
 
 #include <inttypes.h>
 #include <stdbool.h>

@@ -3,7 +3,7 @@
 #define APP_FILES_PATHLINES_H
 
 #include "app/files/snapshot.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #define APP_FILES_PICTURES_H
 
 #include "app/scene/save.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

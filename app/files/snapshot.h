@@ -6,9 +6,9 @@
 #include "app/scene/scene.h"
 #include "render/particles/derived.h"
 #include "render/particles/upload.h"
-#include "sim/base/error.h"
-#include "sim/world/reading.h"
-#include "sim/world/world_state.h"
+#include "slosh/error.h"
+#include "slosh/state.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@
 
    Group Step#k (k = 0, 1, ... without a gap) is one state. It has the attribute TimeValue (s) and
    one-dimensional datasets with a value per particle. Further attributes: the pose and rates of the box,
-   gravity, the step number, `restart` (the WorldNumbers of sim/world/world_state.h, which with the particles
+   gravity, the step number, `restart` (the WorldNumbers of include/slosh/state.h, which with the particles
    restart a run) and `complete`, which is written last. All values are in SI units and in the box's frame;
    pose and rates of the box are in the world's frame. Attributes of the root describe the scene: `settings`
    has each key as printed by slosh info, `units` the unit of each dataset. */

@@ -1,8 +1,8 @@
 #include "app/base/program.h"
 #include "app/files/snapshot.h"
 #include "app/files/snapshot_private.h"
-#include "sim/kernel/lattice.h"
-#include "sim/world/method.h"
+#include "sim/kernel/kernel.h"
+#include "sim/step/method.h"
 
 #include <errno.h>
 #include <hdf5.h>
@@ -377,7 +377,7 @@ static MethodKernels read_kernels(const SnapshotReader *reader, const Method **m
     return kernels;
 }
 
-/* Calibrates a summed density like sim/world/constants.c; a carried density needs no scale. */
+/* Calibrates a summed density like sim/step/constants.c; a carried density needs no scale. */
 static double read_stiffness_scale(const SnapshotReader *reader, const SnapshotScene *scene)
 {
     Lattice lattice = {.stiffness_scale = 1};

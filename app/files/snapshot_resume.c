@@ -1,7 +1,7 @@
 /* Resumes a run from the end of its file. */
 #include "app/files/snapshot_private.h"
 #include "app/scene/keys.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -303,7 +303,7 @@ static float scalar_of(const SnapshotStep *step, Scalar scalar, size_t i)
 {
     const float *const *v = (const float *const *)step->velocity;
     switch (scalar) {
-    case SCALAR_SPEED: /* the same bits as sim/world/particles.c */
+    case SCALAR_SPEED: /* the same bits as sim/step/columns.c */
         return sqrtf(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
     case SCALAR_DENSITY:
         return step->density[i];

@@ -5,8 +5,8 @@
 #include "app/files/snapshot_private.h"
 #include "app/scene/keys.h"
 #include "sim/base/color.h"
-#include "sim/matter/flow.h"
-#include "sim/world/method.h"
+#include "sim/flow/flow.h"
+#include "sim/step/method.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,9 +3,8 @@
 #include "app/base/program.h"
 #include "app/files/snapshot.h"
 #include "sim/base/color.h"
-#include "sim/mesh/field.h"
-#include "sim/mesh/isosurface.h"
-#include "sim/world/world.h"
+#include "slosh/mesh.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,7 +6,7 @@
 #include "app/scene/scene.h"
 #include "render/frame/frame.h"
 #include "render/frame/passes.h"
-#include "sim/base/scalar.h"
+#include "slosh/world.h"
 
 #include <stdio.h>
 
@@ -42,7 +42,7 @@ PointPainter point_painter(const PointColors *colors);
 void point_paint(const PointPainter *painter, const SnapshotStep *step, size_t i, uint8_t rgb[3]);
 
 /* The fluid's surface as a mesh, from the particles of a step: the level set of F(r) = sum V_j W_poly6(r -
-   r_j) of sim/mesh/field.h, also used by pictures. The mesh is closed; normals come from the field's
+   r_j) of include/slosh/mesh.h, also used by pictures. The mesh is closed; normals come from the field's
    gradient, and vertex fields are means weighted by V W. */
 
 /* Settings of a surface. */

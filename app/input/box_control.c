@@ -1,6 +1,6 @@
 #include "app/input/box_control.h"
 
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <pthread.h>

@@ -9,8 +9,8 @@
 #include "app/input/hand.h"
 #include "app/input/mapping.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/world/world.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 enum { CONTROL_DEVICES_MAX = 8, CONTROL_PROBLEM_SIZE = 512, CONTROL_BUTTONS_MAX = 32 };
 

@@ -1,5 +1,5 @@
 #include "app/input/box_control.h"
-#include "sim/box/box_motion.h"
+#include "slosh/def.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include "app/input/box_control.h"
 #include "app/input/hand.h"
-#include "sim/base/hash.h"
+#include "sim/base/sums.h"
 
 #include <inttypes.h>
 #include <math.h>

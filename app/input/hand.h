@@ -2,13 +2,13 @@
 
    Each device adds its part to a HandInput. Drags and rates move the box permanently; offsets (sticks)
    move the box while they last, as does the turn of a device held like the box. The hand sums up all parts
-   in the axes of the picture; the filter decides how fast the box follows (sim/box/box_filter.h). */
+   in the axes of the picture; the filter decides how fast the box follows (include/slosh/def.h). */
 #ifndef APP_INPUT_HAND_H
 #define APP_INPUT_HAND_H
 
 #include "render/frame/camera.h"
 #include "render/frame/picture_def.h"
-#include "sim/box/box_filter.h"
+#include "slosh/def.h"
 
 #include <stdbool.h>
 

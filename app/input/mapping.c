@@ -5,8 +5,8 @@
 #include "app/input/device/device.h"
 #include "app/scene/keys.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/base/key_text.h"
-#include "sim/box/box_motion.h"
+#include "sim/base/key.h"
+#include "slosh/def.h"
 
 #include <errno.h>
 #include <math.h>

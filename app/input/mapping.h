@@ -10,7 +10,7 @@
 #include "app/input/device/device.h"
 #include "app/input/hand.h"
 #include "app/input/play_commands.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stddef.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 #include "app/input/touch.h"
 
-#include "sim/matter/solid_step.h"
+#include "sim/solids/solid.h"
 
 #include <math.h>
 #include <string.h>

@@ -6,8 +6,8 @@
 
 #include "app/run/recording/sim_command.h"
 #include "render/frame/camera.h"
-#include "sim/matter/world_def.h"
-#include "sim/touch/touch_def.h"
+#include "sim/flow/finger.h"
+#include "slosh/def.h"
 
 #include <stdbool.h>
 

@@ -4,7 +4,7 @@
 #include "app/lab/error_chart.h"
 #include "app/run/measure/metric.h"
 #include "app/scene/scene.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/timer.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -157,7 +157,7 @@ static bool chart_sweeps_effect(ChartSweeps *sweeps, int key, const Scene *scene
 static bool chart_sweeps_set(const ChartSweeps *sweeps, const bool effect[CHART_SWEEPS], int combination,
                              ChartJob *job)
 {
-    int value[CHART_SWEEPS];
+    int value[CHART_SWEEPS] = {0};
     bool anew = true;
     job->set_count = 0;
     for (int k = sweeps->count - 1; k >= 0; k--) {
@@ -375,7 +375,7 @@ static void add_points(ChartPlan *plan, ChartJob job)
 static bool plan_jobs(ChartPlan *plan, Error *error)
 {
     const char *methods[CHART_NAMES_MAX], *backends[CHART_NAMES_MAX];
-    bool effect[CHART_NAMES_MAX][CHART_SWEEPS];
+    bool effect[CHART_NAMES_MAX][CHART_SWEEPS] = {{0}};
     const int m = methods_of(plan, methods), b = backends_of(plan, backends);
     const int all = chart_sweeps_combinations(&plan->sweeps);
     for (int i = 0; i < m; i++)

@@ -4,8 +4,8 @@
 #include "app/lab/run_table.h"
 #include "app/run/measure/outcome.h"
 #include "app/run/measure/probe.h"
-#include "sim/base/stage.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -175,7 +175,7 @@ static bool start_probes(SceneRun *run)
         asked |= metric_kinds[scene->metrics[m]].numbers == 0;
     if (!asked)
         return true;
-    run->feels = probe_list_has_forces(&scene->probes) && world_feel(run->world, &run->failure);
+    run->feels = probe_list_has_forces(&scene->probes) && world_enable_forces(run->world, &run->failure);
     run->probes = probes_create(&scene->probes, &scene->world);
     if (run->probes)
         run->read = malloc(((size_t)probes_columns(run->probes) + 1) * sizeof *run->read);
@@ -214,7 +214,7 @@ static bool advance_to(SceneRun *run, double due, double until, Progress *progre
         }
         const double begin = wall_ms();
         const bool ok = world_step(run->world, NULL, &run->failure);
-        sound = world_sound(run->world); /* waits for the GPU, so that the time includes its work */
+        sound = world_is_valid(run->world); /* waits for the GPU, so that the time includes its work */
         run->spent += (wall_ms() - begin) / 1000;
         world_info(run->world, &run->info);
         length = run->info.time - from;

@@ -4,7 +4,7 @@
 #include "app/lab/run_table.h"
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -3,7 +3,7 @@
 
 #include "app/base/output.h"
 #include "app/scene/keys.h"
-#include "sim/base/hash.h"
+#include "sim/base/sums.h"
 #include "sim/mesh/mesh_shape.h"
 
 #include <elf.h>

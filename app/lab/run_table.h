@@ -4,7 +4,7 @@
 
 #include "app/run/measure/outcome.h"
 #include "app/scene/scene.h"
-#include "sim/base/hash.h"
+#include "sim/base/sums.h"
 
 #include <stdint.h>
 #include <stdio.h>

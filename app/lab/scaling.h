@@ -15,7 +15,7 @@
 #ifndef APP_LAB_SCALING_H
 #define APP_LAB_SCALING_H
 
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 /* A run, as means over ranks and steps. */
 typedef struct CostSample {

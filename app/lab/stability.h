@@ -6,7 +6,7 @@
 #include "app/run/measure/outcome.h"
 #include "app/scene/scene.h"
 #include "sim/base/key.h"
-#include "sim/matter/world_def.h"
+#include "slosh/def.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -26,7 +26,7 @@ typedef struct StableAxis {
 
 /* s; INFINITY: no limit */
 typedef struct StableLimits {
-    double sound;    /* 2 / omega of the stiffest wave on the lattice: sim/kernel/sound_wave.h */
+    double sound;    /* 2 / omega of the stiffest wave on the lattice: sim/kernel/kernel.h */
     double friction; /* step_viscous */
     /* Limit for sound and friction together. A Verlet step with friction from the velocity at the start of
        the step is stable if omega^2 dt^2 + 2 gamma dt < 4. The greatest omega and the greatest gamma = 2 /

@@ -4,19 +4,20 @@
 #include "app/lab/stability.h"
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "sim/kernel/sound_wave.h"
-#include "sim/matter/fall.h"
-#include "sim/matter/viscosity.h"
-#include "sim/world/method.h"
-#include "sim/world/step_control.h"
+#include "sim/def/fluids.h"
+#include "sim/kernel/kernel.h"
+#include "sim/start/seed.h"
+#include "sim/step/method.h"
+#include "sim/step/step_control.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Returns a start for the search: the lattice limit; without sound the step for pressure
-   (sim/world/step_control.h). */
+   (sim/step/step_control.h). */
 static double stable_guess(const WorldDef *def, const StableLimits *limits);
 
 enum { POINTS = 8 };
@@ -144,6 +145,7 @@ static double rounded(double number)
 static const char *leading(const char *const methods[], int count)
 {
     int m = 0;
+    assert(count > 0);
     while (m < count && method_find(methods[m])->incompressible)
         m++;
     return methods[m < count ? m : 0];

@@ -3,7 +3,7 @@
 #include "app/lab/stability.h"
 #include "app/run/measure/outcome.h"
 #include "app/run/offscreen.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -231,7 +231,7 @@ typedef struct Trial {
 /* Looks at a sound state, if a look is due or `now`. Returns false if memory is short. */
 static bool look(Trial *trial, double until, bool now, Error *error)
 {
-    if ((!now && trial->info.time < trial->next) || !world_sound(trial->world))
+    if ((!now && trial->info.time < trial->next) || !world_is_valid(trial->world))
         return true;
     trial->next = trial->info.time + 0.999 * until / STABLE_LOOKS;
     return outcome_sample(&trial->history, &trial->scene->world, false, trial->world) ||

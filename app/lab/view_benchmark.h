@@ -6,9 +6,9 @@
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "render/frame/view.h"
-#include "sim/base/error.h"
-#include "sim/matter/world_def.h"
-#include "sim/world/world.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>

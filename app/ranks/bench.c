@@ -4,7 +4,7 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/bench/bench.h"
-#include "sim/dist/ranks.h"
+#include "sim/ranks/ranks.h"
 
 #include <mpi.h>
 #include <stdlib.h>

@@ -2,9 +2,9 @@
 
 #include "app/base/program.h"
 #include "app/cli/cli.h"
-#include "sim/dist/ranks.h"
-#include "sim/gl/backends.h"
-#include "sim/world/backend.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/ranks/ranks.h"
+#include "sim/step/backend.h"
 
 #include <mpi.h>
 #include <stdio.h>

@@ -2,11 +2,10 @@
 #include "app/ranks/ranks.h"
 
 #include "app/base/program.h"
-#include "sim/dist/dist.h"
-#include "sim/dist/ranks.h"
-#include "sim/matter/boundary.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
+#include "sim/flow/flow.h"
+#include "sim/ranks/ranks.h"
+#include "sim/solids/solid.h"
+#include "sim/start/seed.h"
 
 #include <math.h>
 #include <mpi.h>
@@ -84,7 +83,7 @@ const SnapshotParallel *dist_parallel_file(void)
 static const double A_PARTICLE = 525, AT_THE_START = 25, A_CELL = 33, PROGRAM = 60e6;
 
 /* Ghosts of a rank: FACE n^(2/3) per face towards neighbours; FACES: faces of a rank in the middle of a
-   pool; MOVERS: room for moving particles (sim/dist). */
+   pool; MOVERS: room for moving particles (sim/ranks). */
 static const double FACE = 2.2, FACES = 4, MOVERS = 1.125;
 
 static double particles_of(const WorldDef *world)

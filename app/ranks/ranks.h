@@ -10,9 +10,8 @@
 #include "app/run/measure/probe.h"
 #include "app/run/session.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/base/particle_id.h"
-#include "sim/world/world.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 

@@ -5,10 +5,8 @@
 #include "app/base/program.h"
 #include "app/bench/probe_plot.h"
 #include "app/run/session.h"
-#include "sim/base/stage.h"
-#include "sim/dist/dist.h"
-#include "sim/dist/ranks.h"
-#include "sim/dist/reduce.h"
+#include "sim/ranks/ranks.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <mpi.h>
@@ -179,7 +177,7 @@ static bool dist_probes_step(DistProbes *probes, const RankSession *ranks, Error
     return dist_agree(ranks->rank > 0 || probe_series_step(&probes->series, &ranks->session, error), error);
 }
 
-/* All ranks have already checked the step with world_sound; another check by a single rank is not
+/* All ranks have already checked the step with world_is_valid; another check by a single rank is not
    collective. */
 static bool dist_probes_frame(DistProbes *probes, const RankSession *ranks, Error *error)
 {
@@ -212,7 +210,7 @@ static bool dist_forces_enable(const RankSession *ranks, const Args *args, Error
 {
     const Session *session = &ranks->session;
     const bool feels = args->forces || (args->probes && probe_list_has_forces(&session->scene.probes));
-    return !feels || world_feel(session->world, error);
+    return !feels || world_enable_forces(session->world, error);
 }
 
 /* Checks if the file can be written. */

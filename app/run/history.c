@@ -1,8 +1,8 @@
 #include "app/run/history.h"
 
-#include "sim/base/stage.h"
-#include "sim/world/method.h"
-#include "sim/world/world_state.h"
+#include "sim/step/method.h"
+#include "slosh/state.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -367,7 +367,7 @@ static bool is_due(const History *history, bool now)
 
 void history_keep(History *history, World *world, const Scene *scene, size_t next, bool now)
 {
-    if (!is_due(history, now) || !world_sound(world)) /* waits, so that the copy is timed alone */
+    if (!is_due(history, now) || !world_is_valid(world)) /* waits, so that the copy is timed alone */
         return;
     WorldInfo info;
     world_info(world, &info);

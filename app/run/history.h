@@ -14,8 +14,8 @@
 #define APP_RUN_HISTORY_H
 
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/world/world.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,7 +1,7 @@
 #include "app/run/offscreen.h"
 
 #include "app/base/program.h"
-#include "sim/gl/debug.h"
+#include "sim/gpu/gl_context.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

@@ -5,9 +5,9 @@
 
 #include "render/particles/upload.h"
 #include "render/renderer.h"
-#include "sim/base/error.h"
-#include "sim/gl/timer.h"
-#include "sim/world/world.h"
+#include "sim/gpu/timer.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 

@@ -6,8 +6,8 @@
 #include "app/files/snapshot.h"
 #include "app/run/measure/probe.h"
 #include "app/scene/scene_files.h"
-#include "sim/matter/flow.h"
-#include "sim/world/method.h"
+#include "sim/flow/flow.h"
+#include "sim/step/method.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -149,7 +149,7 @@ void session_close(Session *session)
 
 bool session_reached(const Session *session, double time)
 {
-    return session->info.time >= time - ROUNDING * session->scene.world.dt && world_sound(session->world);
+    return session->info.time >= time - ROUNDING * session->scene.world.dt && world_is_valid(session->world);
 }
 
 /* True if products of a scene with dt = 0.0166667 for 1/60 fall out of step within the span. With too long
@@ -235,7 +235,7 @@ const char *session_blocked_text(const WorldInfo *info, uint64_t *told, char wor
         words, 256,
         "t = %.4g s: %s: no particle of the last %d layers found room; something stands in the way, or the "
         "place is full",
-        info->time, names, BARRED_LAYERS);
+        info->time, names, BLOCKED_LAYERS);
     *told |= info->barred;
     return words;
 }

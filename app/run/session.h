@@ -13,9 +13,8 @@
 #include "app/run/offscreen.h"
 #include "app/run/recording/recording.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/world/reading.h"
-#include "sim/world/world.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <jansson.h>
 #include <stdbool.h>

@@ -90,7 +90,7 @@ void probe_series_forces(ProbeSeries *series, Session *session, Forces *forces)
         world_forces(session->world, forces);
         return;
     }
-    if (!world_sound(session->world))
+    if (!world_is_valid(session->world))
         drop(series);
     *forces = series->felt;
     forces_mean(forces);
@@ -101,7 +101,7 @@ bool probe_series_frame(ProbeSeries *series, const Session *session, Error *erro
 {
     if (!series->probes)
         return true;
-    if (!world_sound(session->world)) /* the next step returns to the begin of this frame */
+    if (!world_is_valid(session->world)) /* the next step returns to the begin of this frame */
         drop(series);
     return probe_table_write(&series->table, error);
 }

@@ -24,9 +24,9 @@
 #include "app/run/recording/sim_command.h"
 #include "app/scene/scene.h"
 #include "render/particles/upload.h"
-#include "sim/base/error.h"
-#include "sim/base/stage.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/timer.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -201,7 +201,7 @@ typedef struct SimulatorStatus {
     SolveFigures solved;                /* sum since the scene's start */
     StepLimit limit;                    /* limit of the size of the last step */
     uint64_t limited[STEP_LIMIT_COUNT]; /* count of steps per limit since the scene's start */
-    uint64_t shut;                      /* closed gates: world_shut */
+    uint64_t shut;                      /* closed gates: world_shut_gates */
     uint64_t step, frames;              /* since the scene's start */
     size_t particles;                   /* of the last state */
     size_t lost;                        /* particles without a cell in the grid, in the last known step */

@@ -20,7 +20,7 @@ static void request_gauge(Simulator *simulator)
     world_info(simulator->world, &info);
     simulator->gauge = (GaugeSample){.courant = info.courant, .limit = info.limit};
     simulator->gauge_ms = wall_ms();
-    world_gauge_ask(simulator->world);
+    world_gauge_request(simulator->world);
 }
 
 /* Call with the lock held. */
@@ -119,7 +119,7 @@ void simulator_probes_begin(Simulator *simulator)
     if (scene->probes.count == 0 || !simulator->world)
         return;
     Error none; /* backend without force sums: the panel shows no number (advise_probes warns) */
-    simulator->feels = probe_list_has_forces(&scene->probes) && world_feel(simulator->world, &none);
+    simulator->feels = probe_list_has_forces(&scene->probes) && world_enable_forces(simulator->world, &none);
     simulator->probes = probes_create(&scene->probes, &scene->world);
     if (simulator->probes)
         simulator->read = malloc(((size_t)probes_columns(simulator->probes) + 1) * sizeof *simulator->read);

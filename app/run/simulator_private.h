@@ -8,7 +8,7 @@
 #include "app/run/recording/sim_command.h"
 #include "app/run/session.h"
 #include "app/run/simulator.h"
-#include "sim/world/world.h"
+#include "slosh/world.h"
 
 #include <pthread.h>
 

@@ -3,7 +3,7 @@
 #include "app/run/recording/sim_command.h"
 #include "app/run/session.h"
 #include "app/run/simulator_private.h"
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,18 +3,17 @@
 #include "app/scene/keys.h"
 #include "app/scene/scene_private.h"
 #include "render/frame/view.h"
-#include "sim/base/error.h"
-#include "sim/base/formula.h"
-#include "sim/body/bodies.h"
-#include "sim/matter/balance.h"
-#include "sim/matter/fill.h"
-#include "sim/matter/seed.h"
-#include "sim/matter/solid.h"
-#include "sim/matter/viscosity.h"
-#include "sim/world/backend.h"
-#include "sim/world/energy_unwatched.h"
-#include "sim/world/method.h"
-#include "sim/world/step_control.h"
+#include "sim/def/fluids.h"
+#include "sim/solids/bodies.h"
+#include "sim/start/fill.h"
+#include "sim/start/rest.h"
+#include "sim/start/seed.h"
+#include "sim/step/backend.h"
+#include "sim/step/energy_unwatched.h"
+#include "sim/step/method.h"
+#include "sim/step/step_control.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -115,9 +114,12 @@ static void advise_method(const YamlTree *tree, const Scene *scene, Notes *notes
 static void advise_energy(const YamlTree *tree, const Scene *scene, Notes *notes)
 {
     const WorldDef *def = &scene->world;
-    const char *why = def->retries > 0 ? energy_unwatched(def) : NULL;
+    const Method *method = method_find(def->method);
+    const bool knows_energy =
+        method->energy || method->incompressible; /* else it is the method's own matter */
+    const char *why = def->retries > 0 && knows_energy ? energy_unwatched(def) : NULL;
     if (why)
-        advise(tree, method_find(def->method)->leaps ? "solver.method" : "solver.backend", notes,
+        advise(tree, method->leaps ? "solver.method" : "solver.backend", notes,
                "energy that grows without work is not watched here: %s", why);
 }
 
@@ -325,7 +327,7 @@ static double greatest_shaking(const WorldDef *def)
     return sum;
 }
 
-/* Warns of parts left out of the force on a solid: sim/matter/forces.h. */
+/* Warns of parts left out of the force on a solid: include/slosh/world.h. */
 static void advise_floating(const YamlTree *tree, const WorldDef *def, Notes *notes)
 {
     for (int k = 0; k < def->solid_count; k++) {

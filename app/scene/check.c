@@ -2,13 +2,12 @@
 #include "app/scene/scene_private.h"
 #include "render/frame/view.h"
 #include "render/renderer.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/matter/boundary.h"
-#include "sim/matter/fill.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
-#include "sim/matter/solid_step.h"
-#include "sim/world/column.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/solids/solid.h"
+#include "sim/start/fill.h"
+#include "sim/start/seed.h"
+#include "slosh/state.h"
 
 #include <math.h>
 #include <stdio.h>

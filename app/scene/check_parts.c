@@ -2,9 +2,9 @@
 #include "app/run/measure/probe.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_private.h"
-#include "sim/matter/fill.h"
-#include "sim/matter/solid_step.h"
 #include "sim/mesh/mesh_shape.h"
+#include "sim/solids/solid.h"
+#include "sim/start/fill.h"
 
 #include <math.h>
 #include <stdio.h>

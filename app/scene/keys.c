@@ -5,11 +5,10 @@
 #include "render/frame/view.h"
 #include "render/renderer.h"
 #include "sim/base/key_rows.h"
-#include "sim/base/scalar.h"
-#include "sim/base/time_table.h"
-#include "sim/world/backend.h"
-#include "sim/world/method.h"
-#include "sim/world/world.h"
+#include "sim/step/backend.h"
+#include "sim/step/method.h"
+#include "slosh/def.h"
+#include "slosh/world.h"
 
 #include <assert.h>
 #include <pthread.h>

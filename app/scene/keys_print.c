@@ -3,9 +3,9 @@
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
 #include "sim/base/color.h"
-#include "sim/base/control_points.h"
-#include "sim/base/key_text.h"
-#include "sim/base/time_table.h"
+#include "sim/base/key.h"
+#include "sim/base/tables.h"
+#include "slosh/def.h"
 
 #include <stddef.h>
 #include <stdlib.h>

@@ -47,10 +47,11 @@ const SolverPreset solver_preset_list[] = {
        a free surface. Figures repeat exactly on compute too. In the plane a lattice under pressure at 3.5
        spacings hardly resists shear any more; at 2.6 spacings shear resistance makes waves 5 % too fast, at
        any resolution. In three dimensions, where 2.6 means 74 neighbours, and for mueller's spiky kernel more
-       does not pay. dfsph gains nothing from more neighbours, and longer steps cost more iterations than they
-       save. Where two fluids slide along each other, particles pass over each other. With Wendland's kernel
-       particles feel the rows of the other fluid, and a wave between the fluids grows by a quarter too
-       slowly. The quintic kernel is thirty times smoother there, for more time. */
+       does not pay. For dfsph in the plane more neighbours help waves and harm rest (docs/methods.md), and
+       longer steps cost more iterations than they save. Where two fluids slide along each other, particles
+       pass over each other. With Wendland's kernel particles feel the rows of the other fluid, and a wave
+       between the fluids grows by a quarter too slowly. The quintic kernel is thirty times smoother there,
+       for more time. */
     {"accurate",
      "wcsph as slosh validate measures it: kernel, support, diffusion, friction, step",
      {{"solver.method", "wcsph", NULL, 0, NULL},

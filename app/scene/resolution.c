@@ -2,13 +2,11 @@
 
 #include "app/scene/keys.h"
 #include "app/scene/scene_private.h"
-#include "sim/matter/fall.h"
-#include "sim/matter/fill.h"
-#include "sim/matter/fill_lattice.h"
-#include "sim/matter/seed.h"
-#include "sim/matter/tension.h"
-#include "sim/world/method.h"
-#include "sim/world/step_control.h"
+#include "sim/def/fluids.h"
+#include "sim/start/fill.h"
+#include "sim/start/seed.h"
+#include "sim/step/method.h"
+#include "sim/step/step_control.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -164,7 +162,7 @@ bool scene_choose_spacing(const YamlTree *tree, Scene *scene, const SceneSetting
     return true;
 }
 
-/* Checks the step against friction, sound and tension, by sim/world/step_control.h. */
+/* Checks the step against friction, sound and tension, by sim/step/step_control.h. */
 
 /* Writes the setting whose friction limits the step, as key and value. */
 static void name_friction(const WorldDef *most, const StepFriction *friction, char name[64])

@@ -6,7 +6,7 @@
 #include "app/scene/scene_files.h"
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/matter/flow.h"
+#include "sim/flow/flow.h"
 
 #include <errno.h>
 #include <math.h>

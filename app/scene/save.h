@@ -5,7 +5,7 @@
 
 #include "app/scene/scene.h"
 
-#include "sim/matter/world_def.h"
+#include "slosh/def.h"
 
 #include <stdint.h>
 
@@ -97,7 +97,7 @@ void scene_saved_words(const SceneSaved *saved, char *text, size_t size);
 /* Writes changes made by hand to a running scene into the scene's own definition. */
 
 /* Puts solids where a hand has moved them, with their motions continuing from there. Emitters and drains
-   in `shut` (gates of sim/matter/flow.h) are closed at the start. Afterwards no solid counts as moved by
+   in `shut` (gates of sim/flow/flow.h) are closed at the start. Afterwards no solid counts as moved by
    hand. */
 void world_def_apply_moves(WorldDef *def, uint64_t shut);
 

@@ -5,9 +5,9 @@
 #include "app/run/measure/probe_def.h"
 #include "render/frame/picture_def.h"
 #include "render/panels.h"
-#include "sim/base/error.h"
-#include "sim/matter/world_def.h"
-#include "sim/touch/touch_def.h"
+#include "sim/flow/finger.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -6,7 +6,7 @@
 #include "app/scene/scene.h"
 
 #include "app/scene/yaml/yaml.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <dirent.h>
 #include <stdbool.h>

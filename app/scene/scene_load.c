@@ -6,7 +6,7 @@
 #include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
 #include "render/renderer.h"
-#include "sim/matter/fill_lattice.h"
+#include "sim/start/fill.h"
 
 #include <ctype.h>
 #include <math.h>

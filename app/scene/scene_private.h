@@ -5,8 +5,8 @@
 #include "app/scene/scene.h"
 
 #include "app/scene/yaml/yaml.h"
-#include "sim/base/file_name.h"
 #include "sim/base/key.h"
+#include "slosh/def.h"
 
 #include <stdio.h>
 

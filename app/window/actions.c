@@ -5,8 +5,7 @@
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
 #include "render/picking/picking.h"
-#include "sim/base/scalar.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

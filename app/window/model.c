@@ -3,12 +3,11 @@
 #include "app/base/program.h"
 #include "app/files/pictures.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/base/stage.h"
-#include "sim/gl/debug.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
-#include "sim/world/world.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/start/seed.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdarg.h>

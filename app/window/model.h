@@ -13,9 +13,9 @@
 #include "app/scene/save.h"
 #include "app/scene/scene.h"
 #include "render/particles/upload.h"
-#include "sim/base/error.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/timer.h"
+#include "slosh/error.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -157,7 +157,7 @@ typedef struct PlayModel {
     size_t seeded;            /* count of particles at the scene's start */
     unsigned saves, messages; /* reported so far */
     ScriptState last_script;  /* last reported */
-    uint64_t shut;            /* gates to close: world_shut */
+    uint64_t shut;            /* gates to close: world_shut_gates */
     unsigned travels;         /* last handled SimulatorHistory.travels */
     unsigned solids;          /* SimulatorStatus.solids */
     atomic_bool pulled;       /* the user tried to move the box of a recorded run */

@@ -1,9 +1,9 @@
 #include "app/base/output.h"
 #include "app/files/pictures.h"
 #include "app/window/play_private.h"
-#include "sim/base/stage.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
+#include "slosh/world.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -6,8 +6,8 @@
 #include "app/scene/import/import.h"
 #include "app/window/model.h"
 #include "app/window/play_private.h"
-#include "sim/base/stage.h"
-#include "sim/gl/debug.h"
+#include "sim/gpu/gl_context.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -5,9 +5,9 @@
 #include "app/cli/args/args.h"
 #include "app/input/mapping.h"
 #include "render/panels.h"
-#include "sim/base/error.h"
-#include "sim/matter/world_def.h"
-#include "sim/world/reading.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,5 @@
 #include "app/window/play_private.h"
-#include "sim/base/stage.h"
-#include "sim/world/world.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

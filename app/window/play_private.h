@@ -19,7 +19,7 @@
 #include "render/frame/text.h"
 #include "render/frame/view.h"
 #include "render/panels.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/timer.h"
 
 #include <stdbool.h>
 #include <stdint.h>

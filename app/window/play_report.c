@@ -4,10 +4,8 @@
 #include "app/scene/keys.h"
 #include "app/window/play.h"
 #include "app/window/play_private.h"
-#include "sim/base/scalar.h"
-#include "sim/base/stage.h"
-#include "sim/gl/debug.h"
-#include "sim/world/world.h"
+#include "sim/gpu/gl_context.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +19,7 @@ static json_t *vector(const double *v, int count)
     return array;
 }
 
-static json_t *scene_json(const PlayFigures *f)
+static json_t *figures_scene_json(const PlayFigures *f)
 {
     json_t *json = json_pack("{s:s, s:s, s:s, s:s, s:i, s:s, s:[i, i], s:I, s:f, s:i}", "scene", f->scene,
                              "backend", f->backend, "method", f->method, "view", f->view, "threads",
@@ -83,7 +81,7 @@ static void leave_out_solver(json_t *json)
 
 static json_t *figures_json(const PlayFigures *f)
 {
-    json_t *json = *f->renderer ? scene_json(f) : json_pack("{s:s}", "scene", f->scene);
+    json_t *json = *f->renderer ? figures_scene_json(f) : json_pack("{s:s}", "scene", f->scene);
     if (json && f->recorded)
         leave_out_solver(json);
     if (json && *f->failure.message)

@@ -4,9 +4,8 @@
 #include "app/run/compare/panel_pictures.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/base/stage.h"
-#include "sim/matter/seed.h"
-#include "sim/world/world.h"
+#include "sim/start/seed.h"
+#include "slosh/world.h"
 
 #include <dirent.h>
 #include <epoxy/gl.h>

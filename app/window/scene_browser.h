@@ -6,7 +6,7 @@
 #include "app/run/offscreen.h"
 #include "app/scene/scene_files.h"
 #include "app/window/panel/panel.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <sys/types.h>

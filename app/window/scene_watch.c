@@ -1,7 +1,7 @@
 #include "app/scene/scene_files.h"
 #include "app/window/model.h"
 #include "app/window/play_private.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <stdio.h>
 #include <string.h>

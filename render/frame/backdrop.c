@@ -1,7 +1,7 @@
 #include "render/frame/passes.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <string.h>

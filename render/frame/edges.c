@@ -1,7 +1,7 @@
 #include "render/frame/passes.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

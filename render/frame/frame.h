@@ -5,12 +5,11 @@
 
 #include "render/frame/camera.h"
 #include "render/frame/picture_def.h"
-#include "sim/base/control_points.h"
-#include "sim/base/error.h"
-#include "sim/base/scalar.h"
-#include "sim/base/stage.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/gl/timer.h"
+#include "sim/base/tables.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/timer.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>

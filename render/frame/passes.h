@@ -7,9 +7,9 @@
 #include "render/frame/frame.h"
 
 #include "render/frame/text.h"
-#include "sim/base/error.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/matter/solid.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,9 +2,9 @@
 #ifndef RENDER_FRAME_PICTURE_DEF_H
 #define RENDER_FRAME_PICTURE_DEF_H
 
-#include "sim/base/control_points.h"
-#include "sim/base/scalar.h"
-#include "sim/matter/world_def.h"
+#include "sim/base/tables.h"
+#include "slosh/def.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 #include "render/frame/passes.h"
 #include "shaders/shared/solid_block.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 typedef struct Text Text;
 

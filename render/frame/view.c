@@ -3,12 +3,12 @@
 #include "render/frame/frame.h"
 
 #include "render/frame/picture_def.h"
-#include "sim/base/control_points.h"
 #include "sim/base/key_rows.h"
-#include "sim/base/scalar.h"
-#include "sim/gl/limits.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
+#include "sim/base/tables.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/start/seed.h"
+#include "slosh/world.h"
 
 #include <assert.h>
 #include <stdio.h>

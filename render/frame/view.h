@@ -7,11 +7,11 @@
 
 #include "render/frame/camera.h"
 #include "render/frame/text.h"
-#include "sim/base/error.h"
 #include "sim/base/key.h"
-#include "sim/base/room.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/surface/ranged_volume.h"
+#include "sim/base/memory.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/points/fields.h"
+#include "slosh/error.h"
 
 /* Views: the ways to show a fluid. One folder per view; the list is render/lists.c. */
 
@@ -244,7 +244,7 @@ ViewProbing view_probing(const View *view, const ViewDef *def);
    render/lists.c. A hidden overlay has no state, no particle attributes and no stage. */
 
 /* First member of each overlay's own settings: the key "view.NAME.show". */
-typedef struct IN_A_ROOM OverlayShow {
+typedef struct MAY_ALIAS OverlayShow {
     bool show;
 } OverlayShow;
 

@@ -3,8 +3,8 @@
 
 #include "shaders/derived/derived_bindings.h"
 #include "shaders/shared/bindings.h"
-#include "sim/box/box_motion.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
+#include "slosh/def.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -5,9 +5,8 @@
 
 #include "render/particles/particles.h"
 
-#include "sim/base/error.h"
-#include "sim/gl/mailbox.h"
-#include "sim/gl/particle_buffers.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -19,7 +18,7 @@
    `particles->scalar[SCALAR_VORTICITY]` is a buffer of floats, and `particles->vector[VECTOR_VORTICITY]` a
    buffer of vec4: x y z in the box's axes, w undefined; both in the order of the other attributes. Buffer
    0: not asked for, or the state lacks the inputs. By name: scalar_list and vector_list
-   (sim/base/scalar.h), as CHOICE_OF with KEY_INDEX reads names.
+   (include/slosh/world.h), as CHOICE_OF with KEY_INDEX reads names.
 
    Gradients: grad s = M^-1 sum_j w_j (s_j - s_i) d_j, M = sum_j w_j d_j d_j, d_j = x_j - x_i, w_j = V_j
    |W'(r)| / r with Wendland's C2 kernel of the support radius: the sum of Monaghan 2005 (Rep. Prog. Phys.

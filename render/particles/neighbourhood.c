@@ -2,7 +2,7 @@
 
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/scan.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

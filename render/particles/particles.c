@@ -2,9 +2,9 @@
 
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/program.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

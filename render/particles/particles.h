@@ -4,8 +4,8 @@
 #define RENDER_PARTICLES_PARTICLES_H
 
 #include "render/frame/frame.h"
-#include "sim/base/error.h"
-#include "sim/gl/particle_buffers.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,9 +1,9 @@
 #include "render/particles/plane.h"
 
 #include "shaders/shared/plane_block.h"
-#include "sim/gl/program.h"
-#include "sim/gl/timer.h"
-#include "sim/world/method.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/timer.h"
+#include "sim/step/method.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -5,11 +5,11 @@
 
 #include "render/particles/particles.h"
 
-#include "sim/base/bins.h"
-#include "sim/base/error.h"
-#include "sim/base/scalar.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/matter/world_def.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
+#include "slosh/mesh.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 

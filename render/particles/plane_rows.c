@@ -1,5 +1,5 @@
 #include "render/particles/plane.h"
-#include "sim/base/grow.h"
+#include "sim/base/memory.h"
 #include "sim/base/parallel.h"
 
 #include <epoxy/gl.h>

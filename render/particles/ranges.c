@@ -3,8 +3,8 @@
 #include "render/particles/derived.h"
 #include "shaders/derived/derived_bindings.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gl/float_bits.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <stdint.h>

@@ -1,7 +1,7 @@
 #include "render/particles/upload.h"
 
-#include "sim/gl/debug.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>

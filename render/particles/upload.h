@@ -3,9 +3,9 @@
 #ifndef RENDER_PARTICLES_UPLOAD_H
 #define RENDER_PARTICLES_UPLOAD_H
 
-#include "sim/base/error.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/world/world.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <pthread.h>
 #include <stdbool.h>
@@ -52,7 +52,7 @@ void slots_release_in_flight(Slots *slots);
 
 typedef struct Upload Upload;
 
-/* For at most `capacity` particles; `attributes` is a sum of PARTICLE_* (sim/gl/particle_buffers.h).
+/* For at most `capacity` particles; `attributes` is a sum of PARTICLE_* (sim/gpu/particle_buffers.h).
    Returns NULL if memory is short. */
 Upload *upload_create(size_t capacity, unsigned attributes, Error *error);
 void upload_destroy(Upload *upload); /* NULL is allowed */

@@ -4,7 +4,7 @@
 #include "render/particles/plane.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/probe_bindings.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -6,8 +6,7 @@
 #include "render/frame/camera.h"
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
-#include "sim/gl/mailbox.h"
-#include "sim/gl/particle_buffers.h"
+#include "sim/gpu/particle_buffers.h"
 
 /* The particle under the mouse. */
 

@@ -16,8 +16,8 @@
 extern "C" {
 #endif
 
-#include "sim/base/control_points.h"
-#include "sim/base/error.h"
+#include "sim/base/tables.h"
+#include "slosh/error.h"
 
 /* The scale of a slider: converts values to positions and back. Pure. */
 typedef struct UiScale {

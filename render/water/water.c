@@ -4,7 +4,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/shared/shadow_maps.h"
 #include "shaders/water/foam_bindings.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 #define RENDER_WATER_WATER_H
 
 #include "render/frame/frame.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 /* Light patterns on the floor below clear fluid: the surface focuses light on some places and takes light
    from the rest.

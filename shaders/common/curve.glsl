@@ -1,4 +1,4 @@
-// A curve of control points over a scalar's range: straight lines, constant beyond the ends (lines_at in sim/base/lines.c). Set
+// A curve of control points over a scalar's range: straight lines, constant beyond the ends (lines_at in sim/base/tables.c). Set
 // by particle_curve_set of render/particles/particles.h.
 #include "shaders/shared/bindings.h"
 layout(location = CURVE_POINTS_AT) uniform uint points;         // number of points; 0: the curve is 1

@@ -1,4 +1,4 @@
-// Boundary particles of solids (sim/matter/boundary.h), sorted by cell in a separate grid: the fluids' buffers hold
+// Boundary particles of solids (sim/solids/solid.h), sorted by cell in a separate grid: the fluids' buffers hold
 // fluid only. BOUNDARY_ACCESS: access of the pass, if not readonly.
 #include "shaders/sim/bindings.h"
 #include "sim/cells.glsl"

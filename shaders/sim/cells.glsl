@@ -1,4 +1,4 @@
-// Numbering of cells and their neighbours: sim/cpu/grid.c, sim/world/cell_rows.c.
+// Numbering of cells and their neighbours: sim/cpu/grid.c, sim/step/cells.c.
 ivec3 cell_of(vec3 x)
 {
     ivec3 first = first_cell + 1, last = first_cell + grid_size - 2;
@@ -9,7 +9,7 @@ ivec3 cell_of(vec3 x)
 #endif
 }
 
-// Place of a cell: sim/world/cell_fold.h.
+// Place of a cell: sim/step/cells.h.
 int cell_place(ivec3 at) { return ((cell_fold.x * at.y + cell_fold.y * at.z) & cell_fold.z) + at.x; }
 
 // Places of a row's first cell and of the cell after the row. With periodic sides a row is a single cell, and
@@ -33,7 +33,7 @@ ivec2 row_cells(ivec3 at, int row)
     ivec3 inside = cell + cells * (ivec3(lessThan(cell, ivec3(1))) - ivec3(greaterThan(cell, cells)));
     int place = cell_place(ivec3(mix(vec3(cell), vec3(inside), periodic)));
 #ifdef BEHIND_DRIFT
-    // A further row has the same particles: cell_row_again of sim/world/cell_rows.c.
+    // A further row has the same particles: cell_row_again of sim/step/cells.c.
     if (any(bvec3(mix(vec3(0), vec3(notEqual(cell, inside)) * vec3(equal(cells, ivec3(2))), periodic))))
         return ivec2(place);
 #endif

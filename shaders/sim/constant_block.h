@@ -1,6 +1,6 @@
-/* Constants of a world, filled by sim/gl/compute/blocks.c. Number densities, volumes, masses and forces are
-   in the units of sim/world/constants.h, except volumes for views. The backend fragment writes the same
-   names before its shaders: sim/gl/fragment/constants.c. */
+/* Constants of a world, filled by sim/gpu/compute/blocks.c. Number densities, volumes, masses and forces are
+   in the units of sim/step/constants.h, except volumes for views. The backend fragment writes the same
+   names before its shaders: sim/gpu/fragment/fragment.c. */
 #ifndef SLOSH_CONSTANT_BLOCK_H
 #define SLOSH_CONSTANT_BLOCK_H
 
@@ -45,7 +45,7 @@ UNIFORM_BLOCK(ConstantBlock, CONSTANT_BLOCK)
     vec3 cell_inverse; /* 1/m */
     vec3 box_low;      /* low corner of a box with periodic sides, m */
     vec3 box_whole;    /* size of the box, m */
-    ivec3 cell_fold;   /* y, z, mask: sim/world/cell_fold.h */
+    ivec3 cell_fold;   /* y, z, mask: sim/step/cells.h */
 }
 BLOCK_END(ConstantBlock);
 

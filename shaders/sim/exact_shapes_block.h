@@ -1,5 +1,5 @@
 /* Shapes of solids in double precision, for worlds with the CPU's bits; filled by
-   sim/gl/compute/boundary.c. */
+   sim/gpu/compute/solids.c. */
 #ifndef SLOSH_EXACT_SHAPES_BLOCK_H
 #define SLOSH_EXACT_SHAPES_BLOCK_H
 

@@ -1,6 +1,6 @@
 // Forces on box and solids, if requested (FELT). Each part has a single writer, so sums are reproducible. First the
 // parts of work groups of 64 particles: for the box, then for each solid. Then the parts of boundary particles, from
-// FELT_BOUNDARY on, by number. sim/gl/compute/forces.c writes the defines.
+// FELT_BOUNDARY on, by number. sim/gpu/compute/solids.c writes the defines.
 #include "shaders/sim/bindings.h"
 #include "shaders/sim/felt_part.h"
 layout(std430, binding = FELT_BUFFER) buffer Felt { FeltPart felt[]; };

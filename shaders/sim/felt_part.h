@@ -1,4 +1,4 @@
-/* A part of the forces on box and solids, summed over steps; sim/gl/compute/forces.c adds the parts. */
+/* A part of the forces on box and solids, summed over steps; sim/gpu/compute/solids.c adds the parts. */
 #ifndef SLOSH_FELT_PART_H
 #define SLOSH_FELT_PART_H
 

@@ -1,4 +1,4 @@
-/* Emitters, guides and drains; filled by sim/gl/compute/flow.c. */
+/* Emitters, guides and drains; filled by sim/gpu/compute/flow.c. */
 #ifndef SLOSH_FLOW_BLOCK_H
 #define SLOSH_FLOW_BLOCK_H
 

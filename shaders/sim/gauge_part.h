@@ -1,4 +1,4 @@
-/* Sums of a group of gauge.comp over its particles; sim/gl/compute/gauge.c adds the groups. */
+/* Sums of a group of gauge.comp over its particles; sim/gpu/compute/read.c adds the groups. */
 #ifndef SLOSH_GAUGE_PART_H
 #define SLOSH_GAUGE_PART_H
 

@@ -1,4 +1,4 @@
-// The walls of the box as mirrors: sim/box/wall_images.c.
+// The walls of the box as mirrors: sim/box/walls.c.
 struct Image {
     vec3 x;
     vec3 sign; // -1 along mirrored axes, else 1

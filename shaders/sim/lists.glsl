@@ -1,5 +1,5 @@
 // Neighbour lists, including the particle itself: particles within h, found by the first walk after a grid, for later
-// passes of the step. sim/gl/compute/lists.c writes the defines. First a count per particle, then the lists of each
+// passes of the step. sim/gpu/compute/grid.c writes the defines. First a count per particle, then the lists of each
 // 32 particles, interleaved so that 32 invocations read a line of memory. A pass that is always the first of a step
 // defines LISTS_FIRST; a pass that is never the first defines LISTS_LATER and makes no lists.
 #ifdef LISTS

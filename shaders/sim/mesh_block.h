@@ -1,4 +1,4 @@
-/* Distance grids of mesh solids; values are in a buffer texture. Filled by sim/gl/compute/meshes.c. In the
+/* Distance grids of mesh solids; values are in a buffer texture. Filled by sim/gpu/compute/solids.c. In the
    unit of the mesh's file: sim/mesh/distance.h. */
 #ifndef SLOSH_MESH_BLOCK_H
 #define SLOSH_MESH_BLOCK_H

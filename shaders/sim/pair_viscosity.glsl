@@ -1,4 +1,4 @@
-// Viscosity of a pair: pair_viscosity of sim/matter/viscosity.h; a sum for a single fluid.
+// Viscosity of a pair: pair_viscosity of sim/def/fluids.h; a sum for a single fluid.
 float pair_viscosity(float a, float b)
 {
 #ifdef ONE_FLUID

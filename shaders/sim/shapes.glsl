@@ -1,4 +1,4 @@
-// The kernels of solver.kernel, selected by a define; default: the cubic spline. sim/cpu/pair_shape.h.
+// The kernels of solver.kernel, selected by a define; default: the cubic spline. sim/cpu/pair_loop.h.
 
 // f(q) = -w'(q) / q of the kernel, up to a factor in gradient_scale.
 float shape(float q)

@@ -1,4 +1,4 @@
-// Keeps particles out of solids: solid_guard of sim/matter/solid_step.c, in the solid's frame.
+// Keeps particles out of solids: solid_guard of sim/solids/solid_step.c, in the solid's frame.
 #include "sim/solids.glsl"
 #ifndef SOLID_BEGIN
 #define SOLID_BEGIN(k) solids[k].begin

@@ -1,4 +1,4 @@
-/* Poses of the solids over half a step, and their shapes; filled by sim/gl/compute/boundary.c. */
+/* Poses of the solids over half a step, and their shapes; filled by sim/gpu/compute/solids.c. */
 #ifndef SLOSH_SOLID_STEPS_BLOCK_H
 #define SLOSH_SOLID_STEPS_BLOCK_H
 

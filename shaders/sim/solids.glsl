@@ -1,4 +1,4 @@
-// Solids: shapes and distances. Mirrors sim/matter/solid_step.c and sim/matter/solid.c. Distances are in single
+// Solids: shapes and distances. Mirrors sim/solids/solid_step.c and sim/solids/solid.c. Distances are in single
 // precision, since most GPUs are 32 to 64 times slower in double precision. With REPRODUCIBLE, distances are in
 // double precision like on the CPU: the last bit decides if a particle on a surface is held, and then the bit is the
 // same.

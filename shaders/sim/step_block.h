@@ -1,4 +1,4 @@
-/* Data of a step; filled by sim/gl/compute/blocks.c. */
+/* Data of a step; filled by sim/gpu/compute/blocks.c. */
 #ifndef SLOSH_STEP_BLOCK_H
 #define SLOSH_STEP_BLOCK_H
 

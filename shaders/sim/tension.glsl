@@ -1,4 +1,4 @@
-// Surface tension within each fluid: sim/cpu/pairs_tension.c. No force without a model.
+// Surface tension within each fluid: sim/cpu/pairs_shared.c. No force without a model.
 #ifdef TENSION
 uint tension_fluid;
 vec4 tension_sum = vec4(0); // sum over the neighbours

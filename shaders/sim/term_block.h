@@ -1,4 +1,4 @@
-/* Data of optional terms: surface tension, no-slip walls; filled by sim/gl/compute/terms.c. */
+/* Data of optional terms: surface tension, no-slip walls; filled by sim/gpu/compute/terms.c. */
 #ifndef SLOSH_TERM_BLOCK_H
 #define SLOSH_TERM_BLOCK_H
 
@@ -8,7 +8,7 @@
 BLOCK_STRUCT(FluidTerms)
 {
     float tension; /* Constants.tension */
-    float wet;     /* wetting_curvature of sim/matter/tension.h, 1/m */
+    float wet;     /* wetting_curvature of sim/def/fluids.h, 1/m */
 }
 BLOCK_END(FluidTerms);
 
@@ -17,10 +17,10 @@ UNIFORM_BLOCK(TermBlock, TERM_BLOCK)
     float colour_scale;    /* of the colour field */
     float drag_range;      /* m */
     float friction_scale;  /* R F over f(r / h) of sim/viscosity, 1/m4 */
-    float curvature_least; /* curvature_weight of sim/matter/tension.h: limit without a surface; limit of a
+    float curvature_least; /* curvature_weight of sim/def/fluids.h: limit without a surface; limit of a
                               full surface */
     float curvature_whole;
-    float curvature_crowd_least; /* CROWD_LEAST of sim/matter/tension.h */
+    float curvature_crowd_least; /* CROWD_LEAST of sim/def/fluids.h */
     float curvature_full;        /* from here to curvature_most: CurvatureScale */
     float curvature_few;
     float curvature_crowd;

@@ -1,5 +1,5 @@
 // The walk over the neighbours of a position x: particles in the cells around `at`, the cell of x, row by row. There
-// are nine rows of three cells, in two dimensions three rows: sim/cpu/pair_args.h.
+// are nine rows of three cells, in two dimensions three rows: sim/cpu/pairs.h.
 //
 // WALK(x, at, meet, meet_boundary) calls meet(j, d, w) for each particle, and meet_boundary(j, d, w) for each
 // boundary particle of solids, at any distance. j: index; d: x minus the particle's position; w: fourth number of its

@@ -1,4 +1,4 @@
-// Keeps fluid drawn by gravity from lying on a wall: walls_cushion of sim/box/wall_cushion.c.
+// Keeps fluid drawn by gravity from lying on a wall: walls_cushion of sim/box/walls.c.
 #include "shaders/sim/box/wall_cushion_part.h"
 
 // Acceleration of a particle at x with velocity v and gravity g, over a step dt; pressure: over the pressure of a

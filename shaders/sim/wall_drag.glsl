@@ -1,4 +1,4 @@
-// Friction of no-slip walls, as in sim/box/wall_drag.c: tables over the distances to one, two, three faces.
+// Friction of no-slip walls, as in sim/box/walls.c: tables over the distances to one, two, three faces.
 layout(std430, binding = DRAG_BUFFER) readonly buffer DragTables { float drag_tables[]; };
 
 float drag_of_faces(vec3 distances, int count)

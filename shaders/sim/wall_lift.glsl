@@ -1,5 +1,5 @@
 // Share of a particle's weight held by walls whose images have their particles' pressure: walls_lift of
-// sim/box/wall_lift.h, and add_lift in sim/mueller/passes.c.
+// sim/box/walls.h, and add_lift in sim/methods/mueller/mueller.c.
 vec3 lift_shape(vec3 d)
 {
     vec3 t = max(1.0 - d * inverse_support, 0.0), t2 = t * t;

@@ -1,4 +1,4 @@
-/* Findings of the kicks so far, read by sim/gl/compute/watch.c. A pass that writes the block (WRITES_WATCH)
+/* Findings of the kicks so far, read by sim/gpu/compute/read.c. A pass that writes the block (WRITES_WATCH)
    also reads there, without a second block of the same buffer. */
 #ifndef SLOSH_WATCH_BLOCK_H
 #define SLOSH_WATCH_BLOCK_H

@@ -1,4 +1,4 @@
-// Splines through the values, as catmull_rom_at of sim/surface/volume_field.c.
+// Splines through the values, as catmull_rom_at of sim/points/volume_field.c.
 #include "surface/grid.glsl"
 
 // Weights of the four values around a position, for value, slope and second derivative, per cell.

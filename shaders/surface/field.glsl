@@ -1,5 +1,5 @@
-// The sample of a field of sim/surface at a position, and functions shared by all fields. A program uses one field: the line
-// #define FIELD names the file with `Sample field_at(vec3)`; numbers and arrays are LevelParts of sim/surface/level_kind.h.
+// The sample of a field of sim/points at a position, and functions shared by all fields. A program uses one field: the line
+// #define FIELD names the file with `Sample field_at(vec3)`; numbers and arrays are LevelParts of sim/points/points.h.
 #include "shaders/surface/surface_bindings.h"
 layout(location = FIELD_NUMBERS_AT) uniform vec4 field_numbers[4];
 
@@ -16,7 +16,7 @@ float bend_of(vec3 slope, vec3 straight, vec3 across)
     return straight.x + straight.y + straight.z - along / dot(slope, slope);
 }
 
-// Sine and cosine of `turns` full turns, as lanes_turn of sim/surface/lanes.h; the drivers' functions may be far less exact.
+// Sine and cosine of `turns` full turns, as lanes_turn of sim/points/lanes.h; the drivers' functions may be far less exact.
 vec2 turn(float turns)
 {
     float quarters = floor(4.0 * turns + 0.5), x = (turns - 0.25 * quarters) * 6.28318531, square = x * x;

@@ -1,4 +1,4 @@
-// Packs a unit vector as surface_normal_pack of sim/surface/points.h.
+// Packs a unit vector as surface_normal_pack of sim/points/points.h.
 uint packed_normal(vec3 slope)
 {
     float sum = abs(slope.x) + abs(slope.y) + abs(slope.z);

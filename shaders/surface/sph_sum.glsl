@@ -1,4 +1,4 @@
-// Sums over the particles around a position (sim/surface/sph_field.c); particles are ordered by cell. Numbers: low, cell; size,
+// Sums over the particles around a position (sim/points/sph_field.c); particles are ordered by cell. Numbers: low, cell; size,
 // support; the kernel's peak, the length of a column.
 layout(std430, binding = FIELD_FIRST_STORAGE) readonly buffer FieldColumns { float field_columns[]; }; // x, y, z, V, V s
 layout(std430, binding = FIELD_SECOND_STORAGE) readonly buffer FieldBegin { uint field_begin[]; };     // first particle of each cell, and the end

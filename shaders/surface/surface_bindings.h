@@ -1,4 +1,4 @@
-/* Binding numbers of the shaders that walk on surfaces: sim/gl/surface. */
+/* Binding numbers of the shaders that walk on surfaces: sim/gpu/surface. */
 #ifndef SLOSH_SURFACE_BINDINGS_H
 #define SLOSH_SURFACE_BINDINGS_H
 
@@ -27,11 +27,11 @@
 #define SPHERES_CELL_AT   30
 #define SPHERES_RADIUS_AT 31
 
-/* Limits of a step's ways back to the surface, as in sim/surface/walk.h */
+/* Limits of a step's ways back to the surface, as in sim/points/walk.h */
 #define WALK_NEWTON_STEPS 5
 #define WALK_HALVINGS     16
 
-/* 32-bit words of a SurfacePoint (sim/surface/points.h); work group */
+/* 32-bit words of a SurfacePoint (sim/points/points.h); work group */
 #define SURFACE_WORDS 6u
 #define SURFACE_GROUP 64
 

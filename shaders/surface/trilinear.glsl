@@ -1,4 +1,4 @@
-// Trilinear interpolation between the eight values around a position, as trilinear_at of sim/surface/volume_field.c.
+// Trilinear interpolation between the eight values around a position, as trilinear_at of sim/points/volume_field.c.
 #include "surface/grid.glsl"
 
 Sample field_at(vec3 p)

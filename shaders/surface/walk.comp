@@ -1,4 +1,4 @@
-// Steps of walkers on a level of a field, an invocation per walker, as in sim/surface/walk.h: the same random numbers for the
+// Steps of walkers on a level of a field, an invocation per walker, as in sim/points/walk.h: the same random numbers for the
 // same walker and step, for any work groups. After: S. Tanaka et al., "Particle-based transparent rendering of implicit surfaces
 // and its application to fused visualization", 2012, section 4, eq. 3.
 #include "surface/field.glsl"

@@ -1,4 +1,4 @@
-#include "sim/base/formula.h"
+#include "slosh/def.h"
 
 #include <ctype.h>
 #include <math.h>

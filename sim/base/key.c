@@ -1,5 +1,33 @@
 #include "sim/base/key.h"
 
+#include <stdio.h>
+
+void key_bounds_text(const Key *key, char *text, size_t size)
+{
+    *text = 0;
+    if (key->min == key->max)
+        return;
+    if (key->flags & KEY_OPEN_LOW)
+        snprintf(text, size, "more than %g, at most %g", key->min, key->max);
+    else
+        snprintf(text, size, "%g to %g", key->min, key->max);
+}
+
+void key_range_text(const Key *key, char *text, size_t size)
+{
+    size_t used = 0;
+    const char *name;
+    *text = 0;
+    for (int i = 0; (name = key_choice(key, i)) && used < size; i++)
+        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
+    if (key->type == KEY_POINTS && used < size)
+        snprintf(text + used, size - used, ", or points of %g to %g", key->min, key->max);
+    else if (key->type == KEY_BOOLEAN)
+        snprintf(text, size, "true, false");
+    else if (used == 0)
+        key_bounds_text(key, text, size);
+}
+
 const char *key_choice(const Key *key, int index)
 {
     if (!key->names)

@@ -2,8 +2,8 @@
    backend, a view, the box ...). The table of all keys is the sequence of these rows (app/scene/keys.h).
    The loader, `--set`, `slosh info`, the panel, the documentation and the comparison in `run --resume` use
    the table. Macros for rows are in sim/base/key_rows.h. */
-#ifndef SLOSH_KEY_H
-#define SLOSH_KEY_H
+#ifndef SIM_BASE_KEY_H
+#define SIM_BASE_KEY_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -82,5 +82,13 @@ typedef struct Key {
 
 /* Name at `index` of a row's list; NULL after the last, and for a row without a list. */
 const char *key_choice(const Key *key, int index);
+
+/* The allowed values of a key, in words. */
+
+/* "0.001 to 1000", "more than 0, at most 5"; "" when not bounded. */
+void key_range_text(const Key *key, char *text, size_t size);
+
+/* The same for the numbers alone, if names are also allowed. */
+void key_bounds_text(const Key *key, char *text, size_t size);
 
 #endif

@@ -1,4 +1,5 @@
-#include "sim/box/box_motion.h"
+#include "sim/base/key_rows.h"
+#include "slosh/def.h"
 
 #include <math.h>
 #include <string.h>
@@ -197,3 +198,151 @@ bool motion_in_plane(const Motion *motion)
     const double *a = motion->axis;
     return !motion_translates(motion) ? a[0] == 0 && a[1] == 0 : a[2] == 0;
 }
+
+BoxLimits box_limits_default(void)
+{
+    return (BoxLimits){
+        .response = 0.08,             /* a hand feels a delay from about 0.1 s on */
+        .speed = 2,                   /* an arm's */
+        .acceleration = 20,           /* twice g: fluid sloshes, and hits walls no faster than dt allows */
+        .turn_speed_deg = 180,        /* a wrist's */
+        .turn_acceleration_deg = 1800 /* full turning speed within 0.1 s */
+    };
+}
+
+BoxFilter box_filter_at_rest(void)
+{
+    return (BoxFilter){.orientation = {0, 0, 0, 1}};
+}
+
+static double length(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+static void limit(double v[3], double most)
+{
+    const double l = length(v);
+    for (int k = 0; k < 3 && l > most; k++)
+        v[k] *= most / l;
+}
+
+/* x'' = (error - 2 response x') / response^2 by an implicit step, stable for every dt. The change of
+   velocity and the velocity are cut at the limits. `moved`: distance with the mean of both velocities,
+   since the acceleration is constant over the step. */
+static void follow(const double error[3], double response, double speed, double acceleration, double dt,
+                   double velocity[3], double moved[3])
+{
+    const double u = dt / response, damping = 1 / ((1 + u) * (1 + u));
+    double change[3], after[3];
+    for (int k = 0; k < 3; k++)
+        change[k] = (velocity[k] + u * error[k] / response) * damping - velocity[k];
+    limit(change, acceleration * dt);
+    for (int k = 0; k < 3; k++)
+        after[k] = velocity[k] + change[k];
+    limit(after, speed);
+    for (int k = 0; k < 3; k++) {
+        moved[k] = 0.5 * (velocity[k] + after[k]) * dt;
+        velocity[k] = after[k];
+    }
+}
+
+/* Rotation vector of a * conj(b), the short way round. */
+static void rotation_between(const double a[4], const double b[4], double out[3])
+{
+    const double inverse[4] = {-b[0], -b[1], -b[2], b[3]};
+    double d[4];
+    quat_multiply(a, inverse, d);
+    const double sine = length(d), sign = d[3] < 0 ? -1 : 1;
+    const double scale = sine > 0 ? sign * 2 * atan2(sine, sign * d[3]) / sine : 0;
+    for (int k = 0; k < 3; k++)
+        out[k] = scale * d[k];
+}
+
+void box_filter_step(BoxFilter *filter, const BoxTarget *target, const BoxLimits *limits, double dt)
+{
+    const double radians = M_PI / 180;
+    double error[3], moved[3];
+    for (int k = 0; k < 3; k++)
+        error[k] = target->position[k] - filter->position[k];
+    follow(error, limits->response, limits->speed, limits->acceleration, dt, filter->velocity, moved);
+    for (int k = 0; k < 3; k++)
+        filter->position[k] += moved[k];
+
+    rotation_between(target->orientation, filter->orientation, error);
+    follow(error, limits->response, limits->turn_speed_deg * radians, limits->turn_acceleration_deg * radians,
+           dt, filter->angular_velocity, moved);
+    quat_turn(moved, filter->orientation);
+}
+
+/* The hand moves and turns the centre's frame; the prescribed pose is relative to this frame. */
+void box_filter_apply(const BoxFilter *filter, double box_height, BoxState *state)
+{
+    const double centre[3] = {0, 0.5 * box_height, 0}; /* of the box at home: the hand's centre of rotation */
+    double arm[3], arm_velocity[3], turned[3], swirl[3], angular[3];
+    for (int k = 0; k < 3; k++)
+        arm[k] = state->position[k] - centre[k];
+    quat_rotate(filter->orientation, arm, turned);
+    quat_rotate(filter->orientation, state->velocity, arm_velocity);
+    cross_product(filter->angular_velocity, turned, swirl);
+    quat_rotate(filter->orientation, state->angular_velocity, angular);
+    for (int k = 0; k < 3; k++) {
+        state->position[k] = centre[k] + filter->position[k] + turned[k];
+        state->velocity[k] = filter->velocity[k] + swirl[k] + arm_velocity[k];
+        state->angular_velocity[k] = filter->angular_velocity[k] + angular[k];
+    }
+    quat_multiply(filter->orientation, state->orientation, state->orientation);
+}
+
+/* Keys for motions of the box and of solids, and for the box in the hand. */
+
+#define AT(field)     offsetof(BoxLimits, field)
+#define MOTION(field) offsetof(Motion, field)
+
+/* Rows of each kind in MOTION_LIST; M: path of the motion. A kind without such a line does not compile. */
+#define AXIS(M) VEC3(M ".axis", R, "", -1000, 1000, MOTION(axis), "direction, of any length but zero"),
+#define AMPLITUDE(M)                                                                                         \
+    NUMBER(M ".amplitude", R, "m", 0, 1e6, MOTION(amplitude), "greatest distance from the start"),
+#define ANGLE(M, MOST) NUMBER(M ".angle", R, "degrees", -(MOST), MOST, MOTION(angle_deg), "greatest angle"),
+#define FREQUENCY(M)                                                                                         \
+    NUMBER(M ".frequency", R, "Hz", 0, 1000, MOTION(frequency), "how often to and fro in a second"),
+#define RATE(M) NUMBER(M ".rate", R, "rad/s", -1000, 1000, MOTION(rate), "angular velocity"),
+#define ACCELERATION(M)                                                                                      \
+    NUMBER(M ".acceleration", R, "m/s2", -1000, 1000, MOTION(acceleration), "along the axis"),
+#define START(M)    NUMBER(M ".start", 0, "s", 0, 1e6, MOTION(start), "still before it"),
+#define DURATION(M) NUMBER(M ".duration", 0, "s", 0, 1e6, MOTION(duration), "0: for ever"),
+#define WITHIN(M)   NUMBER(M ".duration", R | O, "s", 0, 1e6, MOTION(duration), "of the turn"),
+
+#define FIELDS_SHAKE(M)      AXIS(M) AMPLITUDE(M) FREQUENCY(M) START(M) DURATION(M)
+#define FIELDS_ROCK(M)       AXIS(M) ANGLE(M, 180) FREQUENCY(M) START(M) DURATION(M)
+#define FIELDS_TURN(M)       AXIS(M) ANGLE(M, 36000) START(M) WITHIN(M)
+#define FIELDS_SPIN(M)       AXIS(M) RATE(M) START(M) DURATION(M)
+#define FIELDS_ACCELERATE(M) AXIS(M) ACCELERATION(M) START(M) DURATION(M)
+#define MOTION_ROWS(KIND, NAME, HELP)                                                                        \
+    VARIANT("motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP), FIELDS_##KIND("motion[]." NAME)
+#define SOLID_MOTION_ROWS(KIND, NAME, HELP)                                                                  \
+    VARIANT("solids[].motion[]." NAME, MOTION(kind), MOTION_##KIND, HELP),                                   \
+        FIELDS_##KIND("solids[].motion[]." NAME)
+
+/* clang-format off */
+const Key motion_keys[] = {
+    MOTION_LIST(MOTION_ROWS)
+    KEYS_END,
+};
+
+const Key solid_motion_keys[] = {
+    MOTION_LIST(SOLID_MOTION_ROWS)
+    KEYS_END,
+};
+
+const Key hand_keys[] = {
+    MAPPING("hand", "what the box may do when a hand moves it, by mouse, keys or gamepad"),
+    NUMBER("hand.response", L, "s", 0.001, 10, AT(response), "time in which the box follows the hand"),
+    NUMBER("hand.speed", L, "m/s", 0.001, 1000, AT(speed), "greatest speed"),
+    NUMBER("hand.acceleration", L, "m/s2", 0.001, 1e4, AT(acceleration), "greatest acceleration"),
+    NUMBER("hand.turn_speed", L, "degrees/s", 0.1, 1e4, AT(turn_speed_deg), "greatest speed of turning"),
+    NUMBER("hand.turn_acceleration", L, "degrees/s2", 0.1, 1e6, AT(turn_acceleration_deg),
+           "greatest acceleration of turning"),
+    KEYS_END,
+};
+/* clang-format on */

@@ -1,14 +1,14 @@
 #include "sim/cpu/cpu.h"
 
 #include "sim/base/key_rows.h"
-#include "sim/base/room.h"
-#include "sim/world/world.h"
+#include "sim/base/memory.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct IN_A_ROOM CpuDef {
+typedef struct MAY_ALIAS CpuDef {
     int threads; /* 0: a thread per processor */
     int simd;    /* of simd_kinds */
 } CpuDef;
@@ -119,7 +119,7 @@ static CpuDef *cpu_def(const WorldDef *def)
     return backend_def(def, &backend_cpu);
 }
 
-int *world_threads(const WorldDef *def)
+static int *cpu_threads(const WorldDef *def)
 {
     return &cpu_def(def)->threads;
 }
@@ -304,6 +304,7 @@ const Backend backend_cpu = {
     .name = "cpu",
     .help = "threads and SIMD on the processor; the reference",
     .keys = keys,
+    .threads = cpu_threads,
     .create = cpu_create,
     .destroy = cpu_destroy,
     .adapt = cpu_adapt,

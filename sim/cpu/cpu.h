@@ -1,14 +1,16 @@
 /* State of the CPU backend: structure of arrays, sorted by cell, and the grid for the sort. */
-#ifndef SLOSH_CPU_H
-#define SLOSH_CPU_H
+#ifndef SIM_CPU_CPU_H
+#define SIM_CPU_CPU_H
 
-#include "sim/base/exact_sum.h"
 #include "sim/base/parallel.h"
-#include "sim/cpu/pair_set.h"
-#include "sim/matter/forces.h"
-#include "sim/world/backend.h"
-#include "sim/world/cell_fold.h"
-#include "sim/world/particles.h"
+#include "sim/base/sums.h"
+#include "sim/cpu/pairs.h"
+#include "sim/def/fluids.h"
+#include "sim/step/backend.h"
+#include "sim/step/backend_sums.h"
+#include "sim/step/cells.h"
+#include "sim/step/method.h"
+#include "slosh/world.h"
 
 typedef ParticleColumns CpuParticles;
 
@@ -47,7 +49,7 @@ typedef struct Cpu {
     size_t bytes;                /* of all arrays above */
     size_t guarded;              /* atomic */
     Forces *forces;              /* sums of forces on box and solids; NULL: not requested */
-    struct CpuFelt *felt;        /* scratch for these sums: sim/cpu/felt.h */
+    struct CpuForceSums *felt;   /* scratch for these sums: sim/cpu/cpu.h */
     /* Replaces each of `count` sums by the sum over all processes of the world; NULL: a single process. */
     void (*sum_all)(ExactSum *sums, int count);
     StepWatch watch; /* written by `kick` (atomic), read and reset by `watch` */
@@ -138,7 +140,7 @@ void cpu_find(Cpu *cpu);
    particles by cell. */
 void cpu_grid(void *state);
 
-/* sim/cpu/copies.c, for boxes with periodic sides.
+/* sim/cpu/boundary.c, for boxes with periodic sides.
    _fit: counts the copies after cpu_cells; false if room is short. _grow: makes room; false if memory is
    short, then call _drop: no copies exist, and the step reports the trouble. _place: puts the copies after
    the particles. Before a pass walks, _update copies the columns of the pass's pair sums and _pack the
@@ -192,7 +194,7 @@ void cpu_sums(void *state, WorldSums *sums);
 bool cpu_read(void *state, const ParticleArrays *out);
 extern const struct BackendMicro cpu_micro;
 /* sim/cpu/forces.c, if forces were requested. _kick: call after a kick to add its forces. _drift: adds the
-   impulses of the drift's guards, summed by sim/cpu/felt.h. */
+   impulses of the drift's guards, summed by sim/cpu/cpu.h. */
 bool cpu_feel(void *state, Forces *to, Error *error);
 void cpu_feel_kick(Cpu *cpu, float dt);
 void cpu_feel_drift(Cpu *cpu);
@@ -202,5 +204,104 @@ void cpu_energy(void *state, bool turning, EnergySums *sums);
 /* cpu_energy as parts that add up: a sum per number of EnergySums. */
 enum { ENERGY_SUMS = sizeof(EnergySums) / sizeof(double) };
 void cpu_energy_part(Cpu *cpu, bool turning, ExactSum sums[ENERGY_SUMS]);
+
+/* Forces on box and solids, as sums with the same bits for any division of the work: per cell in double,
+   exact over cells. */
+
+enum { PUSH_NUMBERS = sizeof(Push) / sizeof(double), FORCE_SUMS_MAX = SOLIDS_MAX + 1 };
+
+typedef struct PushSum {
+    ExactSum number[PUSH_NUMBERS];
+} PushSum;
+
+/* The part of a range. Initialize `any` to false; the rest needs no value. */
+typedef struct CpuForceSums {
+    bool any;
+    PushSum of[FORCE_SUMS_MAX]; /* the box, then each solid */
+} CpuForceSums;
+
+/* cpu_force_sums_begin zeroes the sum; cpu_force_sums_merge adds a range's part to the sum. */
+void cpu_force_sums_begin(Cpu *cpu);
+void cpu_force_sums_merge(Cpu *cpu, const CpuForceSums *felt);
+
+/* Adds to `felt` the impulse of the guard of `whom` on a particle at x (m): velocity `before` became v.
+   Then sets `before` to v. `felt` NULL: adds nothing. */
+void cpu_force_of_guard(CpuForceSums *felt, int whom, float mass, const float x[3], const float v[3],
+                        float before[3]);
+
+/* A method's pass on the CPU: loops over all particles in sequence, each loop in parallel ranges. */
+
+typedef struct CpuRange {
+    Cpu *cpu;
+    const PairArgs *args;
+    const PassInput *input;
+    size_t begin, end;
+} CpuRange;
+
+typedef struct CpuLoop {
+    void (*body)(const CpuRange *range);
+    bool walks; /* over neighbours */
+    /* Before a walk, for all particles: fills Cpu.place, .motion or both, as the walk requires. NULL:
+       both. */
+    void (*pack)(const CpuRange *range);
+    bool packed; /* the previous pass has filled them */
+    bool solids; /* also over boundary particles; otherwise over runs of own fluid particles */
+} CpuLoop;
+
+/* Fluid particle i next to boundary particle b. */
+typedef struct SolidPair {
+    const Cpu *cpu;
+    float dt; /* of the step, s */
+    size_t i, b;
+    float d[3], r; /* x_i - x_b, m; its length in (0, h) */
+} SolidPair;
+
+/* Force of b on i, N in units of Constants.unit_volume. */
+typedef void (*SolidForce)(const SolidPair *pair, float force[3]);
+
+typedef struct CpuPass {
+    CpuLoop loops[3];                             /* ended by a loop without a body */
+    PairCost (*pair)(const Constants *constants); /* counted as in sim/step/method.h; NULL: no pairs */
+    SolidForce solid; /* for forces on solids, after the pass; NULL: no lasting force on solids */
+} CpuPass;
+
+/* True if `name` is in the blank-separated list, as in Pass.reads. */
+bool cpu_name_among(const char *list, const char *name);
+
+/* Runs the pair sums of a range. */
+static inline void cpu_pairs(const CpuRange *range, const PairLoops *loops)
+{
+    loops->in[range->cpu->pairs](range->args, range->begin, range->end);
+}
+
+/* sim/cpu/forces.c: adds the forces of a pass on solids over dt (s). */
+void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt);
+
+/* F U = -W'(r) / r of a kernel, 1/m2, times `scale`: for few pairs. */
+static inline float cpu_slope(const Kernel *kernel, const SolidPair *pair, double scale)
+{
+    const Constants *s = pair->cpu->constants;
+    const double r = (double)pair->r;
+    return (float)(-scale * s->unit_volume * kernel->derivative(r, (double)s->support_radius) / r);
+}
+
+/* pair_viscosity of sim/def/fluids.h, Pa s, for forces with friction. */
+static inline float cpu_pair_viscosity(const SolidPair *pair)
+{
+    const float *viscosity = pair->cpu->now.viscosity;
+    return viscosity ? (float)pair_viscosity((double)viscosity[pair->i], (double)viscosity[pair->b])
+                     : 2 * pair->cpu->constants->viscosity[0];
+}
+
+/* Adds surface tension, then turns the summed forces into accelerations. */
+void cpu_force_end(const CpuRange *range);
+
+/* Adds sim/box/walls.h; call after cpu_force_end. */
+void cpu_cushion(const CpuRange *range);
+
+/* The machine's peak rates on some threads: the best of a few tries. */
+
+/* Returns false if memory is short. */
+bool ceilings_measure(int threads, PairSet set, Ceilings *out);
 
 #endif

@@ -1,7 +1,8 @@
 /* Forces on box and solids. The total force on the fluid is m a at the kick. The part on boundary particles
    is summed over pairs in a separate loop, only on request. */
-#include "sim/cpu/felt.h"
-#include "sim/cpu/pass.h"
+#include "sim/cpu/cpu.h"
+
+#include "sim/start/fill.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -21,12 +22,13 @@ bool cpu_feel(void *state, Forces *to, Error *error)
 
 /* ---- sums ---- */
 
-void cpu_felt_begin(Cpu *cpu)
+void cpu_force_sums_begin(Cpu *cpu)
 {
     memset(cpu->felt, 0, sizeof *cpu->felt);
 }
 
-void cpu_felt_add(CpuFelt *felt, int whom, const Push *push)
+/* Adds a push to the box (`whom` 0) or to solid k (`whom` 1 + k). */
+static void cpu_force_sums_add(CpuForceSums *felt, int whom, const Push *push)
 {
     ExactSum *number;
     if (!felt->any)
@@ -39,7 +41,7 @@ void cpu_felt_add(CpuFelt *felt, int whom, const Push *push)
     }
 }
 
-void cpu_felt_merge(Cpu *cpu, const CpuFelt *felt)
+void cpu_force_sums_merge(Cpu *cpu, const CpuForceSums *felt)
 {
     if (!felt->any)
         return;
@@ -51,7 +53,7 @@ void cpu_felt_merge(Cpu *cpu, const CpuFelt *felt)
 }
 
 /* The sums over all processes of the world, as force times time. */
-static void sum_up(Cpu *cpu, Push out[FELT_MOST])
+static void sum_up(Cpu *cpu, Push out[FORCE_SUMS_MAX])
 {
     const int width = cpu->constants->solid_count + 1;
     const double unit = cpu->constants->unit_volume; /* forces are in units of U */
@@ -85,7 +87,7 @@ static void kick_range(void *context, size_t begin, size_t end)
     Cpu *cpu = kick->cpu;
     const CpuParticles *p = &cpu->now;
     const size_t last = cpu_cell_first(cpu, end);
-    CpuFelt felt;
+    CpuForceSums felt;
     felt.any = false;
     for (size_t k = cpu_cell_first(cpu, begin); k < last;) {
         Push of_cell = {.force = {0}};
@@ -95,16 +97,16 @@ static void kick_range(void *context, size_t begin, size_t end)
             push_at(&of_cell, (double[]){(double)p->x[i], (double)p->y[i], (double)p->z[i]},
                     (double[]){m * (double)p->ax[i], m * (double)p->ay[i], m * (double)p->az[i]});
         } while (++k < last && cpu_cell_goes_on(cpu, k));
-        cpu_felt_add(&felt, 0, &of_cell);
+        cpu_force_sums_add(&felt, 0, &of_cell);
     }
-    cpu_felt_merge(cpu, &felt);
+    cpu_force_sums_merge(cpu, &felt);
 }
 
 void cpu_feel_kick(Cpu *cpu, float dt)
 {
     Kick kick = {cpu, (double)dt};
-    Push all[FELT_MOST];
-    cpu_felt_begin(cpu);
+    Push all[FORCE_SUMS_MAX];
+    cpu_force_sums_begin(cpu);
     parallel_ranges(cpu->threads, cpu->owned, KICK_GRAIN, kick_range, &kick);
     sum_up(cpu, all);
     push_add(&cpu->forces->box, 1, &all[0]);
@@ -113,7 +115,8 @@ void cpu_feel_kick(Cpu *cpu, float dt)
 
 /* ---- guards ---- */
 
-void cpu_feel_guard(CpuFelt *felt, int whom, float mass, const float x[3], const float v[3], float before[3])
+void cpu_force_of_guard(CpuForceSums *felt, int whom, float mass, const float x[3], const float v[3],
+                        float before[3])
 {
     Push push = {.force = {0}};
     double at[3], impulse[3];
@@ -125,12 +128,12 @@ void cpu_feel_guard(CpuFelt *felt, int whom, float mass, const float x[3], const
     if (!felt)
         return;
     push_at(&push, at, impulse);
-    cpu_felt_add(felt, whom, &push);
+    cpu_force_sums_add(felt, whom, &push);
 }
 
 void cpu_feel_drift(Cpu *cpu)
 {
-    Push all[FELT_MOST];
+    Push all[FORCE_SUMS_MAX];
     sum_up(cpu, all);
     push_add(&cpu->forces->box, 1, &all[0]);
     for (int k = 0; k < cpu->constants->solid_count; k++)
@@ -165,7 +168,7 @@ static void add_pair(const SolidPass *pass, const float from[3], size_t i, size_
 
 /* Adds the fluid in entries [begin, end) of Cpu.fluid_at, cell by cell. Ghosts are left to their owners. */
 static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, size_t end, size_t b,
-                      CpuFelt *felt)
+                      CpuForceSums *felt)
 {
     const Cpu *cpu = pass->cpu;
     const int whom = 1 + cpu->now.fluid[b] - FLUIDS_MAX;
@@ -177,11 +180,11 @@ static void add_fluid(const SolidPass *pass, const float from[3], size_t begin, 
             if (own)
                 add_pair(pass, from, cpu->fluid_at[k], b, &of_cell);
         if (own)
-            cpu_felt_add(felt, whom, &of_cell);
+            cpu_force_sums_add(felt, whom, &of_cell);
     }
 }
 
-static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, CpuFelt *felt)
+static void add_boundary(const SolidPass *pass, const PairArgs *args, size_t b, CpuForceSums *felt)
 {
     const Cpu *cpu = pass->cpu;
     const CpuParticles *p = &cpu->now;
@@ -200,23 +203,166 @@ static void solid_range(void *context, size_t begin, size_t end)
 {
     const SolidPass *pass = context;
     const PairArgs args = cpu_pair_args(pass->cpu);
-    CpuFelt felt;
+    CpuForceSums felt;
     felt.any = false;
     for (size_t k = begin; k < end; k++)
         add_boundary(pass, &args, pass->cpu->boundary_at[k], &felt);
-    cpu_felt_merge(pass->cpu, &felt);
+    cpu_force_sums_merge(pass->cpu, &felt);
 }
 
 /* A push on a solid is taken off the box. */
 void cpu_feel_solids(Cpu *cpu, SolidForce force, float dt)
 {
     SolidPass pass = {cpu, force, dt};
-    Push all[FELT_MOST];
-    cpu_felt_begin(cpu);
+    Push all[FORCE_SUMS_MAX];
+    cpu_force_sums_begin(cpu);
     parallel_ranges(cpu->threads, cpu->constants->boundary.count, CPU_GRAIN, solid_range, &pass);
     sum_up(cpu, all);
     for (int k = 0; k < cpu->constants->solid_count; k++) {
         push_add(&cpu->forces->box, -1, &all[1 + k]);
         add_to_solid(cpu, k, &all[1 + k]);
     }
+}
+
+/* Emitters, guides and drains, between steps. */
+
+static const float ROOM = 0.9f; /* least distance to present particles, in spacings */
+
+/* True if no particle is near x: neither a particle in the grid nor a particle added since the grid. */
+bool cpu_has_room(Cpu *cpu, const float x[3])
+{
+    const PairArgs pairs = cpu_pair_args(cpu), *args = &pairs;
+    const float least = ROOM * cpu->constants->spacing;
+    const uint32_t cell = cpu_cell_of(cpu->constants, x);
+    CellRow rows[CELL_ROWS];
+    const int row_count = cell_rows(args->constants, args->fold, args->cell_start, cell, rows);
+    for (int row = 0; row < row_count; row++) {
+        const float *shift = rows[row].shift;
+        for (uint32_t j = rows[row].begin; j < rows[row].end; j++) {
+            const float d[3] = {x[0] + shift[0] - args->x[j], x[1] + shift[1] - args->y[j],
+                                x[2] + shift[2] - args->z[j]};
+            if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
+                return false;
+        }
+    }
+    for (size_t j = cpu->gridded; j < cpu->count; j++) {
+        float d[3] = {x[0] - args->x[j], x[1] - args->y[j], x[2] - args->z[j]};
+        periodic_nearest(&cpu->constants->periodic, d);
+        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < least * least)
+            return false;
+    }
+    for (int k = 0; k < cpu->constants->solid_count; k++) {
+        const float half = 0.5f * cpu->constants->spacing;
+        if (solid_clearance(&cpu->constants->solids[k], &cpu->solid[k].end, cpu->constants->dimensions, x,
+                            half) < half * 0.999f)
+            return false;
+    }
+    return true;
+}
+
+void cpu_append(Cpu *cpu, const EmitLayer *layer, const float x[3], size_t number)
+{
+    const CpuParticles *p = &cpu->now;
+    const size_t i = cpu->count++;
+    columns_clear(&cpu->sorted, p, i);
+    p->x[i] = x[0], p->y[i] = x[1], p->z[i] = x[2];
+    p->vx[i] = layer->velocity[0], p->vy[i] = layer->velocity[1], p->vz[i] = layer->velocity[2];
+    p->id[i] = layer->first_id + number;
+    p->fluid[i] = (uint8_t)layer->fluid;
+    if (cpu->ghost)
+        cpu->ghost[i] = 0;
+    if (cpu->owned_at)
+        cpu->owned_at[cpu->owned] = (uint32_t)i;
+    cpu->owned++;
+}
+
+size_t cpu_emit(void *state, const EmitLayer *layer, size_t most)
+{
+    Cpu *cpu = state;
+    size_t number = 0;
+    for (size_t k = 0; k < layer->count && number < most; k++) {
+        const float *x = layer->position + 3 * k;
+        if (walls_contain(&cpu->constants->walls, x) && cpu_has_room(cpu, x))
+            cpu_append(cpu, layer, x, number++);
+    }
+    return number;
+}
+
+typedef struct Guiding {
+    Cpu *cpu;
+    const Guide *guides;
+    int count;
+    ExactSum *work;
+} Guiding;
+
+/* Adds the work of setting a particle to the guide's velocity: impulse times guide velocity, as for a
+   moving wall. Owners count the work of ghosts. */
+static void guide_one(const Guiding *pass, size_t i, const float to[3], ExactSum *work)
+{
+    const Cpu *cpu = pass->cpu;
+    const CpuParticles *p = &cpu->now;
+    const float v[3] = {p->vx[i], p->vy[i], p->vz[i]};
+    double gain = 0;
+    for (int k = 0; k < 3; k++)
+        gain += (double)to[k] * ((double)to[k] - (double)v[k]);
+    if (cpu_owns(cpu, i))
+        exact_add(work, constants_mass(cpu->constants, p->fluid[i]) * gain);
+    p->vx[i] = to[0], p->vy[i] = to[1], p->vz[i] = to[2];
+}
+
+static void guide_range(void *context, size_t begin, size_t end)
+{
+    const Guiding *pass = context;
+    const CpuParticles *p = &pass->cpu->now;
+    ExactSum work = {.strange = false};
+    for (size_t i = begin; i < end; i++) {
+        const float x[3] = {p->x[i], p->y[i], p->z[i]};
+        for (int k = 0; k < pass->count; k++)
+            if (guide_holds(&pass->guides[k], &pass->cpu->constants->periodic, p->fluid[i], x))
+                guide_one(pass, i, pass->guides[k].velocity, &work);
+    }
+    parallel_lock();
+    exact_merge(pass->work, &work);
+    parallel_unlock();
+}
+
+double cpu_guide(void *state, const Guide *guides, int count)
+{
+    Cpu *cpu = state;
+    ExactSum work = {.strange = false};
+    Guiding pass = {cpu, guides, count, &work};
+    parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, guide_range, &pass);
+    if (cpu->sum_all)
+        cpu->sum_all(&work, 1);
+    return exact_value(&work);
+}
+
+static bool drains(const Fill *regions, int count, int dimensions, const double x[3])
+{
+    for (int k = 0; k < count; k++)
+        if (fill_holds(&regions[k], dimensions, x, 0))
+            return true;
+    return false;
+}
+
+size_t cpu_drain(void *state, const Fill *regions, int count)
+{
+    Cpu *cpu = state;
+    const CpuParticles *p = &cpu->now;
+    size_t gone = 0;
+    for (size_t i = 0; i < cpu->count;) {
+        const double x[3] = {p->x[i], p->y[i], p->z[i]};
+        if (!cpu_owns(cpu, i) || !drains(regions, count, cpu->constants->dimensions, x)) {
+            i++;
+            continue;
+        }
+        columns_move(&cpu->sorted, p, --cpu->count, i);
+        if (cpu->ghost)
+            cpu->ghost[i] = cpu->ghost[cpu->count];
+        gone++;
+    }
+    cpu->owned -= gone;
+    if (gone > 0 && cpu->owned_at)
+        cpu_find(cpu);
+    return gone;
 }

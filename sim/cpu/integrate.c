@@ -1,4 +1,4 @@
-#include "sim/cpu/felt.h"
+#include "sim/cpu/cpu.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@ typedef struct Drift {
 
 /* Number of times solids and walls held particle i. `felt`: NULL if forces are not requested. */
 static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float x[3], float v[3],
-                    CpuFelt *felt)
+                    CpuForceSums *felt)
 {
     const Constants *s = drift->cpu->constants;
     const CpuParticles *p = &drift->cpu->now;
@@ -24,18 +24,19 @@ static size_t guard(const Drift *drift, const WallsFar *inside, size_t i, float 
             solid_guard(&s->solids[k], &solids[k], s->dimensions, before, x, v)) {
             by_solid = true;
             way = way_bounds(before, x);
-            cpu_feel_guard(felt, 1 + k, mass, x, v, free);
+            cpu_force_of_guard(felt, 1 + k, mass, x, v, free);
         }
     if (walls_near(inside, x)) {
         by_wall = s->method->leaps ? walls_fold(&s->walls, 0.5f / drift->step->dt, x, v)
                                    : walls_guard(&s->walls, x, v);
-        cpu_feel_guard(felt, 0, mass, x, v, free);
+        cpu_force_of_guard(felt, 0, mass, x, v, free);
     }
     return (size_t)by_solid + (size_t)by_wall;
 }
 
 /* Number of times guards held particles of the run [begin, end). */
-static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, CpuFelt *felt, const bool wide)
+static inline size_t drift_run(const Drift *drift, size_t begin, size_t end, CpuForceSums *felt,
+                               const bool wide)
 {
     const Cpu *cpu = drift->cpu;
     const CpuParticles *p = &cpu->now;
@@ -72,14 +73,14 @@ static void drift_range(void *context, size_t begin, size_t end)
 {
     const Drift *drift = context;
     const bool feels = drift->cpu->forces;
-    CpuFelt felt;
+    CpuForceSums felt;
     size_t held = 0;
     felt.any = false;
     for (size_t i = begin, stop; cpu_run(drift->cpu, &i, end, &stop); i = stop)
         held += drift->cpu->constants->wide ? drift_run(drift, i, stop, feels ? &felt : NULL, true)
                                             : drift_run(drift, i, stop, feels ? &felt : NULL, false);
     if (feels)
-        cpu_felt_merge(drift->cpu, &felt);
+        cpu_force_sums_merge(drift->cpu, &felt);
     if (held)
         __atomic_fetch_add(&drift->cpu->guarded, held, __ATOMIC_RELAXED);
 }
@@ -89,7 +90,7 @@ void cpu_drift(void *state, const BoxStep *step)
     Cpu *cpu = state;
     Drift drift = {cpu, step};
     if (cpu->forces)
-        cpu_felt_begin(cpu);
+        cpu_force_sums_begin(cpu);
     parallel_ranges(cpu->threads, cpu->count, 4 * CPU_GRAIN, drift_range, &drift);
     if (step->solids)
         cpu_boundary_move(cpu, step->solids);
@@ -146,7 +147,7 @@ static void atomic_greatest(float *greatest, float value)
         ;
 }
 
-/* Drag of the walls, sim/box/wall_drag.h, implicit: v' = v + (a + g - k v') dt. So the drag cannot
+/* Drag of the walls, sim/box/walls.h, implicit: v' = v + (a + g - k v') dt. So the drag cannot
    overshoot, however near the wall. The remaining a + g replaces a. */
 static void hold_by_walls(const Kick *kick, size_t begin, size_t end)
 {

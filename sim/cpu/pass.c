@@ -1,8 +1,58 @@
-#include "sim/cpu/pass.h"
+#include "sim/cpu/cpu.h"
 
-#include "sim/box/wall_cushion.h"
+#include "sim/box/walls.h"
+#include "sim/cpu/pairs.h"
+#include "sim/step/method.h"
 
+#include <stdlib.h>
 #include <string.h>
+
+enum { SIMD_AUTO, SIMD_AVX2, SIMD_BASELINE };
+
+const SimdKind simd_kinds[] = {
+    [SIMD_AUTO] = {"auto", "the widest that the processor has"},
+    [SIMD_AVX2] = {"avx2", "256 bits"},
+    [SIMD_BASELINE] = {"baseline", "what every x86-64 has, 128 bits; elsewhere whatever the compiler finds"},
+    {0},
+};
+
+static bool has_avx2(void)
+{
+#if defined(__x86_64__)
+    return __builtin_cpu_supports("avx2");
+#else
+    return false;
+#endif
+}
+
+/* The kind named by the environment; -1: unknown name. */
+static int wanted_by_environment(void)
+{
+    const char *wanted = getenv("SLOSH_SIMD");
+    int kind = SIMD_AUTO;
+    while (wanted && simd_kinds[kind].name && strcmp(wanted, simd_kinds[kind].name) != 0)
+        kind++;
+    return simd_kinds[kind].name ? kind : -1;
+}
+
+bool pair_set_choose(int simd, PairSet *set, Error *error)
+{
+    int kind = simd == SIMD_AUTO ? wanted_by_environment() : simd;
+    if (kind < 0)
+        return error_set(error, "SLOSH_SIMD is '%.40s'; auto, avx2 and baseline are there",
+                         getenv("SLOSH_SIMD"));
+    if (simd == SIMD_AVX2 && !has_avx2())
+        return error_set(error, "this processor has no %s; leave solver.simd at auto", simd_kinds[simd].name);
+    if (kind == SIMD_AUTO || !has_avx2())
+        kind = has_avx2() ? SIMD_AVX2 : SIMD_BASELINE;
+    *set = kind == SIMD_AVX2 ? PAIR_AVX2 : PAIR_BASELINE;
+    return true;
+}
+
+const char *pair_set_name(PairSet set)
+{
+    return simd_kinds[set == PAIR_AVX2 ? SIMD_AVX2 : SIMD_BASELINE].name;
+}
 
 PAIR_LOOPS(lists);
 PAIR_LOOPS(image_lists);
@@ -131,3 +181,54 @@ void cpu_cushion(const CpuRange *range)
         p->az[i] += share * a[2];
     }
 }
+
+/* Data of the backend for `slosh bench --micro`: see sim/step/method.h. */
+
+static void nothing(const CpuRange *range)
+{
+    (void)range;
+}
+
+/* An empty walk: its time is the time to make the lists. */
+static PairCost lists_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.flops = 8}; /* distance of each neighbour found; rejected candidates are not counted */
+}
+
+static const CpuPass lists_pass = {.loops = {{nothing, .walks = true}}, .pair = lists_pair};
+
+static const Pass neighbours = {
+    .name = "lists", .stage = STAGE_DENSITY, .cpu = &lists_pass, .reads = "position", .writes = ""};
+
+/* Bytes per particle: each sorted column is read and written once, as are cell, rank and order. */
+static double grid_stream(const void *state)
+{
+    const Cpu *cpu = state;
+    double sum = 2 * 3 * sizeof(uint32_t);
+    for (int k = 0; k < cpu->sorted.count; k++)
+        sum += 2.0 * cpu->sorted.row[k]->components * (double)column_size(cpu->sorted.row[k]);
+    return sum;
+}
+
+static bool pair(const Pass *pass, const Constants *constants, PairCost *cost)
+{
+    if (!pass->cpu->pair)
+        return false;
+    *cost = pass->cpu->pair(constants);
+    return true;
+}
+
+static bool ceilings(const void *state, Ceilings *out)
+{
+    const Cpu *cpu = state;
+    return ceilings_measure(cpu->threads, cpu->pairs, out);
+}
+
+const BackendMicro cpu_micro = {
+    .neighbours = &neighbours,
+    .stream_a_pair = sizeof(uint32_t),
+    .grid_stream = grid_stream,
+    .pair = pair,
+    .ceilings = ceilings,
+};

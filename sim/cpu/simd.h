@@ -3,7 +3,7 @@
 #ifndef SLOSH_SIMD_H
 #define SLOSH_SIMD_H
 
-#include "sim/cpu/pair_args.h"
+#include "sim/cpu/pairs.h"
 
 #include <stdint.h>
 

@@ -1,7 +1,6 @@
-#include "sim/mesh/field.h"
-
 #include "sim/base/parallel.h"
 #include "sim/kernel/kernel.h"
+#include "slosh/mesh.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,7 +5,6 @@
 
 #include "sim/mesh/distance.h"
 #include "sim/mesh/mend.h"
-#include "sim/mesh/overlap.h"
 
 typedef struct MeshShape {
     Triangles triangles;

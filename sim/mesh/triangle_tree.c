@@ -1,4 +1,4 @@
-#include "sim/mesh/triangle_tree.h"
+#include "sim/mesh/distance.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -474,7 +474,7 @@ static double volume6(const float a[3], const float b[3], const float c[3], cons
 }
 
 /* Signed side of triangle t, for each corner of triangle `other`. */
-static void sides_of(const float t[9], const float other[9], double side[3])
+static void cross_sides(const float t[9], const float other[9], double side[3])
 {
     for (int c = 0; c < 3; c++)
         side[c] = volume6(t, t + 3, t + 6, other + 3 * c);
@@ -528,10 +528,10 @@ static void test_pair(Cuts *cuts, uint32_t i, uint32_t j)
     cuts->tests--;
     if (share_vertex(tree, i, j))
         return;
-    sides_of(b, a, of_a);
+    cross_sides(b, a, of_a);
     if (all_beside(of_a))
         return;
-    sides_of(a, b, of_b);
+    cross_sides(a, b, of_b);
     if (pierces(a, of_a, b) || pierces(b, of_b, a))
         add_pair(cuts, i, j);
 }

@@ -4,7 +4,7 @@
 #include "app/bench/bench_table.h"
 #include "app/cli/cli.h"
 #include "app/cli/sweep.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 #include <stdlib.h>
 

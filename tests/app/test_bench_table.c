@@ -2,7 +2,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/bench/bench_table.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 static BenchResult made_up(size_t particles, const char *view, const char *backend)
 {

@@ -2,7 +2,7 @@
 #include "tests/sim/fixture.h"
 
 #include "app/lab/error_chart.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 #include <math.h>
 #include <stdlib.h>

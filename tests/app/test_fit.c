@@ -5,7 +5,7 @@
 
 #include "app/cli/cli.h"
 #include "app/lab/fit.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 #include <math.h>
 #include <stdlib.h>

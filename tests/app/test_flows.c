@@ -2,7 +2,7 @@
    shipped. docs/validation.md has the errors of the fine ones. */
 #include "tests/scene/scene_text.h"
 
-#include "sim/world/world.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 
 #include "app/bench/cases/case.h"
 #include "app/run/measure/metric.h"
-#include "sim/world/world.h"
+#include "slosh/world.h"
 
 enum { MOST = 4000 };
 

@@ -2,10 +2,11 @@
 #include "app/scene/scene.h"
 
 #include "app/scene/keys.h"
+#include "app/scene/scene_private.h"
 #include "app/scene/yaml/yaml.h"
 #include "app/window/model.h"
-#include "sim/gl/backends.h"
-#include "sim/world/world.h"
+#include "sim/gpu/gl_context.h"
+#include "slosh/world.h"
 #include "tests/scene/scene_text.h"
 
 static void a_line_is_said_once(void **state)

@@ -3,7 +3,7 @@
 
 #include "app/run/measure/metric.h"
 #include "app/run/measure/outcome.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 #include <jansson.h>
 

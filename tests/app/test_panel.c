@@ -7,6 +7,7 @@
 #include "app/input/play_commands.h"
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
+#include "app/scene/scene_private.h"
 #include "app/window/panel/panel.h"
 #include "render/frame/view.h"
 #include "render/views/pbsr/pbsr.h"

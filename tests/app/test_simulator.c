@@ -5,7 +5,7 @@
 #include "app/run/offscreen.h"
 #include "app/run/session.h"
 #include "app/run/simulator.h"
-#include "sim/matter/seed.h"
+#include "sim/start/seed.h"
 
 #include <math.h>
 #include <stdatomic.h>

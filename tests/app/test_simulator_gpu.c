@@ -5,8 +5,8 @@
 #include "app/run/offscreen.h"
 #include "app/run/session.h"
 #include "app/run/simulator.h"
-#include "sim/gl/backends.h"
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -2,8 +2,8 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/files/snapshot.h"
-#include "sim/mueller/mueller.h"
-#include "sim/world/world.h"
+#include "sim/methods/mueller/mueller.h"
+#include "slosh/world.h"
 
 #include <hdf5.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 /* Surfaces of particles placed by hand: closed, of the fluid's volume, at the level, with the particles'
  * fields. */
 #include "app/files/surface.h"
-#include "sim/kernel/lattice.h"
-#include "sim/mesh/field.h"
+#include "sim/kernel/kernel.h"
+#include "slosh/mesh.h"
 #include "tests/closed_mesh.h"
 
 #include <math.h>

@@ -5,8 +5,8 @@
 #include "app/run/offscreen.h"
 #include "app/run/recording/sim_command.h"
 #include "app/scene/keys.h"
-#include "sim/gl/backends.h"
-#include "sim/world/world.h"
+#include "sim/gpu/gl_context.h"
+#include "slosh/world.h"
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 

@@ -1,7 +1,7 @@
 /* Sums that do not depend on the order of what is added, nor on how it was shared out. */
 #include "tests/near.h"
 
-#include "sim/base/exact_sum.h"
+#include "sim/base/sums.h"
 
 enum { COUNT = 4096, PARTS = 7 };
 

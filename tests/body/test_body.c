@@ -2,7 +2,7 @@
 #include "../mesh_models.h"
 #include "../sim/fixture.h"
 
-#include "sim/body/body_contact.h"
+#include "sim/solids/body.h"
 
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 /* Solids that fluid moves, in worlds: how deep they lie, that they stay in the box, their bits. */
 #include "../sim/fixture.h"
 
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 enum { METHODS = 4 };
 

@@ -11,7 +11,7 @@ static float velocity[4 * LONG * DEEP * LAYERS], ids[LONG * DEEP * LAYERS];
 
 /* A tank whose right half is at rest. In the left one all particles come to the middle of the half with that
    speed, where the particles of one half meet those of the other. `backwards`: in the opposite order. */
-static void fill(Scene *scene, double speed, bool backwards)
+static void fill(SolidsScene *scene, double speed, bool backwards)
 {
     Particles *particles = scene->particles;
     const int count = LONG * DEEP * LAYERS;
@@ -29,9 +29,9 @@ static void fill(Scene *scene, double speed, bool backwards)
     scene->state.box_size[2] = 0.96;
 }
 
-static Scene tank(const char *kind)
+static SolidsScene tank(const char *kind)
 {
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     ViewDef *def = &scene.def;
     text_set(def->kind, kind);
     def->color_by = SCALAR_FLUID;
@@ -43,7 +43,7 @@ static Scene tank(const char *kind)
     return scene;
 }
 
-static Image picture_of(Scene *scene)
+static Image picture_of(SolidsScene *scene)
 {
     Error error = {0};
     Image image;
@@ -83,7 +83,7 @@ static Difference compare(const Image *a, const Image *b, double from, double en
 }
 
 /* With foam against without. */
-static Difference foam_of(Scene *scene, double from, double end)
+static Difference foam_of(SolidsScene *scene, double from, double end)
 {
     Image with = picture_of(scene);
     const double foam = scene->def.foam;
@@ -101,7 +101,7 @@ static void foam_is_where_fluid_meets(void **state)
     static const char *const kinds[] = {"splat", "volume"};
     (void)state;
     for (int k = 0; k < 2; k++) {
-        Scene scene = tank(kinds[k]);
+        SolidsScene scene = tank(kinds[k]);
         fill(&scene, 2, false);
         const Difference left = foam_of(&scene, 0.2, 0.45), right = foam_of(&scene, 0.55, 1);
         printf("%s: brighter by %.3g where it meets, %.3g beside\n", kinds[k], left.brighter, right.apart);
@@ -115,7 +115,7 @@ static void foam_is_where_fluid_meets(void **state)
 static void there_is_none(void **state)
 {
     (void)state;
-    Scene scene = tank("splat");
+    SolidsScene scene = tank("splat");
     fill(&scene, 0.05, false);
     assert_true(foam_of(&scene, 0, 1).apart == 0);
     fill(&scene, 2, false);
@@ -134,7 +134,7 @@ static void there_is_none(void **state)
 static void bubbles_go_by_ids(void **state)
 {
     (void)state;
-    Scene scene = tank("splat");
+    SolidsScene scene = tank("splat");
     fill(&scene, 2, false);
     Image one = picture_of(&scene);
     fill(&scene, 2, true);
@@ -153,7 +153,7 @@ static void bubbles_go_by_ids(void **state)
 static void solids_hide_foam(void **state)
 {
     (void)state;
-    Scene scene = tank("splat");
+    SolidsScene scene = tank("splat");
     SolidDef *wall = scene_add(&scene, SOLID_BOX, 0, 0.5, 0.56);
     wall->size[0] = 3, wall->size[1] = 1.6, wall->size[2] = 0.06;
     fill(&scene, 2, false);

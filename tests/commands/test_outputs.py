@@ -1,9 +1,12 @@
 """Outputs are whole or not there: what goes right, full disks, folders that can't be written, signals."""
 import json
 import os
+import pathlib
+import random
 import re
 import signal
 import subprocess
+import time
 
 import command
 from command import CommandTest, TinyDiskTest, limit_files, video_frames, whole_steps
@@ -656,7 +659,7 @@ class Signals(CommandTest):
             read.append(bool(children))
             return not children and any(read)
 
-        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--set', 'solids=[{mesh: {file: needles.obj}}]')
+        process = self.start('run', 'scene.yaml', '-o', 'a.h5part', '--set', 'solids=[{mesh: {file: needles.obj, centre: [0, 0.5, 0]}}]')
         self.wait_for(lambda: is_read(process), process)
         began = time.monotonic()
         self.assertIn('needles.obj: stopped', self.stop(process, signal.SIGINT))

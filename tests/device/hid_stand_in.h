@@ -5,7 +5,7 @@
 #include "tests/device/report_fixture.h"
 
 #include "app/input/device/devices.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <pthread.h>
 #include <stdio.h>

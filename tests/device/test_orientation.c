@@ -7,7 +7,7 @@
 #include "tests/near.h"
 
 #include "app/input/device/device.h"
-#include "sim/box/box_motion.h"
+#include "slosh/def.h"
 
 #include <string.h>
 

@@ -2,7 +2,7 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/input/device/report_log.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <signal.h>
 #include <sys/resource.h>

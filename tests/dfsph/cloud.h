@@ -4,7 +4,7 @@
 
 #include "tests/sim/fixture.h"
 
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 enum { SIDE = 5, N = SIDE * SIDE * SIDE };
 

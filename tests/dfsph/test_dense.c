@@ -4,9 +4,8 @@
 #include "tests/sim/fixture.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/dfsph/dfsph.h"
-#include "sim/dfsph/passes.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/dfsph/dfsph_private.h"
+#include "sim/step/world.h"
 
 enum { MOST = 128 };
 

@@ -2,8 +2,8 @@
    a tolerance that nothing reaches. Worlds are small, and the sentinel is on. */
 #include "tests/sim/fixture.h"
 
-#include "sim/dfsph/dfsph.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/step/world.h"
 
 static WorldDef def_in(int dimensions, double width, double height, double depth)
 {

@@ -1,7 +1,7 @@
 /* The images of a group of particles in the walls, found by lanes, against those of each particle. */
 #include "tests/sim/fixture.h"
 
-#include "sim/cpu/pair_images.h"
+#include "sim/cpu/pair_loop.h"
 
 static void lanes_have_the_images_of_each(void **state)
 {
@@ -25,13 +25,13 @@ static void lanes_have_the_images_of_each(void **state)
         Images images;
         images_of(&args, &far, i, 0, COUNT, &images);
         for (size_t lane = 0; lane < LANES; lane++) {
-            Image one[IMAGES_MAX];
+            WallImage one[IMAGES_MAX];
             const size_t at = i + lane;
             const int count =
                 wall_images(&s.walls, (float[]){x[0][at], x[1][at], x[2][at]}, s.support_radius, one);
             int next = 1;
             for (int m = 1; m <= images.count; m++) {
-                const Mirrored *image = &images.of[m];
+                const ImageParticle *image = &images.of[m];
                 if (image->sign.x[lane] == 0)
                     continue;
                 assert_true(next < count);

@@ -1,9 +1,9 @@
-/* What box and solids feel (sim/matter/forces.h), with all methods: against the fluid's momentum, and
+/* What box and solids feel (include/slosh/world.h), with all methods: against the fluid's momentum, and
  * Archimedes. */
 #include "tests/sim/fixture.h"
 
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_state.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "slosh/state.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
@@ -21,7 +21,7 @@ static World *felt_world(const WorldDef *def)
 {
     Error error = {{0}};
     World *world = fixture_world(def);
-    if (!world_feel(world, &error))
+    if (!world_enable_forces(world, &error))
         fail_msg("%s", error.message);
     return world;
 }

@@ -2,8 +2,8 @@
    and of any triangles, what is wrong with them, and the distance from what is left. The first byte chooses.
  */
 #include "app/scene/import/import.h"
+#include "sim/mesh/distance.h"
 #include "sim/mesh/mend.h"
-#include "sim/mesh/triangle_tree.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -6,8 +6,8 @@
 #include "tests/sim/fixture.h"
 
 #include "app/scene/scene.h"
-#include "sim/gl/backends.h"
-#include "sim/world/world_struct.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/step/world.h"
 
 static inline int compare_setup(void **state)
 {

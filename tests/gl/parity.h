@@ -4,8 +4,8 @@
 
 #include "tests/gl/compare.h"
 
-#include "sim/wcsph/constants.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/wcsph/wcsph_private.h"
+#include "sim/step/world.h"
 
 /* Two viscous fluids over each other, stirred, in a box that moves in all ways. */
 static inline WorldDef stirred_def(int dimensions)
@@ -28,7 +28,7 @@ static inline WorldDef stirred_def(int dimensions)
     return def;
 }
 
-/* How much of p_i V_i^2 a pair takes: 1, but for the contrast of sim/wcsph/pairs_interface.c. */
+/* How much of p_i V_i^2 a pair takes: 1, but for the contrast of sim/methods/wcsph/pairs_surface.c. */
 static inline double share_of_pressure(const Constants *s, uint32_t fi, uint32_t fj)
 {
     const double mine = (double)s->density[fi], theirs = (double)s->density[fj];

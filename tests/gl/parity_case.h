@@ -5,9 +5,9 @@
 
 #include "tests/gl/parity.h"
 
-#include "sim/dfsph/dfsph.h"
-#include "sim/pbf/pbf.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/methods/pbf/pbf.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 /* Of stirred_def's two fluids; what a row leaves out a scene does not name. */
 typedef struct ParityCase {

@@ -4,7 +4,7 @@
 #include "tests/gl/compare.h"
 
 #include "render/particles/derived.h"
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 static const char *const backends[] = {"cpu", "compute"};
 

@@ -7,7 +7,7 @@
 #include "shaders/shared/solid_block.h"
 #include "shaders/volume/raycast_block.h"
 #include "shaders/volume/volume_block.h"
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <stddef.h>

@@ -4,7 +4,7 @@
 
 #include "app/bench/cases/case.h"
 #include "app/run/offscreen.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 static Headless *context;
 

@@ -1,7 +1,7 @@
 /* The backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/parity.h"
 
-#include "sim/gl/compute/compute.h"
+#include "sim/gpu/compute/compute.h"
 
 #include <epoxy/gl.h>
 
@@ -197,7 +197,7 @@ static void no_particle_at_all(void **state)
 static WorldGauge gauge_of(World *world)
 {
     WorldGauge gauge = {0};
-    world_gauge_ask(world);
+    world_gauge_request(world);
     while (!world_gauge(world, &gauge))
         glFinish();
     return gauge;

@@ -1,9 +1,9 @@
 /* Emitters and drains on the backend `compute` against `cpu`. */
 #include "tests/gl/compare.h"
 
-#include "sim/matter/fill.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
+#include "sim/flow/flow.h"
+#include "sim/start/fill.h"
+#include "sim/start/seed.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

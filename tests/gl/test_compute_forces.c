@@ -1,8 +1,8 @@
 /* What box and solids feel on the backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/compare.h"
 
-#include "sim/gl/compute/compute.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/gpu/compute/compute.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
@@ -37,7 +37,7 @@ static World *felt_on(const WorldDef *def, const char *backend)
 {
     Error error = {{0}};
     World *world = world_on(*def, backend);
-    if (!world_feel(world, &error))
+    if (!world_enable_forces(world, &error))
         fail_msg("%s", error.message);
     return world;
 }

@@ -1,8 +1,8 @@
 /* Solids on the backend `compute` against `cpu`, from the same states. */
 #include "tests/gl/compare.h"
 
-#include "sim/gl/compute/compute.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/gpu/compute/compute.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 /* Two viscous fluids about one solid of each kind, moving ones among them, in a box that moves. */
 static WorldDef solids_def(int dimensions)

@@ -3,9 +3,9 @@
 #include "tests/gl/parity_case.h"
 #include "tests/scratch.h"
 
-#include "sim/gl/compute/compute.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/compute/compute.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <sys/stat.h>

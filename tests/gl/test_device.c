@@ -5,9 +5,9 @@
 #include "app/run/offscreen.h"
 #include "render/overlays/glyphs/glyphs.h"
 #include "render/views/pbsr/pbsr.h"
-#include "sim/gl/backends.h"
-#include "sim/gl/compute/compute.h"
-#include "sim/world/world_struct.h"
+#include "sim/gpu/compute/compute.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/step/world.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -311,7 +311,7 @@ static void blow_up(World *world, WorldDef def)
 }
 
 /* Trouble is found when the next frame begins, which then goes back to the begin of the frame before, to the
-   bit; world_sound knows sooner. */
+   bit; world_is_valid knows sooner. */
 static void the_sentinel_goes_back_a_frame_later(void **state)
 {
     const WorldDef def = column_def(*state);
@@ -319,7 +319,7 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     WorldInfo info;
     World *world = fixture_world(&def);
     for (int frame = 0; frame < 5; frame++)
-        assert_true(world_step(world, NULL, &error) && world_sound(world));
+        assert_true(world_step(world, NULL, &error) && world_is_valid(world));
     blow_up(world, def);
     const uint64_t before = world_hash(world);
     world_info(world, &info);
@@ -327,7 +327,7 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     assert_true(world_step(world, NULL, &error)); /* not known yet */
     world_info(world, &info);
     assert_int_equal(info.trouble.count, 0);
-    assert_false(world_sound(world));
+    assert_false(world_is_valid(world));
     WorldState none = {0};
     assert_false(world_save(world, &none, &error)); /* nor is it kept as a good one */
     assert_non_null(strstr(error.message, "not sound"));
@@ -337,7 +337,7 @@ static void the_sentinel_goes_back_a_frame_later(void **state)
     assert_int_equal(info.trouble.count, 1);
     assert_true(info.trouble.what == STEP_TROUBLE_SPEED);
     assert_true(fabs(info.time - time) < 1e-12 && info.step == step + 1);
-    assert_true(world_hash(world) == before && world_sound(world));
+    assert_true(world_hash(world) == before && world_is_valid(world));
     bool going = true;
     for (int frame = 0; frame < 40 && going; frame++)
         going = world_step(world, NULL, &error);
@@ -358,7 +358,7 @@ static void a_blown_up_frame_costs_nothing(void **state)
     World *world = fixture_world(&def);
     blow_up(world, def);
     assert_true(world_step(world, NULL, &error));
-    assert_false(world_sound(world));
+    assert_false(world_is_valid(world));
     const Compute *compute = world->state;
     const size_t cells = compute->fold.count;
     uint32_t *start = calloc(cells + 1, sizeof *start), fullest = 0;

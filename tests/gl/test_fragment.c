@@ -2,10 +2,10 @@
 #include "tests/gl/parity.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/gl/backends.h"
-#include "sim/gl/fragment/fragment.h"
-#include "sim/gl/shader_source.h"
-#include "sim/mueller/mueller.h"
+#include "sim/gpu/fragment/fragment.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
+#include "sim/methods/mueller/mueller.h"
 
 #include <epoxy/gl.h>
 
@@ -63,7 +63,7 @@ static void the_watch_sees_what_the_cpu_sees(void **state)
         WorldInfo a, b;
         fixture_step(cpu, 1);
         fixture_step(gpu, 1);
-        assert_true(world_sound(gpu));
+        assert_true(world_is_valid(gpu));
         world_info(cpu, &a);
         world_info(gpu, &b);
         assert_true(fabs(cpu->stepping.max_speed / gpu->stepping.max_speed - 1) < 1e-5);
@@ -266,7 +266,7 @@ static void what_finds_no_place_is_counted(void **state)
         World *world = world_on(def, "fragment");
         const size_t lost = check_buckets(world);
         fixture_step(world, 1);
-        assert_true(world_sound(world));
+        assert_true(world_is_valid(world));
         assert_int_equal(info_of(world).lost, lost);
         printf("%d layers: %zu of %d particles lost\n", layers[k], lost, CROWD);
         assert_true(k == 3 ? lost > 0 : lost > 100);

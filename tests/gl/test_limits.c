@@ -2,11 +2,11 @@
 #include "tests/gl/compare.h"
 
 #include "render/renderer.h"
-#include "sim/gl/compute/compute.h"
-#include "sim/gl/fragment/fragment.h"
-#include "sim/gl/limits.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_struct.h"
+#include "sim/gpu/compute/compute.h"
+#include "sim/gpu/fragment/fragment.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/step/world.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>

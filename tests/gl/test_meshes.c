@@ -1,7 +1,7 @@
 /* Solids that are meshes, on the backends `cpu` and `compute`: the rabbit of scenes/rabbit.yaml. */
 #include "tests/gl/compare.h"
 
-#include "sim/gl/compute/compute.h"
+#include "sim/gpu/compute/compute.h"
 
 static WorldDef rabbit_def(double spacing)
 {

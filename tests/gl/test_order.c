@@ -1,7 +1,7 @@
 /* The order in which work groups and their invocations come to their turn is the driver's: a world that asks
    to be reproducible has the same bits in any. The test gives the solver's shaders other numbers for what
    they are. */
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 #include "tests/gl/compare.h"
 
 #include <epoxy/egl.h>

@@ -1,7 +1,7 @@
 /* The shaders as such: what every compiler must take, and what none may take another way. */
 #include "tests/gl/compare.h"
 
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 

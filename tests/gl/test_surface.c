@@ -3,11 +3,11 @@
 #include "tests/render/fixture.h"
 #include "tests/surface/fixture.h"
 
-#include "sim/base/stage.h"
-#include "sim/gl/surface/surface_gpu.h"
-#include "sim/surface/level_kind.h"
-#include "sim/surface/sph_field.h"
-#include "sim/surface/volume_field.h"
+#include "sim/gpu/points/points_gpu.h"
+#include "sim/points/fields.h"
+#include "sim/points/level_kind.h"
+#include "sim/points/points.h"
+#include "slosh/world.h"
 
 enum { SIDE = 20 };
 

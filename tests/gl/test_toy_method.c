@@ -4,9 +4,9 @@
 #include "tests/sim/toy_method.h"
 #include "tests/sim/toy_shaders.h"
 
-#include "sim/gl/compute/compute.h"
-#include "sim/gl/program.h"
-#include "sim/world/world_state.h"
+#include "sim/gpu/compute/compute.h"
+#include "sim/gpu/program.h"
+#include "slosh/state.h"
 
 #include <epoxy/gl.h>
 

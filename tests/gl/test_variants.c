@@ -15,13 +15,12 @@
 #include "render/renderer.h"
 #include "render/views/pbsr/pbsr.h"
 #include "render/views/slice/slice.h"
-#include "sim/base/hash.h"
-#include "sim/gl/limits.h"
-#include "sim/gl/program.h"
-#include "sim/matter/tension.h"
-#include "sim/matter/viscosity.h"
-#include "sim/mueller/mueller.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/base/sums.h"
+#include "sim/def/fluids.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
+#include "sim/methods/mueller/mueller.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -122,7 +121,7 @@ static void APIENTRY keep_source(GLuint shader, GLsizei count, const GLchar *con
     real_glShaderSource(shader, count, text, length);
 }
 
-/* The most that a program has: render/view.c and sim/gl/compute/compute.c ask drivers for as many. Mesa does
+/* The most that a program has: render/view.c and sim/gpu/compute/compute.c ask drivers for as many. Mesa does
    not say which stage has a block: of pictures all that the program has. */
 static GlLimits most;
 
@@ -390,7 +389,7 @@ static void live(const WorldDef *def)
     Error error = {0};
     Forces felt;
     if (world->backend->feel)
-        assert_true(world_feel(world, &error));
+        assert_true(world_enable_forces(world, &error));
     fixture_step(world, 2);
     world_share(world, PARTICLE_SCALAR(SCALAR_SPEED) | PARTICLE_FLUID, &shared);
     world->backend->gauge(world->state, still);

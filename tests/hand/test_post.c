@@ -5,7 +5,7 @@
 #include "tests/near.h"
 
 #include "app/input/box_control.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -8,7 +8,7 @@
 #include "app/input/box_control.h"
 #include "app/input/hand.h"
 #include "app/run/session.h"
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 static const double SIZE[3] = {1, 1, 1};
 static const double RATE = 250; /* reports a second */

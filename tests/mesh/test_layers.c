@@ -3,11 +3,10 @@
 #include "tests/near.h"
 #include "tests/sim/fixture.h"
 
-#include "sim/kernel/lattice.h"
-#include "sim/matter/boundary.h"
-#include "sim/matter/boundary_mesh.h"
-#include "sim/matter/fill.h"
-#include "sim/matter/solid_step.h"
+#include "sim/kernel/kernel.h"
+#include "sim/solids/boundary_mesh.h"
+#include "sim/solids/solid.h"
+#include "sim/start/fill.h"
 
 static SolidDef mesh_solid(const MeshShape *shape, double scale)
 {

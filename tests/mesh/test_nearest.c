@@ -2,7 +2,7 @@
 #include "tests/mesh_models.h"
 #include "tests/near.h"
 
-#include "sim/mesh/triangle_tree.h"
+#include "sim/mesh/distance.h"
 
 #include <stdio.h>
 

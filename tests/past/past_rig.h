@@ -9,9 +9,9 @@
 #include "app/run/session.h"
 #include "app/run/simulator_private.h"
 #include "app/scene/scene_files.h"
-#include "sim/gl/backends.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/start/seed.h"
 
 #include <math.h>
 

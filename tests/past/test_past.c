@@ -2,8 +2,8 @@
 #include "tests/app/output_fixture.h"
 
 #include "app/run/history.h"
-#include "sim/world/world_state.h"
-#include "sim/world/world_struct.h"
+#include "sim/step/world.h"
+#include "slosh/state.h"
 
 #include <math.h>
 
@@ -213,7 +213,7 @@ static void a_state_with_other_solids_comes_back(void **state)
     world_info(bench.world, &info);
     history_add_place(bench.past, &info, 60);
     bench.world->seen = STEP_TROUBLE_SOLID; /* as where it blew up */
-    assert_false(world_sound(bench.world));
+    assert_false(world_is_valid(bench.world));
 
     World *const now = bench.world;
     const Scene with_it = bench.scene;
@@ -227,7 +227,7 @@ static void a_state_with_other_solids_comes_back(void **state)
         fail_msg("%s", error.message);
     assert_int_equal(next, 3);
     assert_int_equal(bench.scene.world.solid_count, 0);
-    assert_true(world_hash(bench.world) == hash && world_sound(bench.world));
+    assert_true(world_hash(bench.world) == hash && world_is_valid(bench.world));
     bench_close(&bench);
 }
 

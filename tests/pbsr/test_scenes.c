@@ -5,7 +5,7 @@
 #include "app/run/offscreen.h"
 #include "app/scene/scene.h"
 #include "render/views/pbsr/pbsr.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 #include <dirent.h>
 

@@ -1,6 +1,6 @@
-/* Slow fluid far from the middle of a wide box goes where it would go in the middle (sim/box/place.h). */
+/* Slow fluid far from the middle of a wide box goes where it would go in the middle (sim/box/box_step.h). */
 #include "sim/box/box_step.h"
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 #include "tests/sim/fixture.h"
 
 enum { FAR = 4, STEPS = 400 };

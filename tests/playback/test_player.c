@@ -2,7 +2,7 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/run/playback/playback.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 enum { STEPS = 20 };
 

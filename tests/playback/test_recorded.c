@@ -3,8 +3,8 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/scene/keys.h"
-#include "sim/world/method.h"
-#include "sim/world/world.h"
+#include "sim/step/method.h"
+#include "slosh/world.h"
 
 #include <hdf5.h>
 

@@ -3,7 +3,7 @@
 #include "tests/playback/recorded_fixture.h"
 
 #include "app/run/playback/playback.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <epoxy/gl.h>
 #include <hdf5.h>

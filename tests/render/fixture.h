@@ -15,7 +15,7 @@
 #include "render/views/splat/splat.h"
 #include "render/views/volume/volume.h"
 #include "shaders/shared/bindings.h"
-#include "sim/gl/debug.h"
+#include "sim/gpu/gl_context.h"
 #include "tests/gl/draw_check.h"
 
 #include <epoxy/gl.h>

@@ -8,16 +8,16 @@
 
 enum { WIDTH = 160, HEIGHT = 120, PIXELS = WIDTH * HEIGHT };
 
-typedef struct Scene {
+typedef struct SolidsScene {
     ViewDef def;
     WorldDef world;
     ParticleBuffers state;
     Particles *particles;
-} Scene;
+} SolidsScene;
 
-static inline Scene scene_create(void)
+static inline SolidsScene scene_create(void)
 {
-    Scene scene = {bare_view(), bare_world(), box_state(0, 0.1), calloc(1, sizeof(Particles))};
+    SolidsScene scene = {bare_view(), bare_world(), box_state(0, 0.1), calloc(1, sizeof(Particles))};
     assert_non_null(scene.particles);
     scene.def.camera_auto = false;
     scene.def.camera = (CameraDef){{1.2, 1.1, 3}, {0, 0.5, 0}, 28};
@@ -38,7 +38,7 @@ static inline const MeshShape *scene_mesh(void)
     return shape = mesh_shape_make(&model, 1, NULL, &state, NULL);
 }
 
-static inline SolidDef *scene_add(Scene *scene, SolidKind kind, double x, double y, double z)
+static inline SolidDef *scene_add(SolidsScene *scene, SolidKind kind, double x, double y, double z)
 {
     SolidDef *solid = &scene->world.solids[scene->world.solid_count++];
     *solid = (SolidDef){
@@ -51,7 +51,7 @@ static inline SolidDef *scene_add(Scene *scene, SolidKind kind, double x, double
 }
 
 /* With a particle too that is far outside the picture: an upload is not empty. */
-static inline void draw(Scene *scene, Renderer *renderer)
+static inline void draw(SolidsScene *scene, Renderer *renderer)
 {
     ParticleBuffers buffers;
     if (scene->particles->count == 0)
@@ -63,7 +63,7 @@ static inline void draw(Scene *scene, Renderer *renderer)
     upload_destroy(upload);
 }
 
-static inline Renderer *drawn(Scene *scene)
+static inline Renderer *drawn(SolidsScene *scene)
 {
     Error error = {0};
     Renderer *renderer = renderer_create(&scene->def, &scene->world, WIDTH, HEIGHT, &error);
@@ -73,14 +73,14 @@ static inline Renderer *drawn(Scene *scene)
     return renderer;
 }
 
-static inline void draw_depth(Scene *scene, float depth[PIXELS])
+static inline void draw_depth(SolidsScene *scene, float depth[PIXELS])
 {
     Renderer *renderer = drawn(scene);
     renderer_read_depth(renderer, depth);
     renderer_destroy(renderer);
 }
 
-static inline void draw_rgb(Scene *scene, bool plain, uint8_t rgb[3 * PIXELS])
+static inline void draw_rgb(SolidsScene *scene, bool plain, uint8_t rgb[3 * PIXELS])
 {
     Renderer *renderer = drawn(scene);
     renderer_set_plain(renderer, plain);
@@ -91,14 +91,14 @@ static inline void draw_rgb(Scene *scene, bool plain, uint8_t rgb[3 * PIXELS])
 
 /* ---- the picture against rays in double ---- */
 
-static inline void make_camera(const Scene *scene, Camera *camera)
+static inline void make_camera(const SolidsScene *scene, Camera *camera)
 {
     camera_make(&scene->def, scene->state.box_size, &scene->state.box, (double)WIDTH / HEIGHT,
                 (CoveredParts){0}, camera);
 }
 
 /* From the world to the frame of the first solid. */
-static inline void into_solid(const Scene *scene, const double world[3], bool is_point, double out[3])
+static inline void into_solid(const SolidsScene *scene, const double world[3], bool is_point, double out[3])
 {
     BoxState pose;
     solid_pose(&scene->world.solids[0], scene->state.time, &pose);
@@ -120,8 +120,8 @@ static inline void pixel_place(int pixel, double at[2])
 
 /* Of a place in the picture: the eye, and the ray's direction at depth 1 below the eye, in the frame of the
    first solid. */
-static inline void make_ray(const Scene *scene, const Camera *camera, const double place[2], double eye[3],
-                            double ray[3])
+static inline void make_ray(const SolidsScene *scene, const Camera *camera, const double place[2],
+                            double eye[3], double ray[3])
 {
     const double x = place[0] * camera->tangent[0], y = place[1] * camera->tangent[1];
     double at[3], along[3];
@@ -135,7 +135,7 @@ static inline void make_ray(const Scene *scene, const Camera *camera, const doub
 
 /* The first place along a ray where a solid's distance is 0: 0 when there is none. Distances outside are
    exact, so steps of that length never pass the surface. */
-static inline double trace(const Scene *scene, const double eye[3], const double ray[3])
+static inline double trace(const SolidsScene *scene, const double eye[3], const double ray[3])
 {
     const SolidDef *solid = &scene->world.solids[0];
     const double length = sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
@@ -153,7 +153,8 @@ static inline double trace(const Scene *scene, const double eye[3], const double
 /* Whether a ray half a pixel off meets nothing, or is `far` (m) longer or shorter: an outline or a steep
  * place.
  */
-static inline bool is_rough(const Scene *scene, const Camera *camera, const double place[2], double distance)
+static inline bool is_rough(const SolidsScene *scene, const Camera *camera, const double place[2],
+                            double distance)
 {
     const double far = 0.02;
     bool rough = false;

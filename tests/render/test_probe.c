@@ -4,7 +4,7 @@
 #include "render/frame/view.h"
 #include "render/particles/plane.h"
 #include "render/views/pbsr/pbsr.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 enum { WIDE = 160, HIGH = 120 };
 static const double SPACING = 0.08;

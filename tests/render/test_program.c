@@ -2,7 +2,7 @@
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <sys/stat.h>

@@ -9,9 +9,9 @@
 #include "render/particles/plane.h"
 #include "render/views/slice/slice.h"
 #include "render/views/slice/slice_private.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 #include "sim/kernel/kernel.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 enum { SAMPLES = 64, KERNELS = 7 };
 

@@ -4,7 +4,7 @@
 #include "render/frame/passes.h"
 
 /* How much farther or nearer a ray beside a pixel's goes, m. */
-static double slope_at(const Scene *scene, const Camera *camera, const double place[2], double wanted)
+static double slope_at(const SolidsScene *scene, const Camera *camera, const double place[2], double wanted)
 {
     double most = 0;
     for (int k = 0; snaps() && k < SNAP_PLACES; k++) {
@@ -19,7 +19,7 @@ static double slope_at(const Scene *scene, const Camera *camera, const double pl
 
 /* Every pixel but those at outlines and steep places: hit or miss, and the distance within `tolerance` (m).
    Returns the number of pixels hit. */
-static int compare(Scene *scene, double tolerance)
+static int compare(SolidsScene *scene, double tolerance)
 {
     static float depth[PIXELS];
     Camera camera;
@@ -44,7 +44,7 @@ static void test_every_kind_is_where_it_is(void **state)
 {
     (void)state; /* chords leave their arcs by 3e-4 m, which slanting rays lengthen */
     for (int kind = 0; kind < SOLID_KIND_COUNT; kind++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         SolidDef *solid = scene_add(&scene, (SolidKind)kind, 0.2, 0.6, -0.1);
         solid->axis[0] = 0.5, solid->axis[2] = 0.6;
         solid->angle_deg = 50;
@@ -60,7 +60,7 @@ static void test_sphere_by_formula(void **state)
 {
     (void)state;
     static float depth[PIXELS];
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     const SolidDef *solid = scene_add(&scene, SOLID_SPHERE, 0, 0.5, 0);
     Camera camera;
     int hits = 0;
@@ -90,7 +90,7 @@ static void test_moves_with_time(void **state)
 {
     (void)state;
     for (int i = 0; i < 3; i++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         SolidDef *solid = scene_add(&scene, SOLID_BOX, -0.3, 0.5, 0);
         solid->motion_count = 2;
         solid->motions[0] = (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.5, .frequency = 0.2};
@@ -100,14 +100,14 @@ static void test_moves_with_time(void **state)
     }
 }
 
-static void shift(Scene *scene, double z)
+static void shift(SolidsScene *scene, double z)
 {
     scene->particles->count = 0;
     particles_add(scene->particles, 0, 0.5, z, 2, 0);
 }
 
 /* The middle pixel: whether it is as red as the solids. */
-static bool solid_in_the_middle(Scene *scene)
+static bool solid_in_the_middle(SolidsScene *scene)
 {
     static uint8_t rgb[3 * PIXELS];
     draw_rgb(scene, true, rgb);
@@ -122,7 +122,7 @@ static void test_the_nearer_is_seen(void **state)
     (void)state;
     static const double distances[] = {0.9, 6};
     for (int i = 0; i < 2; i++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         SolidDef *solid = scene_add(&scene, SOLID_BOX, 0, 0.5, 0);
         solid->size[2] = 0.1;
         scene.def.camera = (CameraDef){{0, 0.5, distances[i]}, {0, 0.5, 0}, 40};
@@ -144,7 +144,7 @@ static void test_the_nearer_solid_is_seen(void **state)
 {
     (void)state;
     for (int first = 0; first < 2; first++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 40};
         scene_add(&scene, SOLID_BOX, 0, 0.5, 0.3);
         scene_add(&scene, SOLID_SPHERE, 0, 0.5, -0.3);
@@ -165,7 +165,7 @@ static void test_hidden_particles_leave_no_trace(void **state)
     static uint8_t with[3 * PIXELS], without[3 * PIXELS];
     static const double distances[] = {0.9, 6};
     for (int i = 0; i < 2; i++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         memcpy(scene_add(&scene, SOLID_BOX, 0, 0.5, 0)->size, (double[]){1, 0.7, 0.1}, sizeof(double[3]));
         scene.def.camera = (CameraDef){{0, 0.5, distances[i]}, {0, 0.5, 0}, 40};
         draw_rgb(&scene, false, without);
@@ -183,7 +183,7 @@ static void test_bowl_from_inside(void **state)
 {
     (void)state;
     static float depth[PIXELS];
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     Camera camera;
     scene_add(&scene, SOLID_BOWL, 0, 0.5, 0);
     scene.def.camera = (CameraDef){{0, 3, 0.01}, {0, 0.5, 0}, 20};
@@ -207,7 +207,7 @@ static void test_flat_box(void **state)
     static float depth[PIXELS];
     static const SolidKind kinds[] = {SOLID_SPHERE, SOLID_BOX, SOLID_BOWL};
     for (int i = 0; i < 3; i++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         SolidDef *solid = scene_add(&scene, kinds[i], 0, 0.5, 0);
         solid->axis[0] = kinds[i] == SOLID_BOWL ? 1 : 0, solid->axis[1] = 0;
         solid->axis[2] = kinds[i] == SOLID_BOWL ? 0 : 1;
@@ -266,7 +266,7 @@ static void test_meshes_are_closed(void **state)
     (void)state;
     for (int kind = 0; kind < SOLID_KIND_COUNT; kind++)
         for (int flat = 0; flat < 2; flat++) {
-            Scene scene = scene_create();
+            SolidsScene scene = scene_create();
             SolidMesh mesh = {0};
             assert_true(
                 solid_mesh_add(&mesh, scene_add(&scene, (SolidKind)kind, 0, 0, 0), flat ? 0.1 : 0, 3));

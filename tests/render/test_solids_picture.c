@@ -26,7 +26,7 @@ static Darker compare(const uint8_t *without, const uint8_t *with, const float *
 }
 
 /* A square of particles, side by side. */
-static void add_layer(Scene *scene, int side, double y, unsigned fluid)
+static void add_layer(SolidsScene *scene, int side, double y, unsigned fluid)
 {
     for (int i = 0; i < side; i++)
         for (int k = 0; k < side; k++)
@@ -39,7 +39,7 @@ static void test_shadow_on_the_floor(void **state)
     (void)state;
     static uint8_t with[3 * PIXELS], without[3 * PIXELS];
     static float depth[PIXELS];
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     scene.def.floor = true;
     scene_add(&scene, SOLID_SPHERE, 0, 0.4, 0);
     draw_rgb(&scene, false, with);
@@ -57,7 +57,7 @@ static void test_shadow_before_the_box(void **state)
 {
     (void)state;
     static uint8_t rgb[3 * PIXELS];
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     Camera camera;
     double pixel[2], depth;
     scene.def.floor = true;
@@ -74,15 +74,15 @@ static void test_shadow_before_the_box(void **state)
 }
 
 /* Seen from the side: something lies in the lower half of the picture, and what shades it in the upper. */
-static Scene side_view(void)
+static SolidsScene side_view(void)
 {
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     scene.def.camera = (CameraDef){{0, 0.9, 3.4}, {0, 0.2, 0}, 40};
     scene.def.color_by = SCALAR_FLUID;
     return scene;
 }
 
-static void add_plate(Scene *scene, double y, double width, double depth)
+static void add_plate(SolidsScene *scene, double y, double width, double depth)
 {
     SolidDef *plate = scene_add(scene, SOLID_BOX, 0, y, 0);
     plate->size[0] = width, plate->size[1] = 0.06, plate->size[2] = depth;
@@ -93,7 +93,7 @@ static Darker shade_by_plate(bool fluid, bool plain)
 {
     static uint8_t with[3 * PIXELS], without[3 * PIXELS];
     static float depth[PIXELS];
-    Scene scene = side_view();
+    SolidsScene scene = side_view();
     if (fluid)
         add_layer(&scene, 20, 0.05, 1);
     else
@@ -122,7 +122,7 @@ static void test_fluid_shades_solids(void **state)
     (void)state;
     static uint8_t with[3 * PIXELS], without[3 * PIXELS];
     static float depth[PIXELS];
-    Scene scene = side_view();
+    SolidsScene scene = side_view();
     add_plate(&scene, 0.05, 2, 1);
     draw_rgb(&scene, false, without);
     add_layer(&scene, 8, 0.7, 0);
@@ -140,7 +140,7 @@ static void test_no_shadow_of_its_own(void **state)
     (void)state;
     static uint8_t rgb[3 * PIXELS];
     static float depth[PIXELS];
-    Scene scene = side_view();
+    SolidsScene scene = side_view();
     int least = 255, most = 0, seen = 0;
     add_plate(&scene, 0.05, 2, 1);
     scene.def.camera = (CameraDef){{0, 3, 0.01}, {0, 0, 0}, 60};
@@ -161,7 +161,7 @@ static void test_no_shadow_of_its_own(void **state)
     free(scene.particles);
 }
 
-static void assert_like_new(Renderer *renderer, Scene *scene, int width, int height)
+static void assert_like_new(Renderer *renderer, SolidsScene *scene, int width, int height)
 {
     static uint8_t seen[3 * PIXELS], wanted[3 * PIXELS];
     Error error = {0};
@@ -179,7 +179,7 @@ static void test_def_and_size_follow(void **state)
 {
     (void)state;
     Error error = {0};
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     scene.def.floor = true;
     for (int i = 0; i < 60; i++)
         particles_add(scene.particles, 0.9 * sin(12.9 * i), 0.5 + 0.4 * sin(78.2 * i), 0.4 * sin(37.7 * i), 1,
@@ -219,7 +219,7 @@ static void test_stage_only_with_solids(void **state)
     (void)state;
     Error error = {0};
     for (int solids = 0; solids < 2; solids++) {
-        Scene scene = scene_create();
+        SolidsScene scene = scene_create();
         ParticleBuffers buffers;
         StageTimes times = {0};
         if (solids)

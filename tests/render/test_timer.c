@@ -4,8 +4,8 @@
 #include "tests/render/fixture.h"
 #include "tests/scratch.h"
 
-#include "sim/gl/program.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 #include <sys/syscall.h>

@@ -1,7 +1,7 @@
 /* The ring of slots: what is written is what the GPU reads, round and round, without touching what is still
  * drawn. */
 #include "render/particles/upload.h"
-#include "sim/world/world.h"
+#include "slosh/world.h"
 #include "tests/render/fixture.h"
 
 #include <epoxy/gl.h>

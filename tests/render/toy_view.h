@@ -5,12 +5,12 @@
 
 #include "render/frame/view.h"
 #include "sim/base/key_rows.h"
-#include "sim/base/room.h"
+#include "sim/base/memory.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>
 
-typedef struct IN_A_ROOM ToyDef {
+typedef struct MAY_ALIAS ToyDef {
     double shade; /* 0 black, 1 white */
 } ToyDef;
 

@@ -3,11 +3,11 @@
 #include "tests/scratch.h"
 
 #include "app/scene/scene_files.h"
-#include "sim/gl/backends.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
-#include "sim/world/method.h"
-#include "sim/world/step_control.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/start/seed.h"
+#include "sim/step/method.h"
+#include "sim/step/step_control.h"
 
 #include <dirent.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 
 #include "app/scene/keys.h"
 #include "sim/base/key_rows.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 #include <stdlib.h>
 

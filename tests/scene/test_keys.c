@@ -5,8 +5,8 @@
 #include "app/base/program.h"
 #include "app/scene/keys.h"
 #include "render/views/pbsr/pbsr.h"
-#include "sim/gl/backends.h"
-#include "sim/world/method.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/step/method.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -7,7 +7,7 @@
 
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "sim/world/live.h"
+#include "slosh/state.h"
 
 #define TWO_FLUIDS                                                                                           \
     "box: {size: [1, 1, 1]}\n"                                                                               \

@@ -3,7 +3,7 @@
 
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
-#include "sim/base/control_points.h"
+#include "sim/base/tables.h"
 
 #include <math.h>
 #include <stdlib.h>

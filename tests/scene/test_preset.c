@@ -1,11 +1,11 @@
 /* solver.preset: fills in what a scene does not name, by method and dimensions, and nothing else. */
-#include "sim/mueller/mueller.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/mueller/mueller.h"
+#include "sim/methods/wcsph/wcsph.h"
 #include "tests/scene/scene_text.h"
 
 #include "app/bench/cases/case.h"
 #include "app/scene/keys.h"
-#include "sim/world/world.h"
+#include "slosh/world.h"
 
 #include <stdlib.h>
 

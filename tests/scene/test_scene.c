@@ -1,8 +1,8 @@
 /* The loader on texts in memory: what a scene becomes, and what is refused with which words at which place.
  */
 #include "app/scene/scene_files.h"
-#include "sim/matter/seed.h"
-#include "sim/world/world.h"
+#include "sim/start/seed.h"
+#include "slosh/world.h"
 #include "tests/scene/scene_text.h"
 
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* --set and --particles: edits of the tree before it is read. */
-#include "sim/matter/seed.h"
-#include "sim/world/world.h"
+#include "sim/start/seed.h"
+#include "slosh/world.h"
 #include "tests/scene/scene_text.h"
 
 #include <math.h>

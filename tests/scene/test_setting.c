@@ -1,6 +1,6 @@
 /* In what two scenes differ: settings by which the one becomes the other, to the same bits. */
 #include "app/scene/save.h"
-#include "sim/matter/flow.h"
+#include "sim/flow/flow.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

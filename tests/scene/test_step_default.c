@@ -1,7 +1,7 @@
 /* What a scene does not name of sound and step fits its size; what it names stays. */
 #include "tests/scene/scene_text.h"
 
-#include "sim/world/step_control.h"
+#include "sim/step/step_control.h"
 
 #include <math.h>
 

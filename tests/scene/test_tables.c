@@ -3,7 +3,7 @@
 #include "tests/scratch.h"
 
 #include "app/scene/import/import.h"
-#include "sim/matter/fill.h"
+#include "sim/start/fill.h"
 
 #include <math.h>
 #include <stdlib.h>

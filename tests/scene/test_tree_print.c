@@ -4,7 +4,7 @@
 #include "app/scene/keys.h"
 #include "app/scene/scene_files.h"
 #include "app/scene/yaml/yaml.h"
-#include "sim/gl/backends.h"
+#include "sim/gpu/gl_context.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,10 +2,10 @@
 #ifndef SLOSH_TEST_FIXTURE_H
 #define SLOSH_TEST_FIXTURE_H
 
-#include "sim/gl/backends.h"
-#include "sim/world/backend.h"
-#include "sim/world/method.h"
-#include "sim/world/world.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/step/backend.h"
+#include "sim/step/method.h"
+#include "slosh/world.h"
 
 /* cmocka's needs */
 #include <setjmp.h>

@@ -226,7 +226,7 @@ static void carry_is_not_felt(void **state)
     fixture_step(stays, 20);
     fixture_step(carried, 20);
     const BoxTarget away = {.position = {4, 1, -2}, .orientation = {0, 0, 0, 1}};
-    world_carry(carried, &away);
+    world_carry_box(carried, &away);
     assert_int_equal(world_hash(stays), world_hash(carried));
     fixture_step(stays, 20);
     fixture_step(carried, 20);
@@ -249,7 +249,7 @@ static void nonsense_is_not_taken(void **state)
                              {.orientation = {0, INFINITY, 0, 1}}};
     for (int i = 0; i < 3; i++) {
         world_set_target(world, &bad[i]);
-        world_carry(world, &bad[i]);
+        world_carry_box(world, &bad[i]);
     }
     world_set_target(other, &home);
     fixture_step(world, 5);

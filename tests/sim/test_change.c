@@ -1,7 +1,7 @@
 /* What may change while a world lives. */
 #include "fixture.h"
 
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 static WorldDef two_fluids(void)
 {
@@ -98,7 +98,7 @@ static void a_tilted_box_grows_without_a_jerk(void **state)
     memset(def.gravity, 0, sizeof def.gravity);
     fixture_block(&def, 0, -0.3, 0.3, -0.3, 0.3, 0.7, 0.3);
     World *world = fixture_world(&def);
-    world_carry(world, &(BoxTarget){.orientation = {0, 0, sin(0.25), cos(0.25)}});
+    world_carry_box(world, &(BoxTarget){.orientation = {0, 0, sin(0.25), cos(0.25)}});
     fixture_step(world, 2);
     def.box_size[1] = 2;
     assert_true(world_set_shapes(&world, &def, &error));

@@ -2,9 +2,8 @@
 #include "tests/dfsph/cloud.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/dfsph/dfsph.h"
-#include "sim/dfsph/passes.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/dfsph/dfsph_private.h"
+#include "sim/step/world.h"
 
 static WorldDef cloud_def(Cloud *cloud)
 {

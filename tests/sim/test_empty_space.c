@@ -2,8 +2,8 @@
 #include "fixture.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/world/cell_fold.h"
-#include "sim/world/world_struct.h"
+#include "sim/step/cells.h"
+#include "sim/step/world.h"
 
 #include <stdlib.h>
 

@@ -2,7 +2,7 @@
 #include "fixture.h"
 
 #include "sim/kernel/kernel.h"
-#include "sim/mesh/field.h"
+#include "slosh/mesh.h"
 
 enum { COUNT = 500 };
 

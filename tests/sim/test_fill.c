@@ -1,8 +1,8 @@
 /* Fills: which points of the lattice are theirs. */
 #include "fixture.h"
 
-#include "sim/matter/fill.h"
-#include "sim/matter/seed.h"
+#include "sim/start/fill.h"
+#include "sim/start/seed.h"
 
 /* A slanted cylinder, by the distance from its axis and along it. */
 static void a_cylinder_has_its_points(void **state)

@@ -2,10 +2,9 @@
    rest. */
 #include "fixture.h"
 
-#include "sim/matter/fill.h"
-#include "sim/matter/fill_lattice.h"
-#include "sim/matter/seed.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/start/fill.h"
+#include "sim/start/seed.h"
 
 static float position[3 * 40000];
 static uint8_t fluid[40000];

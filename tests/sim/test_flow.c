@@ -1,9 +1,9 @@
 /* Emitters and drains: how much comes, in which order, how many at most, what is saved of it. */
 #include "fixture.h"
 
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
-#include "sim/world/world_state.h"
+#include "sim/flow/flow.h"
+#include "sim/start/seed.h"
+#include "slosh/state.h"
 
 static WorldDef jet_def(int dimensions)
 {

@@ -2,9 +2,9 @@
  * walls. */
 #include "fixture.h"
 
-#include "sim/kernel/lattice.h"
-#include "sim/matter/viscosity.h"
-#include "sim/mueller/mueller.h"
+#include "sim/def/fluids.h"
+#include "sim/kernel/kernel.h"
+#include "sim/methods/mueller/mueller.h"
 
 enum { COUNT = 900 };
 static const double dt = 1e-4;

@@ -1,7 +1,7 @@
 /* What is counted of solvers that iterate: over steps, in bounded memory. */
-#include "sim/dfsph/dfsph.h"
-#include "sim/world/iterate.h"
-#include "sim/world/world_state.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/step/iterate.h"
+#include "slosh/state.h"
 #include "tests/sim/fixture.h"
 
 static void add(SolveTally *tally, int density, int divergence, double mean, double most)
@@ -91,7 +91,7 @@ static void a_world_counts(void **state)
     assert_true(world_load(other, &saved, &error));
     fixture_step(other, 2);
     assert_int_equal(solved(other).steps, 2);
-    world_tally_anew(world);
+    world_solved_restart(world);
     assert_int_equal(solved(world).steps, 0);
     world_state_free(&saved);
     world_destroy(world);

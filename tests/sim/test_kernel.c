@@ -3,7 +3,6 @@
 #include "fixture.h"
 
 #include "sim/kernel/kernel.h"
-#include "sim/kernel/lattice.h"
 
 #include <fenv.h>
 

@@ -1,8 +1,8 @@
 /* What a method says of itself holds: the columns that its passes read and write, its equation of state. */
 #include "sim/cpu/cpu.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/particles.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/step/backend_sums.h"
+#include "sim/step/world.h"
 #include "tests/sim/fixture.h"
 #include "tests/sim/toy_method.h"
 

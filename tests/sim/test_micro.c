@@ -1,7 +1,7 @@
 /* The parts of a substep alone: they are the method's own, and leave the state as it was. */
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/micro.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/step/method.h"
+#include "sim/step/world.h"
 #include "tests/sim/fixture.h"
 
 /* A tank around a ball, with terms that have passes of their own. */

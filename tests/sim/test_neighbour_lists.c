@@ -3,9 +3,8 @@
 #include "fixture.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/wcsph/columns.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/wcsph/wcsph_private.h"
+#include "sim/step/world.h"
 
 #include <stdlib.h>
 

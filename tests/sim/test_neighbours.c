@@ -1,8 +1,8 @@
 /* The grid search, the pair sums and the order of particles against brute force over all pairs. */
 #include "fixture.h"
 
-#include "sim/kernel/lattice.h"
-#include "sim/mueller/mueller.h"
+#include "sim/kernel/kernel.h"
+#include "sim/methods/mueller/mueller.h"
 
 typedef struct Cloud {
     size_t count;

@@ -2,10 +2,9 @@
    survives. */
 #include "tests/dfsph/cloud.h"
 
-#include "sim/box/box_motion.h"
-#include "sim/pbf/passes.h"
-#include "sim/pbf/pbf.h"
-#include "sim/world/world_struct.h"
+#include "sim/methods/pbf/pbf_private.h"
+#include "sim/step/world.h"
+#include "slosh/def.h"
 
 static WorldDef pbf_world(double width, double height, double depth)
 {
@@ -134,7 +133,7 @@ static void goes_on_from_a_saved_state(void **state)
 static double settled_compression(World *world)
 {
     double mean = 0;
-    world_settle(world);
+    world_recompute_derived(world);
     State s = fixture_read(world);
     for (size_t i = 0; i < s.count; i++)
         mean += fmax((double)s.density[i] / 1000 - 1, 0) / (double)s.count;

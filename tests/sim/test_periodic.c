@@ -2,11 +2,11 @@
    vortices that fill such a box, what is refused. */
 #include "fixture.h"
 
-#include "sim/box/periodic.h"
-#include "sim/matter/tension.h"
-#include "sim/matter/vortices.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_state.h"
+#include "sim/box/walls.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/start/seed.h"
+#include "slosh/state.h"
 
 /* Scattered particles in a box that is periodic along the axes given; the others have walls. */
 typedef struct Cloud {
@@ -360,7 +360,7 @@ static void a_hand_moves_it_and_does_not_turn_it(void **state)
     World *world = fixture_world(&c.def);
     const BoxTarget target = {.position = {0.3, 0, 0}, .orientation = {0, 0, sin(0.2), cos(0.2)}};
     WorldInfo info;
-    world_carry(world, &target);
+    world_carry_box(world, &target);
     world_info(world, &info);
     assert_float_equal(info.box.position[0], 0.3, 1e-12);
     assert_float_equal(info.box.orientation[2], 0, 1e-12);

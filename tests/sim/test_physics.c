@@ -1,7 +1,7 @@
 /* What must hold whatever the scene: momenta in free flight, pressure in a column at rest, density ratios. */
 #include "fixture.h"
-#include "sim/dfsph/dfsph.h"
-#include "sim/mueller/mueller.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/methods/mueller/mueller.h"
 
 /* A ball that flies and spins, pressed a little so that it works inside; no gravity, no viscosity, no walls
  * near. */

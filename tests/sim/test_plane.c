@@ -2,12 +2,11 @@
  */
 #include "fixture.h"
 
-#include "sim/dfsph/dfsph.h"
 #include "sim/kernel/kernel.h"
-#include "sim/kernel/lattice.h"
-#include "sim/pbf/pbf.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_state.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/methods/pbf/pbf.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "slosh/state.h"
 
 static Error error;
 

@@ -1,9 +1,8 @@
 /* What comes to rest rests: friction of the resolution where a fluid names less; density that comes back to
    that of the particles' places; none below 0. */
-#include "sim/mueller/mueller.h"
-#include "sim/wcsph/passes.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/step_control.h"
+#include "sim/methods/mueller/mueller.h"
+#include "sim/methods/wcsph/wcsph_private.h"
+#include "sim/step/step_control.h"
 #include "tests/sim/fixture.h"
 
 /* A dam of 13 x 15 particles in the plane. */

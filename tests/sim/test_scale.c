@@ -4,12 +4,11 @@
    somewhere, or is compared with a length, a speed or a mass of this world, shows. */
 #include "tests/sim/fixture.h"
 
-#include "sim/dfsph/dfsph.h"
-#include "sim/matter/tension.h"
-#include "sim/matter/viscosity.h"
-#include "sim/mueller/mueller.h"
-#include "sim/pbf/pbf.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/methods/mueller/mueller.h"
+#include "sim/methods/pbf/pbf.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 /* Spacings of 1e-6, 1e-3, 1 (with which the others are compared) and 260 m. */
 static const int exponents[] = {0, -10, -5, 4};
@@ -201,18 +200,18 @@ static Seen seen_of(const Case *c, Form form, int exponent)
     WorldInfo info;
     Seen seen = {.time = 0};
     World *world = world_create(&def, &error);
-    if (!world || (!fixture_on_fragment() && !world_feel(world, &error)))
+    if (!world || (!fixture_on_fragment() && !world_enable_forces(world, &error)))
         fail_msg("%s %s at 4^%d: %s", c->method, what, exponent, error.message);
     for (int i = 0; i < fixture_count(12, 6); i++)
         if (!world_step(world, NULL, &error))
             fail_msg("%s %s at 4^%d: %s", c->method, what, exponent, error.message);
-    if (!world_sound(world))
+    if (!world_is_valid(world))
         fail_msg("%s %s at 4^%d is in trouble", c->method, what, exponent);
     world_info(world, &info);
     seen.time = info.time;
     seen.state = fixture_read(world);
     world_sums(world, &seen.sums);
-    world_gauge_ask(world);
+    world_gauge_request(world);
     while (!world_gauge(world, &seen.gauge))
         ;
     if (!fixture_on_fragment())

@@ -1,9 +1,10 @@
-/* Shifting of particles (sim/wcsph/shift.c): the shift itself against all pairs, what walls, surfaces and the
-   density that particles carry make of it. backend compute is compared with cpu in tests/gl. */
+/* Shifting of particles (sim/methods/wcsph/wcsph_passes.c): the shift itself against all pairs, what walls,
+   surfaces and the density that particles carry make of it. backend compute is compared with cpu in tests/gl.
+ */
 #include "fixture.h"
 
-#include "sim/kernel/lattice.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/kernel/kernel.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { WIDE = 12, HIGH = 10, ALL = WIDE * HIGH };
 static const double H = 0.3, SOUND = 15;

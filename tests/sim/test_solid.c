@@ -1,9 +1,8 @@
 /* Solids by themselves: distances, poses, the layers of boundary particles, the guard. */
 #include "fixture.h"
 
-#include "sim/kernel/lattice.h"
-#include "sim/matter/boundary.h"
-#include "sim/matter/solid_step.h"
+#include "sim/kernel/kernel.h"
+#include "sim/solids/solid.h"
 
 #include "tests/near.h"
 

@@ -1,10 +1,10 @@
 /* Solids in a fluid: density next to them, tightness, friction, the same bits. */
 #include "solids.h"
 
-#include "sim/base/stage.h"
-#include "sim/matter/boundary.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_state.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/solids/solid.h"
+#include "slosh/state.h"
+#include "slosh/world.h"
 
 /* A block in the lattice's own places, once, and in two parts of which one is in the other: rest density
    within 0.5 % all around, as at the walls. */

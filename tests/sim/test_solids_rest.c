@@ -2,7 +2,7 @@
  * at. */
 #include "solids.h"
 
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 static WorldDef tank_with_solids(const char *method)
 {

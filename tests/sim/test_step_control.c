@@ -2,11 +2,11 @@
    with the last good state. */
 #include "fixture.h"
 
-#include "sim/matter/tension.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/constants.h"
-#include "sim/world/step_control.h"
-#include "sim/world/world_state.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/step/constants.h"
+#include "sim/step/step_control.h"
+#include "slosh/state.h"
 
 static Error error;
 
@@ -294,7 +294,7 @@ static WorldDef falling_block(void)
 static bool finish_frame(World *world)
 {
     bool good = world_step(world, NULL, &error);
-    while (good && !world_sound(world))
+    while (good && !world_is_valid(world))
         good = world_step(world, NULL, &error);
     return good;
 }

@@ -2,9 +2,8 @@
    pressure in a drop. */
 #include "fixture.h"
 
+#include "sim/def/fluids.h"
 #include "sim/kernel/kernel.h"
-#include "sim/kernel/lattice.h"
-#include "sim/matter/tension.h"
 
 enum { COUNT = 250 };
 

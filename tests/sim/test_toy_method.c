@@ -1,5 +1,5 @@
 /* The toy method is listed, is saved, and has the same bits on any number of threads. */
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 #include "tests/sim/fixture.h"
 #include "tests/sim/toy_method.h"
 

@@ -2,9 +2,9 @@
    work that a fluid does. */
 #include "fixture.h"
 
-#include "sim/kernel/lattice.h"
-#include "sim/matter/viscosity.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/def/fluids.h"
+#include "sim/kernel/kernel.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { KERNELS = 6 };
 

@@ -2,7 +2,7 @@
    the rows of the table in docs/performance.md. */
 #include "fixture.h"
 
-#include "sim/cpu/pair_set.h"
+#include "sim/cpu/pairs.h"
 #include "tests/program.h"
 #include "walk_forms/forms.h"
 

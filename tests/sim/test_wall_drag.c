@@ -2,9 +2,9 @@
    oscillating floor. */
 #include "fixture.h"
 
-#include "sim/dfsph/dfsph.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/constants.h"
+#include "sim/methods/dfsph/dfsph.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/step/constants.h"
 
 #include <complex.h>
 

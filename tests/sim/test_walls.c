@@ -2,8 +2,7 @@
  * no escape. */
 #include "fixture.h"
 
-#include "sim/box/wall_images.h"
-#include "sim/box/wall_lift.h"
+#include "sim/box/walls.h"
 
 static WorldDef full_box(double nx, double ny, double nz, double support)
 {
@@ -96,7 +95,7 @@ static void strew(const WorldDef *def, Strewn *s)
 /* n / n0 of particle i by brute force: of all that it and its images see. */
 static double crowd(const Strewn *s, int i)
 {
-    Image image[IMAGES_MAX];
+    WallImage image[IMAGES_MAX];
     const int count = wall_images(&s->walls, s->x[i], s->h, image);
     double sum = 0;
     for (int m = 0; m < count; m++)

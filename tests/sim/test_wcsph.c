@@ -2,11 +2,10 @@
    ten, and bits. */
 #include "fixture.h"
 
+#include "sim/def/fluids.h"
 #include "sim/kernel/kernel.h"
-#include "sim/kernel/lattice.h"
-#include "sim/matter/viscosity.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/world_state.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "slosh/state.h"
 
 enum { COUNT = 600 };
 
@@ -134,7 +133,7 @@ static bool near_walls(const WorldDef *def, const Reference *r, int walls, int i
     return true;
 }
 
-/* w of sim/wcsph/pairs_interface.c. */
+/* w of sim/methods/wcsph/pairs_surface.c. */
 static double contrast(double mine, double theirs)
 {
     const double w = fmax(0, 1 - 4 * fmin(mine, theirs) / fmax(mine, theirs));

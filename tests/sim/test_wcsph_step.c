@@ -1,7 +1,7 @@
 /* wcsph in time: the order of its step, slow flows, diffusion, what viscosity keeps, changes while it lives.
  */
 #include "fixture.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { SIDE = 10, N = SIDE * SIDE * SIDE };
 

@@ -1,6 +1,6 @@
 /* The walls of the box with wcsph: what rests goes on resting, and no energy comes from them. */
 #include "fixture.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { MOST = 4000 };
 

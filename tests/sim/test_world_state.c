@@ -1,7 +1,7 @@
 /* Save, load, step is step, to the bit; and what is no state of this world is refused. */
 #include "fixture.h"
 
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 static Error error;
 

@@ -3,8 +3,8 @@
 #define SLOSH_TESTS_TOY_METHOD_H
 
 #include "sim/base/key_rows.h"
-#include "sim/cpu/pass.h"
-#include "sim/world/substep.h"
+#include "sim/cpu/cpu.h"
+#include "sim/step/substep.h"
 
 static const double soft = 50; /* its settings are one number */
 static const Key spring_keys[] = {NUMBER("solver.springs", L, "1/s2", 0, 1000, 0, "stiffness when new"),

@@ -4,7 +4,7 @@
 
 #include "tests/scratch.h"
 
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/program.h"
 
 #include <stdio.h>
 #include <stdlib.h>

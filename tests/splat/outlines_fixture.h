@@ -8,7 +8,7 @@ enum { W = 80, H = 60, N = W * H };
 
 static const double spacing = 0.06;
 
-static inline void draw_at(const Scene *scene, int width, int height, uint8_t *rgb, float *depth)
+static inline void draw_at(const SolidsScene *scene, int width, int height, uint8_t *rgb, float *depth)
 {
     Error error = {0};
     ParticleBuffers buffers;
@@ -32,9 +32,9 @@ static inline double linear_of(int code)
     return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
 }
 
-static inline Scene scene_of(double fov_deg)
+static inline SolidsScene scene_of(double fov_deg)
 {
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     text_set(scene.def.kind, "splat");
     scene.def.color_by = SCALAR_FLUID;
     scene.def.camera.fov_deg = fov_deg;

@@ -7,7 +7,7 @@
 
 #include "render/frame/frame.h"
 #include "render/views/splat/splat_private.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 

@@ -19,9 +19,9 @@ static void turn_over(float depth[WIDE * HIGH])
         }
 }
 
-static void draw_fine(const Scene *scene, Fine *to)
+static void draw_fine(const SolidsScene *scene, Fine *to)
 {
-    Scene plain = *scene;
+    SolidsScene plain = *scene;
     splat_def(&plain.def)->antialias = false;
     draw_at(&plain, WIDE, HIGH, to->rgb, to->depth);
     turn_over(to->depth);
@@ -74,11 +74,11 @@ typedef struct Measured {
     int pixels;
 } Measured;
 
-static Measured measure(Scene *scene)
+static Measured measure(SolidsScene *scene)
 {
     static uint8_t with[3 * N], without[3 * N];
     Measured m = {0};
-    Scene solids = *scene;
+    SolidsScene solids = *scene;
     solids.particles = calloc(1, sizeof(Particles));
     particles_add(solids.particles, 0, -100, 0, 1, 0);
     draw_fine(scene, &fine);
@@ -104,7 +104,7 @@ static Measured measure(Scene *scene)
     return m;
 }
 
-static void expect_nearer(const char *what, Scene *scene, double factor)
+static void expect_nearer(const char *what, SolidsScene *scene, double factor)
 {
     const Measured m = measure(scene);
 
@@ -118,7 +118,7 @@ static void expect_nearer(const char *what, Scene *scene, double factor)
 static void outlines_are_nearer_to_the_truth(void **state)
 {
     (void)state;
-    Scene scene = scene_of(10);
+    SolidsScene scene = scene_of(10);
     expect_nearer("near", &scene, 3);
     scene = scene_of(22);
     expect_nearer("usual", &scene, 2.2);
@@ -136,16 +136,16 @@ static void outlines_are_nearer_to_the_truth(void **state)
 static void outlines_of_a_level(void **state)
 {
     (void)state;
-    Scene scene = scene_of(20);
+    SolidsScene scene = scene_of(20);
     scene.def.radius = 2;
     splat_def(&scene.def)->level = 0.3;
     expect_nearer("level", &scene, 1.6);
 }
 
 /* Threads as thick as a pixel, bright on dark, each over the one before and longer. */
-static Scene threads(void)
+static SolidsScene threads(void)
 {
-    Scene scene = scene_of(45);
+    SolidsScene scene = scene_of(45);
     scene.particles->count = 0;
     for (int i = 0; i < 600; i++) {
         const int thread = i / 50;
@@ -165,7 +165,7 @@ static void outlines_of_threads(void **state)
 {
     (void)state;
     static uint8_t with[3 * N], without[3 * N];
-    Scene scene = threads();
+    SolidsScene scene = threads();
     draw_at(&scene, W, H, with, NULL);
     splat_def(&scene.def)->antialias = false;
     draw_at(&scene, W, H, without, NULL);
@@ -186,7 +186,7 @@ static void outlines_of_threads(void **state)
 static void outlines_of_drops_and_ellipsoids(void **state)
 {
     (void)state;
-    Scene scene = scene_of(20);
+    SolidsScene scene = scene_of(20);
     for (size_t i = 0; i < scene.particles->count; i++) /* half of them are far from each other */
         if (i % 2)
             for (int k = 0; k < 3; k++)
@@ -204,7 +204,7 @@ static void outlines_of_drops_and_ellipsoids(void **state)
 static void outlines_with_solids(void **state)
 {
     (void)state;
-    Scene scene = scene_of(30);
+    SolidsScene scene = scene_of(30);
     scene_add(&scene, SOLID_SPHERE, 0.3, 0.4, 0.6);
     scene_add(&scene, SOLID_SPHERE, -0.5, 0.5, 0.3);
     scene_add(&scene, SOLID_BOX, 0.6, 0.6, -0.7);
@@ -217,7 +217,7 @@ static void the_inside_stays(void **state)
 {
     (void)state;
     static uint8_t with[3 * N], without[3 * N];
-    Scene scene = scene_of(20), nothing = scene_of(20);
+    SolidsScene scene = scene_of(20), nothing = scene_of(20);
     scene_add(&scene, SOLID_SPHERE, 0.6, 0.8, 0.7);
     scene_add(&nothing, SOLID_SPHERE, 0.6, 0.8, 0.7);
     nothing.particles->count = 0;
@@ -249,7 +249,7 @@ static void what_came_before_shading_stays(void **state)
     (void)state;
     static uint8_t with[3 * N], without[3 * N];
     for (int show = SPLAT_DEPTH; show <= SPLAT_WEIGHT; show++) {
-        Scene scene = scene_of(100);
+        SolidsScene scene = scene_of(100);
         splat_def(&scene.def)->show = (SplatShow)show;
         draw_at(&scene, W, H, with, NULL);
         splat_def(&scene.def)->antialias = false;
@@ -264,7 +264,7 @@ static void strange_pictures(void **state)
     (void)state;
     static uint8_t rgb[3 * 4096 * 16], with[3 * N];
     for (int shape = SPLAT_PERSPECTIVE; shape <= SPLAT_ELLIPSOID; shape += 2) {
-        Scene scene = scene_of(30);
+        SolidsScene scene = scene_of(30);
         splat_def(&scene.def)->shape = (SplatShape)shape;
         draw_at(&scene, 1, 1, rgb, NULL);
         draw_at(&scene, 4096, 16, rgb, NULL);

@@ -4,9 +4,9 @@
 
 #include "render/frame/camera.h"
 
-static Scene splat_among_solids(void)
+static SolidsScene splat_among_solids(void)
 {
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     text_set(scene.def.kind, "splat");
     scene.def.color_by = SCALAR_FLUID;
     scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 30};
@@ -28,7 +28,7 @@ static void solids_hide_and_are_hidden(void **state)
     for (int i = 0; i < 3; i++) {
         static uint8_t rgb[3 * PIXELS];
         static float depth[PIXELS], alone[PIXELS];
-        Scene scene = splat_among_solids();
+        SolidsScene scene = splat_among_solids();
         particles_add(scene.particles, 0, 0.5, 0, 1, 0);
         draw_depth(&scene, alone);
         scene_add(&scene, SOLID_SPHERE, 0, 0.5, places[i]);
@@ -50,7 +50,7 @@ static double brightness(const uint8_t *rgb, int x, int y)
 }
 
 /* The pixel, from the top, of a place in the world. */
-static void pixel_at(const Scene *scene, const double at[3], int pixel[2])
+static void pixel_at(const SolidsScene *scene, const double at[3], int pixel[2])
 {
     Camera camera;
     double place[2], depth;
@@ -66,7 +66,7 @@ static void its_shadow_falls_on_the_floor(void **state)
 {
     (void)state;
     static uint8_t with[3 * PIXELS], without[3 * PIXELS];
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     scene.def.floor = true;
     scene.def.camera = (CameraDef){{0, 2.5, 4}, {0, 0, 0}, 40};
     particles_add(scene.particles, 0, 0.5, 0, 1, 0);
@@ -88,7 +88,7 @@ static void its_shadow_falls_on_the_floor(void **state)
 static void compare_shadow(bool solid)
 {
     static uint8_t with[3 * PIXELS], without[3 * PIXELS];
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     scene.def.camera = (CameraDef){{0.3, 3.5, 0.5}, {0.2, 0, -0.1}, 40};
     scene.state.spacing = 0.1;
     for (int i = 0; i < 30 * 20; i++)
@@ -127,7 +127,7 @@ static void solids_through_clear_fluid(void **state)
     (void)state;
     static uint8_t rgb[3 * PIXELS];
     for (int behind = 0; behind < 2; behind++) {
-        Scene scene = splat_among_solids();
+        SolidsScene scene = splat_among_solids();
         int red = 0;
         splat_def(&scene.def)->shading = SPLAT_WATER;
         for (int k = 0; k < 3; k++)
@@ -155,7 +155,7 @@ static void a_drops_shadow_is_its_own(void **state)
     (void)state;
     static uint8_t rgb[3][3 * PIXELS];
     double lost[2] = {0};
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     scene.def.floor = true;
     scene.def.camera = (CameraDef){{2.2, 0.6, -0.27}, {0.29, -0.11, -0.27}, 16};
     particles_add(scene.particles, 0, 0.5, 0, 1, 0);
@@ -179,7 +179,7 @@ static void shading_leaves_the_surface_alone(void **state)
     (void)state;
     static float opaque[PIXELS], clear[PIXELS];
     for (int i = 0; i < 4; i++) {
-        Scene scene = splat_among_solids();
+        SolidsScene scene = splat_among_solids();
         scene.state.spacing = 0.1;
         for (int k = 0; k < 8 * 8 * 8; k++)
             particles_add(scene.particles, -0.28 + 0.08 * (k % 8), 0.22 + 0.08 * (k / 8 % 8),
@@ -201,7 +201,7 @@ static void colours_mix_where_fluids_meet(void **state)
 {
     (void)state;
     static uint8_t rgb[3 * PIXELS];
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     particles_add(scene.particles, -0.15, 0.5, 0, 1, 0);
     particles_add(scene.particles, 0.15, 0.5, 0, 1, 1);
     draw_rgb(&scene, true, rgb);
@@ -220,7 +220,7 @@ static void scalars_colour_it(void **state)
 {
     (void)state;
     static uint8_t slow[3 * PIXELS], fast[3 * PIXELS];
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     scene.def.color_by = SCALAR_SPEED;
     scene.def.range_auto = false, scene.def.range[0] = 0, scene.def.range[1] = 2;
     particles_add(scene.particles, 0, 0.5, 0, 0, 0);
@@ -235,7 +235,7 @@ static void scalars_colour_it(void **state)
     free(scene.particles);
 }
 
-static void change(Renderer *renderer, Scene *scene, uint8_t rgb[3 * PIXELS])
+static void change(Renderer *renderer, SolidsScene *scene, uint8_t rgb[3 * PIXELS])
 {
     Error error = {0};
     if (!renderer_set_def(renderer, &scene->def, &scene->world, &error))
@@ -274,7 +274,7 @@ static void make_settings(SplatDef usual, SplatDef others[], int count)
 }
 
 /* A row of particles, a third of a spacing apart: these are ellipsoids where that is asked for. */
-static void add_row(Scene *scene)
+static void add_row(SolidsScene *scene)
 {
     for (int i = -4; i <= 4; i++)
         particles_add(scene->particles, 0.4 + 0.1 * i, 0.2 + 0.05 * i, 0.2, 1, i & 1);
@@ -300,7 +300,7 @@ static void settings_are_live(void **state)
     static uint8_t first[3 * PIXELS], last[3 * PIXELS], other[3 * PIXELS];
     enum { OTHERS = 21, CHANGED = 150 };
     SplatDef others[OTHERS];
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     particles_add(scene.particles, -0.15, 0.7, 0, 1, 0);
     particles_add(scene.particles, 0.15, 0.4, 0.1, 1, 1);
     add_row(&scene);
@@ -329,7 +329,7 @@ static void maps_can_be_seen(void **state)
 {
     (void)state;
     static uint8_t normals[3 * PIXELS], depth[3 * PIXELS];
-    Scene scene = splat_among_solids();
+    SolidsScene scene = splat_among_solids();
     particles_add(scene.particles, -0.5, 0.5, 0.3, 1, 0);
     particles_add(scene.particles, 0.5, 0.5, -0.3, 1, 0);
     splat_def(&scene.def)->show = SPLAT_NORMALS;
@@ -354,7 +354,7 @@ static void nothing_is_left_of_the_picture_before(void **state)
     (void)state;
     for (int i = 0; i < 4; i++) {
         static uint8_t moved[3 * PIXELS], fresh[3 * PIXELS];
-        Scene scene = splat_among_solids();
+        SolidsScene scene = splat_among_solids();
         splat_def(&scene.def)->cull = i & 1, splat_def(&scene.def)->antialias = true;
         particles_add(scene.particles, -0.4, 0.3, 0, 1, 0);
         if (i & 2)

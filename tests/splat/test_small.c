@@ -2,9 +2,9 @@
 #include "tests/splat/outlines_fixture.h"
 
 /* Drops 0.3 pixels in radius, far from each other. */
-static Scene drops(double radius_pixels)
+static SolidsScene drops(double radius_pixels)
 {
-    Scene scene = scene_of(30);
+    SolidsScene scene = scene_of(30);
     scene.def.camera = (CameraDef){{0, 0.5, 3}, {0, 0.5, 0}, 30};
     scene.state.spacing = radius_pixels * 3 * tan(15 * M_PI / 180) / (H / 2.0);
     scene.particles->count = 0;
@@ -15,7 +15,7 @@ static Scene drops(double radius_pixels)
 
 /* Light that they take from a picture; mean over a camera that moves by parts of a pixel, and its deviation.
  */
-static void darkening(const Scene *scene, bool antialias, double *mean, double *deviation)
+static void darkening(const SolidsScene *scene, bool antialias, double *mean, double *deviation)
 {
     static uint8_t rgb[3 * N], clear[3 * N];
     const double pixel = 3 * tan(15 * M_PI / 180) / (H / 2.0);
@@ -53,7 +53,7 @@ static void small_drops_neither_vanish_nor_sparkle(void **state)
     const double radii[] = {0.15, 0.3, 0.6};
     double one = 0;
     for (int i = 0; i < 3; i++) {
-        Scene scene = drops(radii[i]);
+        SolidsScene scene = drops(radii[i]);
         double with, without, flicker, flicker_without;
         darkening(&scene, true, &with, &flicker);
         darkening(&scene, false, &without, &flicker_without);
@@ -66,10 +66,10 @@ static void small_drops_neither_vanish_nor_sparkle(void **state)
     }
 }
 
-static int blue_pixels(const Scene *scene, bool antialias)
+static int blue_pixels(const SolidsScene *scene, bool antialias)
 {
     static uint8_t rgb[3 * N];
-    Scene other = *scene;
+    SolidsScene other = *scene;
     int count = 0;
     splat_def(&other.def)->antialias = antialias;
     draw_at(&other, W, H, rgb, NULL);
@@ -83,7 +83,7 @@ static void small_drops_leave_no_hole(void **state)
 {
     (void)state;
     static uint8_t rgb[3 * N];
-    Scene scene = drops(0.4);
+    SolidsScene scene = drops(0.4);
     const size_t count = scene.particles->count;
     const double r = scene.state.spacing;
     scene.world.fluids[1].color[0] = 0.03F, scene.world.fluids[1].color[1] = 0.22F,
@@ -108,7 +108,7 @@ static void a_far_body_is_opaque(void **state)
 {
     (void)state;
     static uint8_t far[3 * N];
-    Scene scene = scene_of(30);
+    SolidsScene scene = scene_of(30);
     scene.def.camera = (CameraDef){{2.3, 3, 11}, {-0.7, 0.2, 0}, 20};
     scene.def.radius = 0.5;
     memcpy(scene.world.fluids[1].color, scene.world.fluids[0].color, sizeof(float[3]));
@@ -130,7 +130,7 @@ static void culling_changes_no_pixel(void **state)
     static uint8_t with[3 * N], without[3 * N];
     const double fov[] = {10, 60, 150};
     for (int i = 0; i < 4; i++) {
-        Scene scene = scene_of(fov[i < 3 ? i : 2]);
+        SolidsScene scene = scene_of(fov[i < 3 ? i : 2]);
         splat_def(&scene.def)->shape = i < 3 ? SPLAT_PERSPECTIVE : SPLAT_ELLIPSOID;
         draw_at(&scene, W, H, with, NULL);
         splat_def(&scene.def)->cull = false;

@@ -3,7 +3,7 @@
 #include "tests/scratch.h"
 #include "tests/splat/splat_fixture.h"
 
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 /* Both shapes, both sprites. */
 static void compare_all(SplatScene *scene, int least, bool points_too)

@@ -2,8 +2,8 @@
 #include "tests/sim/fixture.h"
 
 #include "app/lab/stability.h"
-#include "sim/kernel/sound_wave.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/kernel/kernel.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 static const double PI = 3.14159265358979323846, A = 0.1; /* spacing, m */
 

@@ -2,8 +2,8 @@
    there; and starts that are not pressed at all. */
 #include "tests/sim/fixture.h"
 
-#include "sim/matter/balance.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/start/rest.h"
 
 static WorldDef tank_def(const char *method, double width, double height)
 {

@@ -1,7 +1,7 @@
 /* Formulas of a scene: values, and what is said of what can't be read. */
 #include "tests/sim/fixture.h"
 
-#include "sim/base/formula.h"
+#include "slosh/def.h"
 
 static const double at[] = {2, 3, 5};
 

@@ -1,8 +1,8 @@
 /* Pressure next to a round solid in a tank at rest, of a method whose particles carry their density and
-   nothing levels it: sim/matter/packing.h. */
+   nothing levels it: sim/start/rest.h. */
 #include "tests/sim/fixture.h"
 
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 static const double RADIUS = 0.2, DEEP = 0.6; /* of the solid, and of its centre below the surface, m */
 

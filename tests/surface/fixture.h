@@ -4,8 +4,8 @@
 
 #include "tests/near.h"
 
-#include "sim/surface/analytic.h"
-#include "sim/surface/sampling.h"
+#include "sim/points/fields.h"
+#include "sim/points/sampling.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Fields that have no surface where one is asked for, or a bad one: each ends with its message. */
 #include "fixture.h"
 
-#include "sim/surface/walk.h"
+#include "sim/points/walk.h"
 
 static const double box[2][3] = {{-1, -1, -1}, {1, 1, 1}};
 

@@ -2,8 +2,7 @@
    made of, the particles' field against the sum over all. */
 #include "fixture.h"
 
-#include "sim/surface/sph_field.h"
-#include "sim/surface/volume_field.h"
+#include "sim/points/fields.h"
 
 static const double low[3] = {-0.5, -0.5, -0.5}, high[3] = {0.5, 0.5, 0.5};
 

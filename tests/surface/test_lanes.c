@@ -2,8 +2,8 @@
  * normals. */
 #include "tests/near.h"
 
-#include "sim/surface/philox.h"
-#include "sim/surface/points.h"
+#include "sim/points/lanes.h"
+#include "sim/points/points.h"
 
 #include <string.h>
 

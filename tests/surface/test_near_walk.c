@@ -1,9 +1,9 @@
 /* Walks that begin on triangles: on the particles' own field as evenly as its area, inside the fluid only. */
 #include "fixture.h"
 
-#include "sim/mesh/isosurface.h"
-#include "sim/surface/near_walk.h"
-#include "sim/surface/sph_field.h"
+#include "sim/points/fields.h"
+#include "sim/points/sampling.h"
+#include "slosh/mesh.h"
 
 enum { ALONG = 17, PARTICLES_MOST = ALONG * ALONG * ALONG, CELLS = 40 };
 

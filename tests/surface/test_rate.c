@@ -3,9 +3,8 @@
    quiet machine: by the clock, and by the time that processors worked, times two. */
 #include "fixture.h"
 
-#include "sim/base/stage.h"
-#include "sim/surface/sph_field.h"
-#include "sim/surface/volume_field.h"
+#include "sim/points/fields.h"
+#include "slosh/world.h"
 
 #include <stdio.h>
 #include <time.h>

@@ -1,9 +1,9 @@
 /* Points on the triangles of marching cubes: uniform, near the surface, not on what closes the mesh. */
 #include "fixture.h"
 
-#include "sim/surface/polygons.h"
-#include "sim/surface/triangles.h"
-#include "sim/surface/volume_field.h"
+#include "sim/points/fields.h"
+#include "sim/points/points.h"
+#include "sim/points/sampling.h"
 
 static SurfaceRequest on_triangles(const LevelField *field, double area, double points)
 {

@@ -1,7 +1,7 @@
 /* Points of the walk: uniform, on the surface, as many as asked for, on all parts, and the same each time. */
 #include "fixture.h"
 
-#include "sim/surface/walk.h"
+#include "sim/points/walk.h"
 
 static const double torus_area = 4e-6 * M_PI * M_PI * RING_MM * TUBE_MM;
 

@@ -2,9 +2,8 @@
  * keeps. */
 #include "tests/sim/fixture.h"
 
-#include "sim/matter/tension.h"
-#include "sim/matter/viscosity.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { MOST = 4000 };
 

@@ -67,7 +67,7 @@ static void look(const Rig *rig, size_t count, const char *name, Seen *seen)
     if (info.lost > 0 || info.trouble.count > 0)
         fail_msg("%s: %zu are lost, the sentinel went back %u times", name, (size_t)info.lost,
                  info.trouble.count);
-    world_gauge_ask(world);
+    world_gauge_request(world);
     while (!world_gauge(world, &gauge))
         usleep(100);
     seen->calm = fmax(seen->calm, sqrt(square / (double)count));

@@ -55,7 +55,7 @@ static void a_stir_gives_force_times_time(void **state)
         double is[3], must = 0, last = 0;
         for (int i = 0; i < STEPS; i++) {
             const Finger finger = touch_at(FINGER_STIR, across * def.dt * i, 0.8, 0, 1000, rate);
-            world_touch(world, &finger);
+            world_set_finger(world, &finger);
             fixture_step(world, 1);
             const double now = touch_state(world).point[0], speed = (now - last) / def.dt;
             must += (1 - exp(-rate * def.dt)) * (speed - must);
@@ -69,7 +69,7 @@ static void a_stir_gives_force_times_time(void **state)
     }
 }
 
-/* What a particle off the point gains in a step, from sim/touch/finger.h's words. */
+/* What a particle off the point gains in a step, from include/slosh/world.h's words. */
 static double gain_of(const float x[3], const Finger *finger, double dt, double out[3])
 {
     double r2 = 0;
@@ -99,7 +99,7 @@ static void a_push_in_the_middle_moves_nothing_on_the_whole(void **state)
             const Finger finger = touch_at(FINGER_PUSH, 0, 0.8, 0, 0.4, 20);
             World *world = fixture_world(&def);
             State before = fixture_read(world);
-            world_touch(world, &finger);
+            world_set_finger(world, &finger);
             fixture_step(world, 1);
             State after = fixture_read(world);
             double whole[3] = {0}, outward = 0, must = 0;
@@ -146,7 +146,7 @@ static void no_strength_and_no_haste_upsets_it(void **state)
             for (int i = 0; i < 24; i++) {
                 const double side = i / 5 % 2 ? 0.5 : -0.5;
                 const Finger finger = touch_at(ways[w], side, 0.4 + 0.4 * side, 0, 0.35, w == 0 ? 1e12 : 60);
-                world_touch(world, &finger);
+                world_set_finger(world, &finger);
                 fixture_step(world, 1);
                 most = fmax(most, fastest(world));
             }
@@ -170,13 +170,13 @@ static void its_work_is_no_trouble(void **state)
     WorldInfo info;
     for (int i = 0; i < 150; i++) {
         const Finger finger = touch_at(FINGER_STIR, 0.4 * sin(0.1 * i), 0.8 + 0.4 * cos(0.1 * i), 0, 2, 40);
-        world_touch(world, &finger);
+        world_set_finger(world, &finger);
         fixture_step(world, 1);
     }
     const Finger finger = touch_at(FINGER_PULL, 0.5, 0.8, 0, 2, 20); /* that goes on without a command */
-    world_touch(world, &finger);
+    world_set_finger(world, &finger);
     fixture_step(world, 80);
-    world_touch(world, &(Finger){.way = FINGER_NONE});
+    world_set_finger(world, &(Finger){.way = FINGER_NONE});
     fixture_step(world, 30);
     world_info(world, &info);
     assert_int_equal(info.trouble.count, 0);
@@ -189,7 +189,7 @@ static void touch_along(World *world, int from, int to)
     for (int i = from; i < to; i++) {
         const Finger finger =
             touch_at(i % 20 < 10 ? FINGER_STIR : FINGER_PULL, 0.02 * i, 0.8, 0.01 * i, 0.3, 30);
-        world_touch(world, &finger);
+        world_set_finger(world, &finger);
         fixture_step(world, 1);
     }
 }
@@ -228,10 +228,10 @@ static void without_a_finger_nothing_differs(void **state)
                                  {.way = FINGER_POUR + FINGER_FLUIDS, .radius = 1}};
     World *plain = fixture_world(&def), *touched = fixture_world(&def);
     const Finger finger = touch_at(FINGER_STIR, 0, 0.8, 0, 1, 10);
-    world_touch(touched, &finger);
-    world_touch(touched, &(Finger){.way = FINGER_NONE});
+    world_set_finger(touched, &finger);
+    world_set_finger(touched, &(Finger){.way = FINGER_NONE});
     for (size_t i = 0; i < sizeof no_fingers / sizeof *no_fingers; i++)
-        world_touch(touched, &no_fingers[i]);
+        world_set_finger(touched, &no_fingers[i]);
     fixture_step(plain, 5);
     fixture_step(touched, 5);
     assert_true(world_hash(plain) == world_hash(touched));
@@ -283,7 +283,7 @@ static void it_reaches_across_periodic_sides(void **state)
         fixture_block(&def, 0, -0.8, 0, -0.4, 0.8, 0.8, 0.4);
         World *world = fixture_world(&def);
         const Finger finger = touch_at(FINGER_PUSH, 0.78, 0.4, 0, 0.3, 20);
-        world_touch(world, &finger);
+        world_set_finger(world, &finger);
         fixture_step(world, 1);
         State after = fixture_read(world);
         double left = 0, right = 0;
@@ -316,7 +316,7 @@ static void what_is_poured_comes_with_every_method(void **state)
             WorldInfo before, after;
             WorldState saved = {.count = 0};
             world_info(world, &before);
-            world_touch(world, &finger); /* where there is no room it is not taken */
+            world_set_finger(world, &finger); /* where there is no room it is not taken */
             assert_false(touch_state(world).wanted.way == finger.way);
             if (strcmp(touch_forms[form].backend, "fragment") == 0) {
                 assert_false(world_make_room(&world, &error));
@@ -328,7 +328,7 @@ static void what_is_poured_comes_with_every_method(void **state)
             assert_true(world_make_room(&world, &error));
             assert_true(world_hash(world) == hash);
             fixture_step(world, 3); /* layers count from here on, and not from the begin */
-            world_touch(world, &finger);
+            world_set_finger(world, &finger);
             fixture_step(world, 12);
             world_info(world, &after);
             if (!(after.emitted > 0) || after.count != before.count + after.emitted ||

@@ -2,7 +2,7 @@
    through fluid and into walls they lose no particle. */
 #include "tests/past/past_rig.h"
 
-#include "sim/matter/solid_step.h"
+#include "sim/solids/solid.h"
 
 #define POOL(size, deep)                                                                                     \
     "box: {size: " size "}\n"                                                                                \

@@ -4,7 +4,7 @@
 
 #include "tests/sim/fixture.h"
 
-#include "sim/world/world_state.h"
+#include "slosh/state.h"
 
 static const struct {
     const char *backend, *method;

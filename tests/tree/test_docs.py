@@ -23,8 +23,8 @@ PAGES = [ROOT / name for name in FILES if name.endswith('.md')]
 
 
 def stands(page, name):
-    """From the root, from the page's folder, or from the shaders' as includes count; a bare name may be anywhere."""
-    return any((base / name).exists() for base in (ROOT, page.parent, ROOT / 'shaders')) or name in NAMES
+    """From the root, from the page's folder, or from where includes count; a bare name may be anywhere."""
+    return any((base / name).exists() for base in (ROOT, page.parent, ROOT / 'shaders', ROOT / 'include')) or name in NAMES
 
 
 def missing(page, text):

@@ -1,5 +1,5 @@
-"""Dependencies run one way: sim <- sim/gl <- render <- app, and between the rooms of a floor; no circle of files; sim
-without sim/gl needs no GL, window or HID symbol."""
+"""Dependencies run one way: sim <- sim/gpu <- render <- app, and between the rooms of a floor; no circle of files; sim
+without sim/gpu needs no GL, window or HID symbol."""
 import collections
 import pathlib
 import re
@@ -22,22 +22,22 @@ SIM = {
     "base": "",
     "kernel": "base",
     "box": "base kernel",
-    "touch": "base",
     "mesh": "base kernel",
-    "matter": "base kernel box mesh",
-    "surface": "base kernel mesh",
-    "body": "base box mesh matter",
-    "world": "base kernel box matter touch body",
-    "cpu": "base kernel box matter touch world",
-    "viscosity": "base kernel box matter touch world cpu",
-    "change": "base kernel box matter touch world cpu",
+    "def": "base kernel box",
+    "points": "base kernel mesh",
+    "solids": "base kernel box mesh def",
+    "flow": "base kernel box mesh def solids",
+    "start": "base kernel box mesh def solids flow",
+    "step": "base kernel box def solids flow start",
+    "cpu": "base kernel box def solids flow start step",
+    "methods/shared": "base kernel box def solids flow step cpu",
 }
-METHODS = own_folders("sim", "Method method")
-SIM["incompressible"] = "base kernel box matter touch world cpu"
-SIM |= {name: "base kernel box matter touch world cpu incompressible" for name in METHODS}
-SIM_INSIDE = {f"sim/{name}" for name in ["cpu", "incompressible", *METHODS]}  # for no other floor
-GL = {"": "", "compute": "", "fragment": "", "surface": ""}
-BACKENDS = {"sim/gl/compute", "sim/gl/fragment"}  # other floors know them by name only
+METHODS = own_folders("sim/methods", "Method method")
+SIM |= {f"methods/{name}": "base kernel box def solids flow step cpu methods/shared" for name in METHODS}
+SIM_INSIDE = {f"sim/{name}" for name in SIM if name == "cpu" or name.startswith("methods/")}  # for no other floor
+PUBLIC = "slosh"  # include/slosh: every part may include these headers; each includes the others alone
+GL = {"": "", "compute": "", "fragment": "", "points": ""}
+BACKENDS = {"sim/gpu/compute", "sim/gpu/fragment"}  # other floors know them by name only
 RENDER = {
     "frame": "",
     "particles": "frame",
@@ -71,13 +71,13 @@ APP = {
     "cli": "base run/measure scene/yaml scene run/recording input/device input files run/playback run run/compare cli/args bench bench/cases lab window",
     "ranks": "base run/measure scene files run cli/args bench lab cli",
 }
-FLOORS = [("sim", SIM, []), ("sim/gl", GL, ["sim"]), ("sim/dist", {"": ""}, ["sim"]),
-          ("render", RENDER, ["sim", "sim/gl"]), ("app", APP, ["sim", "sim/gl", "sim/dist", "render"])]
-DRAWS_NOTHING = {"base", "run/measure", "scene/yaml", "scene/import", "run/recording", "input/device"}  # rooms of app without render and sim/gl
+FLOORS = [("sim", SIM, []), ("sim/gpu", GL, ["sim"]), ("sim/ranks", {"": ""}, ["sim"]),
+          ("render", RENDER, ["sim", "sim/gpu"]), ("app", APP, ["sim", "sim/gpu", "sim/ranks", "render"])]
+DRAWS_NOTHING = {"base", "run/measure", "scene/yaml", "scene/import", "run/recording", "input/device"}  # rooms of app without render and sim/gpu
 
 
 # What names methods beside their folders and app/bench/cases: the list, presets, the lists of `slosh info`, the scene that `slosh new` writes.
-METHOD_LISTS = ["app/cli/new.c", "sim/world/method.c", "app/scene/presets.c", "app/cli/info.c"]
+METHOD_LISTS = ["app/cli/new.c", "sim/step/method.c", "app/scene/presets.c", "app/cli/info.c"]
 
 # What names views beside their folders and app/bench/cases: lists.
 VIEW_LISTS = ["render/lists.c", "app/bench/bench_table.c"]
@@ -88,7 +88,8 @@ OVERLAY_LISTS = ["render/lists.c"]
 
 
 # What GLSL includes too: C fills it. Methods, views, overlays and backends have their own in a folder of their name.
-SHADERS = {"sim": "", "sim/gl": "shared sim", "render": "shared render"}
+SHADERS_OF = {"render/particles": "derived", "sim/gpu/points": "surface"}
+SHADERS = {"sim": "", "sim/gpu": "shared sim", "render": "shared render"}
 
 
 def folder(floor, room):
@@ -102,17 +103,18 @@ def may():
         rooms[floor] = [folder(floor, room) for room in table]
         under = [where for name in below for where in rooms[name]]
         under = [where for where in under if where not in BACKENDS]
-        if floor not in ("sim/gl", "sim/dist"):
+        if floor not in ("sim/gpu", "sim/ranks"):
             under = [where for where in under if where not in SIM_INSIDE]
         for room, names in table.items():
             own = [folder(floor, name) for name in names.split()]
-            if floor == "sim/gl":
-                own.append("sim/gl")
+            if floor == "sim/gpu":
+                own.append("sim/gpu")
             down = [w for w in under if not (floor == "app" and room in DRAWS_NOTHING and not w.startswith("sim/"))]
-            down = [where for where in down if where != "sim/dist" or room == "ranks"]  # no other command needs MPI
-            own_shaders = f"sim/{room}" if floor == "sim" else "derived" if folder(floor, room) == "render/particles" else room.split("/")[-1]
+            down = [where for where in down if where != "sim/ranks" or room == "ranks"]  # no other command needs MPI
+            own_shaders = f"sim/{room}".replace("methods/", "") if floor == "sim" else SHADERS_OF.get(folder(floor, room), room.split("/")[-1])
             blocks = [f"shaders/{name}" for name in [*SHADERS.get(floor, "").split(), own_shaders] if floor in SHADERS]
-            allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks]
+            allowed[folder(floor, room)] = [*down, *own, folder(floor, room), *blocks, PUBLIC]
+    allowed["include/slosh"] = [PUBLIC]
     return allowed
 
 
@@ -121,7 +123,7 @@ def includes(path):
 
 
 def sources():
-    for floor in ("sim", "render", "app"):
+    for floor in ("include", "sim", "render", "app"):
         yield from sorted(path for path in (ROOT / floor).rglob("*.[ch]*") if path.suffix in (".c", ".h", ".cpp"))
 
 
@@ -196,7 +198,7 @@ class Layers(unittest.TestCase):
     def test_each_header_has_a_guard_of_its_own(self):
         """Of two with one guard a file that includes both loses the second, without a word."""
         owners = collections.defaultdict(list)
-        for path in [*ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
+        for path in [*ROOT.glob("include/**/*.h"), *ROOT.glob("sim/**/*.h"), *ROOT.glob("render/**/*.h"), *ROOT.glob("app/**/*.h"), *ROOT.glob("tests/**/*.h")]:
             guard = re.search(r"^#ifndef (\w+)\n#define \1$", path.read_text(), re.M)
             owners[guard and guard[1]].append(str(path.relative_to(ROOT)))
         owners.pop(None, None)  # lists that are included more than once

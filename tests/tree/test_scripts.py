@@ -27,7 +27,7 @@ class Scripts(unittest.TestCase):
 
 
 class Mutants(unittest.TestCase):
-    ENTRY = 'fault some: what\nfile sim/box/wall.c\n- x[a] = high;\n+ x[a] = low;\ntests sim.walls commands.replay dfsph.walls\n'
+    ENTRY = 'fault some: what\nfile sim/box/walls.c\n- x[a] = high;\n+ x[a] = low;\ntests sim.walls commands.replay dfsph.walls\n'
 
     def check(self, text=None):
         """(exit code, what it says) of tools/mutants --check, of its own file or of another one."""
@@ -44,7 +44,7 @@ class Mutants(unittest.TestCase):
     def test_what_is_stale_or_wrong_is_refused(self):
         self.assertEqual(self.check(self.ENTRY), (0, ''))
         for old, new, words in [
-                ('wall.c', 'wand.c', 'wants a file that is there'), ('= high', '= higher', 'has the old line 0 times'),
+                ('walls.c', 'wand.c', 'wants a file that is there'), ('= high', '= higher', 'has the old line 0 times'),
                 ('- x[a] = high;', '- held = true;', 'has the old line 3 times'), ('= low', '= high', 'with two lines'),
                 ('sim.walls', 'sim.wells', 'there is no test sim.wells'), ('commands.r', 'commands.o', 'no test commands.oeplay'),
                 ('file', 'files', 'not a line of a fault'), ('fault some', 'fault', 'not a line of a fault')]:

@@ -8,7 +8,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SHADERS = ROOT / 'shaders'
 
 NUMBER_IN_GLSL = re.compile(r'\bbinding\s*=\s*\d|\blocation\s*=\s*\d+\s*\)\s*uniform')
-UNIFORM = r'glUniform\w+\(|glProgramUniform\w+\([^;(]*?,\s*'
+UNIFORM = r'glUniform\w+\(|glProgramUniform\w+\([^;(,]*,\s*'
 BINDING = r'glBindTextureUnit\(|glBindTextures\(|glBindImageTexture\(|glBindBuffer\w+\(\w+_BUFFER,\s*'
 NUMBER_IN_C = re.compile(rf'(?:{UNIFORM}|{BINDING})\d+,')
 NAME = re.compile(r'^#define (\w+_(?:BLOCK|STORAGE|BUFFER|UNIT|IMAGE|AT))\s+(\d+)', re.M)

@@ -4,8 +4,8 @@
 
 #include "tests/sim/fixture.h"
 
-#include "sim/matter/viscosity.h"
-#include "sim/world/world_struct.h"
+#include "sim/def/fluids.h"
+#include "sim/step/world.h"
 
 enum { BALL_MOST = 1200 };
 

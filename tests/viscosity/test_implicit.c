@@ -3,11 +3,11 @@
 #include "tests/viscosity/ball.h"
 
 #include "sim/cpu/cpu.h"
-#include "sim/matter/viscosity.h"
-#include "sim/viscosity/passes.h"
-#include "sim/wcsph/wcsph.h"
-#include "sim/world/iterate.h"
-#include "sim/world/world_struct.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/shared/viscosity.h"
+#include "sim/methods/wcsph/wcsph.h"
+#include "sim/step/iterate.h"
+#include "sim/step/world.h"
 
 enum { METHODS = sizeof fixture_method_names / sizeof *fixture_method_names };
 
@@ -233,7 +233,7 @@ static double viscosity_of(const Cpu *cpu, size_t i)
     return (double)cpu->now.viscosity[i];
 }
 
-/* c_ij of sim/viscosity/passes.h, and x_ij; 0 where they are too far. */
+/* c_ij of sim/methods/shared/viscosity.h, and x_ij; 0 where they are too far. */
 static double coupling(const World *world, const Lattice *lattice, size_t i, size_t j, double d[3])
 {
     const Cpu *cpu = world->state;

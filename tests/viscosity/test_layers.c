@@ -3,9 +3,9 @@
    where one has no viscosity nothing is dragged along. */
 #include "tests/sim/fixture.h"
 
-#include "sim/matter/viscosity.h"
-#include "sim/mueller/mueller.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/mueller/mueller.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { ROWS = 20, HALF = ROWS / 2, COLUMNS = 8 };
 static const double SPACING = 0.05, LID = 0.1;

@@ -2,9 +2,9 @@
    stands and moves in the mirror. */
 #include "tests/sim/fixture.h"
 
-#include "sim/matter/viscosity.h"
-#include "sim/pbf/pbf.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/pbf/pbf.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { SIDE = 6, MOST = SIDE * SIDE * SIDE, COPIES = 8 };
 static const double CELL = 0.12; /* m: wider than the lattice, so that pbf moves nothing apart */

@@ -2,8 +2,7 @@
 #include "tests/render/volume_fixture.h"
 
 #include "render/frame/view.h"
-#include "sim/gl/program.h"
-#include "sim/gl/shader_source.h"
+#include "sim/gpu/program.h"
 
 #include <sys/resource.h>
 #include <unistd.h>

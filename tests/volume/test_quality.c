@@ -4,7 +4,7 @@
 #include "app/scene/keys.h"
 #include "app/scene/scene.h"
 #include "render/views/volume/volume.h"
-#include "sim/gl/limits.h"
+#include "sim/gpu/gl_context.h"
 #include "tests/scene/scene_text.h"
 
 static ViewDef drawn_at(ViewQuality quality, const char *kind)

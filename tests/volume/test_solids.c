@@ -5,9 +5,9 @@
 
 static const char *const looks[] = {"opaque", "water", "translucent"};
 
-static Scene voxel_scene(int look)
+static SolidsScene voxel_scene(int look)
 {
-    Scene scene = scene_create();
+    SolidsScene scene = scene_create();
     text_set(scene.def.kind, "volume");
     volume_def(&scene.def)->raycast.look = (RaycastLook)look;
     volume_def(&scene.def)->solids = VOLUME_SOLIDS_VOXELS;
@@ -15,7 +15,7 @@ static Scene voxel_scene(int look)
 }
 
 /* m */
-static double cell_of(const Scene *scene)
+static double cell_of(const SolidsScene *scene)
 {
     VolumeGrid grid;
     assert_true(volume_grid_for(volume_def(&scene->def), &scene->state, &grid, NULL));
@@ -24,7 +24,7 @@ static double cell_of(const Scene *scene)
 
 /* All that is seen is on the surface within a part of a cell, and all that should be seen is; how many
    pixels. */
-static int expect_shape(Scene *scene, double part)
+static int expect_shape(SolidsScene *scene, double part)
 {
     static float depth[PIXELS];
     const double cell = cell_of(scene);
@@ -55,7 +55,7 @@ static void test_a_ball_is_where_it_is(void **state)
 {
     (void)state; /* between texels a ball of R cells' radius is off by 3 / (8 R) of a cell */
     for (int look = 0; look < 3; look++) {
-        Scene scene = voxel_scene(look);
+        SolidsScene scene = voxel_scene(look);
         scene_add(&scene, SOLID_SPHERE, 0.1, 0.5, 0);
         assert_true(expect_shape(&scene, 0.05) > 1000);
     }
@@ -66,7 +66,7 @@ static void test_every_kind_is_where_it_is(void **state)
 {
     (void)state;
     for (int kind = 0; kind < SOLID_KIND_COUNT; kind++) {
-        Scene scene = voxel_scene(RAYCAST_OPAQUE);
+        SolidsScene scene = voxel_scene(RAYCAST_OPAQUE);
         SolidDef *solid = scene_add(&scene, (SolidKind)kind, 0.2, 0.6, -0.1);
         solid->axis[0] = 0.5, solid->axis[2] = 0.6;
         solid->angle_deg = 50;
@@ -79,7 +79,7 @@ static void test_every_kind_is_where_it_is(void **state)
 static void test_moves_with_time(void **state)
 {
     (void)state;
-    Scene scene = voxel_scene(RAYCAST_OPAQUE);
+    SolidsScene scene = voxel_scene(RAYCAST_OPAQUE);
     SolidDef *solid = scene_add(&scene, SOLID_BOX, -0.3, 0.5, 0);
     solid->motion_count = 2;
     solid->motions[0] = (Motion){MOTION_SHAKE, .axis = {1, 0, 0}, .amplitude = 0.5, .frequency = 0.2};
@@ -92,7 +92,7 @@ static void test_moves_with_time(void **state)
 static void test_the_eye_in_its_block(void **state)
 {
     (void)state;
-    Scene scene = voxel_scene(RAYCAST_OPAQUE);
+    SolidsScene scene = voxel_scene(RAYCAST_OPAQUE);
     SolidDef *bowl = scene_add(&scene, SOLID_BOWL, 0, 0.6, 0);
     bowl->radius = 0.4, bowl->thickness = 0.1;
     scene.def.camera = (CameraDef){{0.05, 0.55, 0.1}, {0, 0.2, 0}, 60};
@@ -106,7 +106,7 @@ static void test_fluid_hides_and_is_hidden(void **state)
     (void)state;
     for (int look = 0; look < 3; look++) {
         static float surface[PIXELS], voxels[PIXELS];
-        Scene scene = voxel_scene(look);
+        SolidsScene scene = voxel_scene(look);
         Camera camera;
         int hits = 0, off = 0;
         make_camera(&scene, &camera);

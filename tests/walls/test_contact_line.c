@@ -1,10 +1,10 @@
-/* Where a free surface meets a wall, and what lies on a floor alone: nothing touches. sim/box/wall_cushion.h
+/* Where a free surface meets a wall, and what lies on a floor alone: nothing touches. sim/box/walls.h
  */
 #include "tests/sim/fixture.h"
 
-#include "sim/box/wall_cushion.h"
-#include "sim/matter/viscosity.h"
-#include "sim/wcsph/wcsph.h"
+#include "sim/box/walls.h"
+#include "sim/def/fluids.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { MOST = 4000 };
 

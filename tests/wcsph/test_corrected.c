@@ -1,9 +1,9 @@
-/* Corrected gradients of wcsph (sim/wcsph/corrected.c): exact where velocity is linear and particles
-   are somewhat out of order; momentum and energy kept; the same bits with any number of threads. And what
-   shifts carry then (sim/wcsph/carry.c). */
+/* Corrected gradients of wcsph (sim/methods/wcsph/wcsph_passes.c): exact where velocity is linear and
+   particles are somewhat out of order; momentum and energy kept; the same bits with any number of threads.
+   And what shifts carry then (sim/methods/wcsph/wcsph_passes.c). */
 #include "tests/sim/fixture.h"
 
-#include "sim/wcsph/wcsph.h"
+#include "sim/methods/wcsph/wcsph.h"
 
 enum { SIDE = 24, ALL = SIDE * SIDE };
 static const double SPACING = 0.1, SOUND = 10;

@@ -2,25 +2,14 @@
 # SOURCES, ARCHIVE, WORK, NM, LINKER, OBJCOPY, AR, INCLUDES and LIBRARIES (CMakeLists.txt).
 cmake_policy(VERSION 3.25)
 
-# Public are the headers that a user begins with, and what these include.
-set(todo sim/world/world.h sim/world/world_state.h sim/mesh/field.h sim/mesh/isosurface.h)
-set(headers)
+# Public are the headers of include/slosh: each includes the others of the folder alone.
+file(GLOB headers ${SOURCES}/include/slosh/*.h)
 set(text)
-while(todo)
-  list(POP_FRONT todo header)
-  if(NOT header IN_LIST headers)
-    list(APPEND headers ${header})
-    file(READ ${SOURCES}/${header} content)
-    string(APPEND text "${content}")
-    string(REGEX MATCHALL "\n#include \"[^\"]+" included "${content}")
-    list(TRANSFORM included REPLACE "\n#include \"" "")
-    list(APPEND todo ${included})
-  endif()
-endwhile()
 foreach(header ${headers})
-  get_filename_component(folder ${header} DIRECTORY)
-  file(INSTALL ${SOURCES}/${header} DESTINATION "${INCLUDES}/${folder}")
+  file(READ ${header} content)
+  string(APPEND text "${content}")
 endforeach()
+file(INSTALL ${headers} DESTINATION "${INCLUDES}")
 
 # Names that only the solver itself uses would meet those of a user's program: they
 # are made local. What a public header names stays.

@@ -3,7 +3,7 @@
 #include "app/base/program.h"
 #include "app/bench/cases/case_list.h"
 #include "app/scene/scene_files.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -276,7 +276,7 @@ static bool advance(CaseResult *result, World *world, bool *sound)
     Error broke = {{0}};
     const double begin = wall_ms();
     const bool ok = world_step(world, NULL, &broke);
-    *sound = world_sound(world); /* waits for the GPU, so that the time includes its work */
+    *sound = world_is_valid(world); /* waits for the GPU, so that the time includes its work */
     result->step_seconds += (wall_ms() - begin) / 1000;
     world_info(world, &result->run.info);
     if (!ok)
@@ -317,7 +317,7 @@ static bool start_probes(CaseResult *result, World *world, Error *error)
     if (list->count == 0)
         return true;
     result->run.feels = probe_list_has_forces(list);
-    if (result->run.feels && !world_feel(world, error))
+    if (result->run.feels && !world_enable_forces(world, error))
         return false;
     result->run.probes = probes_create(list, &result->scene.world);
     if (!result->run.probes)

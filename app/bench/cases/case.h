@@ -7,8 +7,8 @@
 #include "app/run/measure/metric.h"
 #include "app/run/measure/probe.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/world/world.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 

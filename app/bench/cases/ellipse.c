@@ -3,7 +3,7 @@
    The semi-axes a along x and b = 1 / a along y follow A' = A^2 (a^4 - 1) / (a^4 + 1), a' = -a A. */
 #include "app/bench/cases/case_list.h"
 #include "app/run/measure/metric.h"
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 #include <math.h>
 

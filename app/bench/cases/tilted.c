@@ -1,6 +1,6 @@
 /* Fluid starting in balance: pressures in the first second, in a leaning tank, and with two layers. */
 #include "app/bench/cases/case_list.h"
-#include "sim/matter/fill.h"
+#include "sim/start/fill.h"
 
 #include <math.h>
 

@@ -5,7 +5,7 @@
 
 #include "app/files/snapshot.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 
 #include "app/input/device/report.h"
 #include "app/input/device/report_log.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <math.h>

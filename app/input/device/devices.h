@@ -7,7 +7,7 @@
 #include "app/input/device/device.h"
 
 #include "app/input/device/report_log.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

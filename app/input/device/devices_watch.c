@@ -3,7 +3,7 @@
 
 #include "app/base/program.h"
 #include "app/input/device/devices.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <math.h>

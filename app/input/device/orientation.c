@@ -1,6 +1,6 @@
 #include "app/input/device/device.h"
 
-#include "sim/box/box_motion.h"
+#include "slosh/def.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #include "app/base/file.h"
 #include "app/base/output.h"
 #include "app/run/recording/line_reader.h"
-#include "sim/base/stage.h"
+#include "slosh/world.h"
 
 #include <errno.h>
 #include <stdarg.h>

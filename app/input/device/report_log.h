@@ -16,7 +16,7 @@
 
 #include "app/input/device/device.h"
 
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stddef.h>
 

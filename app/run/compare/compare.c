@@ -5,11 +5,11 @@
 #include "app/scene/scene.h"
 #include "app/scene/scene_files.h"
 #include "render/renderer.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
-#include "sim/world/column.h"
-#include "sim/world/world.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/start/seed.h"
+#include "slosh/state.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

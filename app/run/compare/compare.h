@@ -8,8 +8,8 @@
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
 #include "render/frame/passes.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/matter/world_def.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/def.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -1,6 +1,6 @@
 #include "app/run/measure/metric.h"
 
-#include "sim/world/method.h"
+#include "sim/step/method.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -3,8 +3,8 @@
 #ifndef APP_RUN_MEASURE_METRIC_H
 #define APP_RUN_MEASURE_METRIC_H
 
-#include "sim/matter/world_def.h"
-#include "sim/world/world.h"
+#include "slosh/def.h"
+#include "slosh/world.h"
 
 #include <stddef.h>
 

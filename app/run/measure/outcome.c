@@ -3,8 +3,8 @@
 #include "app/base/file.h"
 #include "app/run/measure/metric.h"
 #include "sim/kernel/kernel.h"
-#include "sim/matter/solid_step.h"
-#include "sim/world/method.h"
+#include "sim/solids/solid.h"
+#include "sim/step/method.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -185,7 +185,7 @@ void outcome_json(json_t *object, const Outcome *outcome)
 }
 
 /* True if only gravity does work on the fluid, so that the energy is known and never grows: as in
-   sim/world/energy_watch.h, for a box at rest. */
+   sim/step/sentinel.h, for a box at rest. */
 static bool is_left_alone(const WorldDef *def)
 {
     bool alone = def->motion_count == 0 && def->drain_count == 0 &&
@@ -214,7 +214,7 @@ static void look_at_energy(OutcomeSample *look, const WorldDef *def, double mass
 {
     WorldGauge gauge;
     bool known = false;
-    world_gauge_ask(world);
+    world_gauge_request(world);
     for (int tries = 0; !known && tries < 1000; tries++) /* a GPU answers after a delay */
         known = world_gauge(world, &gauge);
     if (!known || !gauge.total_known)

@@ -3,7 +3,7 @@
 #ifndef APP_RUN_MEASURE_OUTCOME_H
 #define APP_RUN_MEASURE_OUTCOME_H
 
-#include "sim/world/world.h"
+#include "slosh/world.h"
 
 #include <jansson.h>
 

@@ -6,7 +6,7 @@
 #include "app/base/output.h"
 #include "app/run/measure/metric.h"
 #include "app/run/measure/probe_def.h"
-#include "sim/matter/forces.h"
+#include "slosh/world.h"
 
 #include <jansson.h>
 #include <stdbool.h>
@@ -87,7 +87,7 @@ bool probes_cover(const Probes *probes, const float x[3]);
 /* Reads all probes, one number per column; NaN without fluid. Exceptions: pressure and height are then 0.
    `forces`: means of world_forces since the last reading; with 0 seconds the last forces stay, and before
    the first step the numbers are NaN. NULL is allowed if no probe is a force (probe_list_has_forces); else
-   the world must sum forces (world_feel). */
+   the world must sum forces (world_enable_forces). */
 void probes_read(Probes *probes, const Cloud *cloud, const Forces *forces, float out[]);
 
 /* Means over the last seconds, from earlier rows. */

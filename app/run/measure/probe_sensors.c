@@ -1,5 +1,5 @@
 #include "app/run/measure/probe.h"
-#include "sim/matter/solid_step.h"
+#include "sim/solids/solid.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,8 +2,8 @@
 #ifndef APP_RUN_PLAYBACK_INTERPOLATE_H
 #define APP_RUN_PLAYBACK_INTERPOLATE_H
 
-#include "sim/gl/particle_buffers.h"
-#include "sim/world/world.h"
+#include "sim/gpu/particle_buffers.h"
+#include "slosh/world.h"
 
 /* A state in memory; empty when zeroed. */
 typedef struct StateCopy {

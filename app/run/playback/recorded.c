@@ -3,7 +3,7 @@
 #include "app/files/snapshot.h"
 #include "render/frame/view.h"
 #include "render/particles/derived.h"
-#include "sim/gl/particle_buffers.h"
+#include "sim/gpu/particle_buffers.h"
 
 #include <math.h>
 #include <stdio.h>

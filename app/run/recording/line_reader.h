@@ -2,7 +2,7 @@
 #ifndef APP_RUN_RECORDING_LINE_READER_H
 #define APP_RUN_RECORDING_LINE_READER_H
 
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,8 +2,8 @@
 
 #include "app/base/output.h"
 #include "app/scene/scene_files.h"
-#include "sim/matter/flow.h"
-#include "sim/touch/touch_def.h"
+#include "sim/flow/finger.h"
+#include "sim/flow/flow.h"
 
 #include <errno.h>
 #include <inttypes.h>

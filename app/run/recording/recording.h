@@ -26,7 +26,7 @@
 
 #include "app/run/recording/sim_command.h"
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

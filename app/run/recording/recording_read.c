@@ -3,8 +3,8 @@
 #include "app/base/file.h"
 #include "app/run/recording/line_reader.h"
 #include "app/scene/scene_files.h"
-#include "sim/matter/flow.h"
-#include "sim/touch/touch_def.h"
+#include "sim/flow/finger.h"
+#include "sim/flow/flow.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 #include "app/run/recording/sim_command.h"
 
 #include "app/scene/scene.h"
-#include "sim/matter/solid_step.h"
-#include "sim/world/world_state.h"
+#include "sim/solids/solid.h"
+#include "slosh/state.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -326,15 +326,15 @@ bool sim_command_apply(const SimCommand *command, World **world, Scene *scene, E
         world_set_target(*world, &command->target);
         break;
     case SIM_CARRY:
-        world_carry(*world, &command->target);
+        world_carry_box(*world, &command->target);
         break;
     case SIM_TOUCH:
         if (finger_fluid(&command->finger) >= 0 && !world_make_room(world, error))
             return false;
-        world_touch(*world, &command->finger);
+        world_set_finger(*world, &command->finger);
         break;
     case SIM_SHUT:
-        world_shut(*world, command->shut);
+        world_shut_gates(*world, command->shut);
         break;
     case SIM_SOLID:
         return solid_command_apply(&command->solid, world, &scene->world, error);

@@ -3,10 +3,9 @@
 #define APP_RUN_RECORDING_SIM_COMMAND_H
 
 #include "app/scene/scene.h"
-#include "sim/base/error.h"
-#include "sim/box/box_filter.h"
-#include "sim/matter/solid.h"
-#include "sim/world/world.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -46,9 +45,9 @@ int solid_action_find(const char *name);
 
 typedef enum SimCommandKind {
     SIM_TARGET, /* world_set_target */
-    SIM_CARRY,  /* world_carry */
-    SIM_TOUCH,  /* world_touch */
-    SIM_SHUT,   /* world_shut */
+    SIM_CARRY,  /* world_carry_box */
+    SIM_TOUCH,  /* world_set_finger */
+    SIM_SHUT,   /* world_shut_gates */
     SIM_SOLID,  /* solid_command_apply */
     SIM_SIZE,   /* box_command_apply */
     SIM_SET     /* scene_set_live, then world_change, or world_move for a new backend */

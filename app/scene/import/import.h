@@ -3,11 +3,10 @@
 #ifndef APP_SCENE_IMPORT_IMPORT_H
 #define APP_SCENE_IMPORT_IMPORT_H
 
-#include "sim/base/error.h"
-#include "sim/base/field_table.h"
 #include "sim/mesh/mesh_shape.h"
-#include "sim/surface/ranged_volume.h"
-#include "sim/surface/volume_field.h"
+#include "sim/points/fields.h"
+#include "slosh/def.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

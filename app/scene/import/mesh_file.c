@@ -4,9 +4,9 @@
 #include "app/base/file.h"
 #include "app/base/program.h"
 #include "app/scene/import/import_private.h"
-#include "sim/base/hash.h"
 #include "sim/base/parallel.h"
-#include "sim/base/stage.h"
+#include "sim/base/sums.h"
+#include "slosh/world.h"
 
 #include <assimp/cimport.h>
 #include <assimp/postprocess.h>

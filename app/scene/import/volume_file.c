@@ -209,7 +209,7 @@ static float *read_raw(const Raw *raw, Error *error)
     const size_t count = count_of(raw->header), bytes = count * sizeof(float);
     if (!raw_is_right(raw, error))
         return NULL;
-    float *value = (double)bytes < memory_bytes() ? malloc(bytes) : NULL;
+    float *value = (double)bytes < memory_bytes() ? calloc(count, sizeof(float)) : NULL;
     if (!value) {
         error_set(error, "%s: no memory for %zu values, %.3g GB; this machine has %.3g GB", raw->path, count,
                   1e-9 * (double)bytes, 1e-9 * memory_bytes());

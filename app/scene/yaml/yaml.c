@@ -1,5 +1,6 @@
 #include "app/scene/yaml/yaml.h"
 
+#include <assert.h>
 #include <libfyaml.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -382,6 +383,7 @@ static bool read_sequence(YamlReader *reader, int depth, YamlNode *node)
             return true;
         if (!read_node(reader, depth + 1, node->line, node->column, last))
             return false;
+        assert(*last); /* made by read_pair */
         last = &(*last)->next;
     }
 }
@@ -426,6 +428,7 @@ static bool read_mapping(YamlReader *reader, int depth, YamlNode *node)
             return fail_here(reader, "more than 256 keys in one mapping; nothing needs so many");
         if (!read_pair(reader, depth, node, last))
             return false;
+        assert(*last); /* made by read_pair */
         last = &(*last)->next;
     }
 }

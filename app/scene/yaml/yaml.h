@@ -8,8 +8,8 @@
 #ifndef APP_SCENE_YAML_YAML_H
 #define APP_SCENE_YAML_YAML_H
 
-#include "sim/base/error.h"
 #include "sim/base/key.h"
+#include "slosh/error.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -2,10 +2,9 @@
 
 #include "app/base/program.h"
 #include "sim/base/color.h"
-#include "sim/base/control_points.h"
-#include "sim/base/key_text.h"
-#include "sim/base/time_table.h"
-#include "sim/matter/world_def.h"
+#include "sim/base/key.h"
+#include "sim/base/tables.h"
+#include "slosh/def.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,8 +9,8 @@
 #include "app/run/simulator.h"
 #include "app/scene/scene.h"
 #include "render/ui/ui.h"
-#include "sim/base/stage.h"
-#include "sim/world/step_control.h"
+#include "sim/step/step_control.h"
+#include "slosh/world.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ typedef struct PanelData {
     int gauge_count;
     const ProbeSample *probes; /* the same for the scene's probes */
     int probe_count;
-    uint64_t shut;                  /* gates of emitters and drains: sim/matter/flow.h */
+    uint64_t shut;                  /* gates of emitters and drains: sim/flow/flow.h */
     double box_wanted[3], box_most; /* target size of the box; longest side in the scene file, m */
     size_t particles, particles_at_start;
     double particles_wished; /* from PanelEvents, while the mouse holds the slider; else 0 */

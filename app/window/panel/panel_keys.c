@@ -4,9 +4,9 @@
 #include "render/frame/passes.h"
 #include "render/frame/view.h"
 #include "sim/base/color.h"
-#include "sim/base/control_points.h"
-#include "sim/base/key_text.h"
-#include "sim/matter/flow.h"
+#include "sim/base/key.h"
+#include "sim/base/tables.h"
+#include "sim/flow/flow.h"
 
 #include <ctype.h>
 #include <math.h>

@@ -1,6 +1,7 @@
 /* Plots of numbers over time. */
 #include "app/window/panel/panel_private.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -424,6 +425,7 @@ static void text_of(const PanelPlot *plot, int at, int line, double value, char 
     const ProbePlot *own = plot->of;
     (void)at;
     const char *unit = own->column[line].unit;
+    assert(unit);
     if (isnan(value))
         snprintf(out, 48, "%s", *unit == 'N' ? "not known" : "dry");
     else if (strcmp(unit, "kg/m3") == 0)

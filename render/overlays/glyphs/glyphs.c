@@ -7,7 +7,7 @@
 #include "shaders/glyphs/glyphs_bindings.h"
 #include "shaders/shared/bindings.h"
 #include "sim/base/key_rows.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 typedef enum GlyphsAt { GLYPHS_PARTICLES, GLYPHS_GRID, GLYPHS_PLANE } GlyphsAt;
 typedef enum GlyphsColor { GLYPHS_BY_SCALAR, GLYPHS_PLAIN } GlyphsColor;
 
-typedef struct IN_A_ROOM GlyphsDef {
+typedef struct MAY_ALIAS GlyphsDef {
     bool show; /* as OverlayShow */
     Vector vector;
     GlyphsAt at;  /* positions of the arrows */

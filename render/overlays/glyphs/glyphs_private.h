@@ -6,7 +6,7 @@
 
 #include "render/particles/particles.h"
 #include "shaders/glyphs/glyphs_bindings.h"
-#include "sim/gl/mailbox.h"
+#include "sim/gpu/particle_buffers.h"
 
 /* Reads back counts of the arrows from the GPU, waiting or one picture late.
 

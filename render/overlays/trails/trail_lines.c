@@ -1,7 +1,7 @@
 #include "render/overlays/trails/trails_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

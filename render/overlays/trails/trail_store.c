@@ -2,11 +2,11 @@
 #include "render/particles/particles.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/trails/trails_bindings.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/program.h"
-#include "sim/gl/timer.h"
-#include "sim/matter/flow.h"
-#include "sim/matter/seed.h"
+#include "sim/flow/flow.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/timer.h"
+#include "sim/start/seed.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -13,7 +13,7 @@ typedef enum TrailsMethod {
     TRAILS_QUADS /* the GPU, for comparison */
 } TrailsMethod;
 
-typedef struct IN_A_ROOM TrailsDef {
+typedef struct MAY_ALIAS TrailsDef {
     bool show;                              /* as OverlayShow */
     int stride;                             /* in ids: one id per stride has a trail */
     double length;                          /* s */

@@ -2,8 +2,8 @@
 
 #include "render/views/pbsr/pbsr_sets.h"
 #include "shaders/pbsr/pbsr_block.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "render/views/pbsr/pbsr_sets.h"
 #include "sim/base/parallel.h"
 #include "sim/kernel/kernel.h"
-#include "sim/mesh/isosurface.h"
+#include "slosh/mesh.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "render/views/pbsr/pbsr_layers.h"
 #include "render/views/pbsr/pbsr_sets.h"
 #include "sim/base/parallel.h"
-#include "sim/surface/near_walk.h"
+#include "sim/points/sampling.h"
 
 #include <math.h>
 #include <string.h>

@@ -5,8 +5,8 @@
 #include "render/views/pbsr/pbsr_sets.h"
 #include "sim/base/key_rows.h"
 #include "sim/base/parallel.h"
-#include "sim/base/stage.h"
-#include "sim/gl/debug.h"
+#include "sim/gpu/gl_context.h"
+#include "slosh/world.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,8 +3,8 @@
 #define RENDER_VIEWS_PBSR_PBSR_H
 
 #include "render/frame/view.h"
-#include "sim/base/room.h"
-#include "sim/surface/ranged_volume.h"
+#include "sim/base/memory.h"
+#include "sim/points/fields.h"
 
 enum { PBSR_LAYERS_MAX = 8, PBSR_FILE_SIZE = 96 };
 
@@ -33,7 +33,7 @@ typedef enum PbsrSampler { PBSR_SAMPLER_AUTO, PBSR_SAMPLER_WALK, PBSR_SAMPLER_TR
    the fluid. PBSR_BY_GRID + a VolumeInterpolation: between the values of a file, or of the fluid's grid. */
 enum { PBSR_BY_ITSELF, PBSR_BY_GRID };
 
-typedef struct IN_A_ROOM PbsrLayer {
+typedef struct MAY_ALIAS PbsrLayer {
     int of;
     int sampler;               /* a PbsrSampler */
     int interpolation;         /* PBSR_BY_ITSELF, or PBSR_BY_GRID and up */
@@ -48,7 +48,7 @@ typedef struct IN_A_ROOM PbsrLayer {
     double color[3]; /* linear; black: the view's colours */
 } PbsrLayer;
 
-typedef struct IN_A_ROOM PbsrDef {
+typedef struct MAY_ALIAS PbsrDef {
     PbsrLayer layers[PBSR_LAYERS_MAX];
     int layer_count; /* 0: the fluid's surface alone */
     int repeat;      /* sets of a picture at rest: L_R */

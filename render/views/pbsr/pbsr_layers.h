@@ -7,13 +7,13 @@
 
 #include "render/frame/frame.h"
 #include "render/views/pbsr/pbsr_sets.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/gl/surface/surface_gpu.h"
-#include "sim/mesh/field.h"
-#include "sim/surface/polygons.h"
-#include "sim/surface/sph_field.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/points/points_gpu.h"
+#include "sim/points/fields.h"
+#include "sim/points/points.h"
+#include "slosh/mesh.h"
 
-/* The field F = sum V W of a fluid (sim/mesh/field.h) and means of scalars on a grid. Computed on the CPU
+/* The field F = sum V W of a fluid (include/slosh/mesh.h) and means of scalars on a grid. Computed on the CPU
    from particles read back; on a software driver the particles are in CPU memory. In a two-dimensional
    scene F is the plane's field, constant through the depth of the box. */
 
@@ -86,7 +86,7 @@ bool rigid_leaves_box(const PbsrLayer *said, const double box[3]);
 bool data_pieces_wanted(const PbsrLayer *said);
 
 /* Layers that do not change with the fluid: surfaces of formulas or volume data, with kept points
-   (sim/surface/sampling.h: the Brownian walk of Tanaka et al. 2012). Points are made for looks from about
+   (sim/points/sampling.h: the Brownian walk of Tanaka et al. 2012). Points are made for looks from about
    the same distance, and a picture skips surplus points farther away. Hence a moving fluid or layer needs
    no new points; a camera that comes nearer does. Slices and clouds of volume data are pieces, also made
    once, with new random points for each set. */
@@ -178,7 +178,7 @@ static inline const SetSight *layer_pieces_sight(const RigidLayer *rigid, const 
 void rigid_layer_free(RigidLayer *rigid); /* a zeroed struct is allowed */
 
 /* Points on the fluid's surfaces by a random walk on the particles' own field, or on the interpolated grid
-   (sim/surface/near_walk.h), near the grid's triangles. Points are made for some sets at a time while
+   (sim/points/sampling.h), near the grid's triangles. Points are made for some sets at a time while
    drawing, for the visible triangles only; as many as a picture's time allows, and none are kept. On the
    CPU, in three dimensions. */
 

@@ -5,7 +5,7 @@
 
 #include "render/frame/frame.h"
 #include "render/frame/view.h"
-#include "sim/surface/points.h"
+#include "sim/points/points.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,7 +1,7 @@
 #include "render/views/pbsr/pbsr_layers.h"
 #include "shaders/pbsr/pbsr_bindings.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

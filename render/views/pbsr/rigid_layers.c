@@ -1,7 +1,7 @@
 #include "render/views/pbsr/pbsr_layers.h"
 #include "render/views/pbsr/pbsr_sets.h"
-#include "sim/surface/analytic.h"
-#include "sim/surface/sampling.h"
+#include "sim/points/fields.h"
+#include "sim/points/sampling.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -8,7 +8,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/slice/slice_bindings.h"
 #include "sim/base/key_rows.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

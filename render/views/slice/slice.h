@@ -3,7 +3,7 @@
 #define RENDER_VIEWS_SLICE_SLICE_H
 
 #include "render/frame/view.h"
-#include "sim/base/room.h"
+#include "sim/base/memory.h"
 
 typedef enum SliceShow {
     SLICE_PLANE, /* at its position in space */
@@ -16,7 +16,7 @@ typedef enum SliceParticles {
     SLICE_BOTH    /* with all particles */
 } SliceParticles;
 
-typedef struct IN_A_ROOM SliceDef {
+typedef struct MAY_ALIAS SliceDef {
     double point[3], normal[3]; /* plane in the box's frame; point in m, normal of any nonzero length */
     double play;                /* m/s of simulated time along the normal, to and fro through the box */
     SliceShow show;

@@ -7,8 +7,8 @@
 #include "render/particles/particles.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/spheres/spheres_bindings.h"
-#include "sim/gl/program.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

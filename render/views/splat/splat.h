@@ -3,7 +3,7 @@
 #define RENDER_VIEWS_SPLAT_SPLAT_H
 
 #include "render/frame/view.h"
-#include "sim/base/room.h"
+#include "sim/base/memory.h"
 
 typedef enum SplatWeights { SPLAT_NO_WEIGHTS, SPLAT_W1, SPLAT_W1W2 } SplatWeights;
 typedef enum SplatShape { SPLAT_PERSPECTIVE, SPLAT_PAPER, SPLAT_ELLIPSOID, SPLAT_SHAPE_AUTO } SplatShape;
@@ -20,7 +20,7 @@ typedef enum SplatShow {
 
 typedef enum SplatFilter { SPLAT_NO_FILTER, SPLAT_NARROW_RANGE, SPLAT_FILTER_AUTO } SplatFilter;
 
-typedef struct IN_A_ROOM SplatDef {
+typedef struct MAY_ALIAS SplatDef {
     double eps; /* depth below the surface to which spheres blend, in radii */
     SplatWeights weights;
     SplatShape shape;

@@ -2,8 +2,8 @@
 
 #include "render/views/splat/splat_private.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gl/program.h"
-#include "sim/gl/timer.h"
+#include "sim/gpu/program.h"
+#include "sim/gpu/timer.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "render/views/splat/splat_private.h"
 #include "shaders/shared/bindings.h"
 #include "shaders/splat/splat_bindings.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -5,7 +5,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/raycast_block.h"
 #include "shaders/volume/volume_bindings.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "render/views/volume/volume_private.h"
 #include "shaders/volume/volume_bindings.h"
 #include "sim/base/parallel.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 #include "sim/mesh/mesh_shape.h"
 
 #include <epoxy/gl.h>

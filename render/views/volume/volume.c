@@ -5,7 +5,7 @@
 #include "shaders/shared/bindings.h"
 #include "shaders/volume/volume_bindings.h"
 #include "sim/base/key_rows.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/program.h"
 
 #include <epoxy/gl.h>
 #include <stdlib.h>

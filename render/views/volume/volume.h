@@ -3,7 +3,7 @@
 #define RENDER_VIEWS_VOLUME_VOLUME_H
 
 #include "render/frame/view.h"
-#include "sim/base/room.h"
+#include "sim/base/memory.h"
 
 typedef enum VolumeBounds { VOLUME_BOX, VOLUME_FLUID } VolumeBounds;
 typedef enum VolumeMethod {
@@ -33,7 +33,7 @@ typedef enum VolumeSolids { VOLUME_SOLIDS_SURFACE, VOLUME_SOLIDS_VOXELS } Volume
 /* How the view volume casts its rays. */
 typedef enum RaycastLook { RAYCAST_OPAQUE, RAYCAST_WATER, RAYCAST_TRANSLUCENT } RaycastLook;
 
-typedef struct IN_A_ROOM RaycastDef {
+typedef struct MAY_ALIAS RaycastDef {
     RaycastLook look;
     double level;     /* the field's level at the surface of opaque and water */
     double step;      /* distance between samples, cells */
@@ -51,7 +51,7 @@ typedef struct IN_A_ROOM RaycastDef {
     bool skip;           /* skip empty bricks; false: march everywhere between the faces of the volume */
 } RaycastDef;
 
-typedef struct IN_A_ROOM VolumeDef {
+typedef struct MAY_ALIAS VolumeDef {
     int cells;       /* cells along the box's longest side, if `cell` is 0 */
     double cell;     /* side of a cell, in spacings; 0: by `cells` */
     int cells_least; /* not a key, for quality `best`: cells get no smaller than an eighth of a spacing,

@@ -8,11 +8,11 @@
 
 #include "render/frame/frame.h"
 #include "render/particles/particles.h"
-#include "sim/base/control_points.h"
-#include "sim/base/error.h"
-#include "sim/gl/particle_buffers.h"
-#include "sim/gl/timer.h"
-#include "sim/mesh/field.h"
+#include "sim/base/tables.h"
+#include "sim/gpu/particle_buffers.h"
+#include "sim/gpu/timer.h"
+#include "slosh/error.h"
+#include "slosh/mesh.h"
 
 #include <stdbool.h>
 

@@ -4,9 +4,8 @@
 #include "render/views/volume/volume_private.h"
 #include "shaders/volume/volume_bindings.h"
 #include "shaders/volume/volume_block.h"
-#include "sim/gl/debug.h"
-#include "sim/gl/limits.h"
-#include "sim/gl/program.h"
+#include "sim/gpu/gl_context.h"
+#include "sim/gpu/program.h"
 #include "sim/kernel/kernel.h"
 
 #include <epoxy/gl.h>

@@ -1,4 +1,4 @@
-/* Constants of the walls' cushion, shared by C and shaders: sim/box/wall_cushion.h. */
+/* Constants of the walls' cushion, shared by C and shaders: sim/box/walls.h. */
 #ifndef SLOSH_WALL_CUSHION_PART_H
 #define SLOSH_WALL_CUSHION_PART_H
 

@@ -1,4 +1,4 @@
-// Keeps the velocity at the begin of a step: begin_body in sim/change/change.c.
+// Keeps the velocity at the begin of a step: begin_body in sim/methods/shared/acceleration.c.
 #include "sim/constants.glsl"
 #define OWN_ACCESS writeonly
 #include "sim/own.glsl"

@@ -1,4 +1,4 @@
-// The acceleration in a step: end_body in sim/change/change.c.
+// The acceleration in a step: end_body in sim/methods/shared/acceleration.c.
 #include "sim/constants.glsl"
 #include "sim/own.glsl"
 layout(std430, binding = VELOCITIES_BUFFER) readonly buffer Velocities { vec4 velocity[]; };

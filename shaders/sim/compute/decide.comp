@@ -1,5 +1,5 @@
 // Decides if a solver goes on, from the sums of excess.comp after its last iteration, and the next step of conjugate
-// gradients: substep_iterate and `conjugate` of sim/world/iterate.c. A single group.
+// gradients: substep_iterate and `conjugate` of sim/step/iterate.c. A single group.
 #include "sim/constants.glsl"
 #include "common/nan.glsl"
 #include "shaders/sim/excess_part.h"

@@ -1,4 +1,4 @@
-// Marks remaining particles, outside of all drains: fill_holds of sim/matter/seed.c.
+// Marks remaining particles, outside of all drains: fill_holds of sim/start/seed.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/flow_block.h"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };

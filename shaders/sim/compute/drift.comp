@@ -67,7 +67,7 @@ uint fly(uint i)
         float low = a == 1 ? 0.0 : -half_size[a], high = a == 1 ? 2.0 * half_size.y : half_size[a];
         if (x[a] < low || x[a] > high) {
             held = true;
-#ifdef LEAPS // walls_fold of sim/box/wall.c
+#ifdef LEAPS // walls_fold of sim/box/walls.c
             float from = x[a];
             x[a] = from < low ? min(low + folded(low - from), high) : max(high - folded(from - high), low);
             v[a] += 0.5 / dt * (x[a] - from);

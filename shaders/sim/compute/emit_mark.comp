@@ -1,4 +1,4 @@
-// Marks points of a layer with room: has_room of sim/cpu/flow.c. Points of a layer are further apart than the limit.
+// Marks points of a layer with room: has_room of sim/cpu/forces.c. Points of a layer are further apart than the limit.
 #include "sim/constants.glsl"
 #include "sim/in_box.glsl"
 #include "sim/walk.glsl"

@@ -1,4 +1,4 @@
-// Holds fluid of emitters to its course: guide_holds of sim/matter/flow.h.
+// Holds fluid of emitters to its course: guide_holds of sim/flow/flow.h.
 #include "sim/constants.glsl"
 #include "sim/cells.glsl"
 #include "shaders/sim/flow_block.h"

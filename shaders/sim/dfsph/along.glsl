@@ -1,4 +1,4 @@
-// Along a solid: along_solid and share_of in sim/dfsph/passes.c.
+// Along a solid: along_solid and share_of in sim/methods/dfsph/dfsph_passes.c.
 #include "sim/scratch.glsl"
 
 vec3 along_solid(uint i, vec3 v)

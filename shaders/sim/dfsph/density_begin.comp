@@ -1,4 +1,4 @@
-// dfsph: the solver of density begins with k = 0: density_begin in sim/dfsph/passes.c.
+// dfsph: the solver of density begins with k = 0: density_begin in sim/methods/dfsph/dfsph_passes.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"
 #include "sim/scratch.glsl"

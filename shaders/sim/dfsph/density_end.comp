@@ -1,4 +1,4 @@
-// dfsph: positions move by the result of the solver of density: density_end in sim/dfsph/passes.c.
+// dfsph: positions move by the result of the solver of density: density_end in sim/methods/dfsph/dfsph_passes.c.
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"

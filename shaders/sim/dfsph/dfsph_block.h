@@ -1,4 +1,4 @@
-/* Constants of dfsph, shared by C and shaders; filled by dfsph_set of sim/dfsph/dfsph.c. */
+/* Constants of dfsph, shared by C and shaders; filled by dfsph_set of sim/methods/dfsph/dfsph.c. */
 #ifndef SLOSH_DFSPH_BLOCK_H
 #define SLOSH_DFSPH_BLOCK_H
 
@@ -29,7 +29,7 @@
 UNIFORM_BLOCK(DfsphBlock, METHOD_BLOCK)
 {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the density kernel, 1/m2 */
-    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
+    float friction_gradient; /* the same calibrated for gradients (sim/kernel/kernel.h) */
     float relaxation;        /* of Jacobi */
     float pressure_of_term;  /* p over k */
     float least_squares;     /* lower bound of D times m, 1/m2 */

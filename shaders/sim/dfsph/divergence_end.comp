@@ -19,7 +19,7 @@ layout(std430, binding = PUSHES_BUFFER) readonly buffer Pushes { vec4 push[]; };
 layout(std430, binding = NAMES_BUFFER) readonly buffer Names { uvec2 name[]; };
 #include "sim/dfsph/along.glsl"
 
-// k for the pushed particle, k for the boundary particle itself; along the solid: push_solid in sim/dfsph/passes.c.
+// k for the pushed particle, k for the boundary particle itself; along the solid: push_solid in sim/methods/dfsph/dfsph_passes.c.
 vec3 push_solid(uint i, vec3 d, float r2)
 {
     vec3 slope = gradient * shape(sqrt(r2) * inverse_support) * d, force = 2.0 * own[OWN_kept_term + i] * slope;

@@ -1,8 +1,8 @@
 // dfsph: terms from positions alone, number density and effect of a particle's k on its own rate: finish_factor in
-// sim/dfsph/passes.c.
+// sim/methods/dfsph/dfsph_passes.c.
 #define LISTS_FIRST
 #define OWN_ACCESS readonly
-#define BOUNDARY_TIMES 2.0 // boundary particles push with the particle's k too: sim/dfsph/passes.h
+#define BOUNDARY_TIMES 2.0 // boundary particles push with the particle's k too: sim/methods/dfsph/dfsph.h
 #include "shaders/sim/dfsph/dfsph_block.h"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };             // w: volume, m3
 layout(std430, binding = PRESSURES_BUFFER) writeonly buffer Pressures { vec2 pressure[]; };   // p, k
@@ -27,7 +27,7 @@ void solid_add(vec3 force, vec3 d)
     solid_squares += outerProduct(force, d);
 }
 
-// The mean of F y^2 over directions y along the solid: along in sim/dfsph/pairs_solids.c.
+// The mean of F y^2 over directions y along the solid: along in sim/methods/dfsph/pairs_dfsph.c.
 float along()
 {
     float square = dot(solid_slope, solid_slope), all = solid_squares[0].x + solid_squares[1].y + solid_squares[2].z;

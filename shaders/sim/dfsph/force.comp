@@ -1,4 +1,4 @@
-// dfsph: accelerations except pressure, by friction and surface tension: others_body in sim/dfsph/passes.c.
+// dfsph: accelerations except pressure, by friction and surface tension: others_body in sim/methods/dfsph/dfsph_passes.c.
 #define LISTS_LATER
 #include "sim/constants.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"

@@ -1,5 +1,5 @@
 // dfsph: adds the acceleration by the last step's multipliers, just found by push.glsl, to the other accelerations:
-// pressed_body in sim/dfsph/passes.c.
+// pressed_body in sim/methods/dfsph/dfsph_passes.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"
 layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };

@@ -1,5 +1,5 @@
 // dfsph, both solvers: accelerations by k, then velocities on the way to the middle of the next step: push, begin_motion and
-// go_on in sim/dfsph/passes.c.
+// go_on in sim/methods/dfsph/dfsph_passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"

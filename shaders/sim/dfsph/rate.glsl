@@ -1,5 +1,5 @@
-// dfsph, both solvers: the residual, then k of the next iteration: dfsph_rate in sim/dfsph/pairs.c, rate and pack_place in
-// sim/dfsph/passes.c.
+// dfsph, both solvers: the residual, then k of the next iteration: dfsph_rate in sim/methods/dfsph/pairs_dfsph.c, rate and pack_place in
+// sim/methods/dfsph/dfsph_passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "sim/dfsph/dfsph.glsl"

@@ -1,4 +1,4 @@
-// dfsph: all accelerations after the terms, less the pressure's: unpressed_body in sim/dfsph/passes.c.
+// dfsph: all accelerations after the terms, less the pressure's: unpressed_body in sim/methods/dfsph/dfsph_passes.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/dfsph/dfsph_block.h"
 layout(std430, binding = ACCELERATIONS_BUFFER) buffer Accelerations { vec4 acceleration[]; };

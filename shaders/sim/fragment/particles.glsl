@@ -1,5 +1,5 @@
 // Particles are texels: particle i is texel (i mod width, i / width) of each of these textures, with width
-// 2^particle_bits, until sim/gl/fragment/order.c moves particles. sim/gl/fragment/constants.c writes particle_count,
+// 2^particle_bits, until sim/gpu/fragment/grid.c moves particles. sim/gpu/fragment/fragment.c writes particle_count,
 // particle_bits and further constants before the shader.
 uniform sampler2D position; // x y z, id
 uniform sampler2D velocity; // x y z, fluid

@@ -1,4 +1,4 @@
-// Friction in the form of Morris (friction_sums in sim/incompressible/pairs.h); with surface tension all forces but pressure.
+// Friction in the form of Morris (friction_sums in sim/methods/shared/pair_incompressible.h); with surface tension all forces but pressure.
 // Images in walls with slip take part, at distances of at least half a spacing. A pass declares volume_of, and FRICTION if
 // different from `friction_gradient`.
 #define KERNEL_WENDLAND_C2 1

@@ -63,7 +63,7 @@ void meet_boundary_image(uint j, vec3 d, float volume)
 }
 #endif
 
-// An image's neighbours are in the particle's list (sim/cpu/pair_images.h), except while the list is made.
+// An image's neighbours are in the particle's list (sim/cpu/pair_loop.h), except while the list is made.
 #ifdef LISTS_FIRST
 #define WALK_IMAGE(x, at) WALK(x, at, meet_image, meet_boundary_image)
 #else

@@ -1,4 +1,4 @@
-// `whole` is the sum of (k_i + k_j) F x_ij over `gradient`: push_sums in sim/incompressible/pairs.h.
+// `whole` is the sum of (k_i + k_j) F x_ij over `gradient`: push_sums in sim/methods/shared/pair_incompressible.h.
 #include "sim/incompressible/pairs.glsl"
 
 float own_term; // the particle's k; neighbours' k are in their places

@@ -1,4 +1,4 @@
-// The number density, and the effect of a particle's k on its own number density: density_sums in sim/incompressible/pairs.h.
+// The number density, and the effect of a particle's k on its own number density: density_sums in sim/methods/shared/pair_incompressible.h.
 #include "sim/incompressible/pairs.glsl"
 
 // Sums of W, and of F^2 r^2 / m_j; the sum of F x_ij is `whole`.

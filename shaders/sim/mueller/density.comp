@@ -1,4 +1,4 @@
-// mueller: number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
+// mueller: number density, volume, pressure: sim/methods/mueller/pairs_mueller.c and finish_density in sim/methods/mueller/mueller.c.
 #include "sim/constants.glsl"
 #include "sim/images.glsl"
 #define LISTS_FIRST

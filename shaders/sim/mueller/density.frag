@@ -1,4 +1,4 @@
-// Number density, volume, pressure: sim/mueller/pairs.c and finish_density in sim/mueller/passes.c.
+// Number density, volume, pressure: sim/methods/mueller/pairs_mueller.c and finish_density in sim/methods/mueller/mueller.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
 layout(location = 0) out vec4 fields; // volume, p, 0; 1 for a particle without a place in the buckets, else 0

@@ -1,4 +1,4 @@
-// Energy of compression over m c^2, for x = rho / rho0 - 1: mueller_energy of sim/mueller/mueller.c.
+// Energy of compression over m c^2, for x = rho / rho0 - 1: mueller_energy of sim/methods/mueller/mueller.c.
 float compression_energy(float x)
 {
     if (abs(x) > 0.1)

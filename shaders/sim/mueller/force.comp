@@ -1,5 +1,5 @@
-// mueller: accelerations by pressure, viscosity and the walls' images: force_range in sim/mueller/pairs.c, and
-// sim/mueller/passes.c.
+// mueller: accelerations by pressure, viscosity and the walls' images: force_range in sim/methods/mueller/pairs_mueller.c, and
+// sim/methods/mueller/mueller.c.
 #define LISTS_LATER
 #include "sim/constants.glsl"
 #include "sim/force.glsl"

@@ -1,4 +1,4 @@
-// Accelerations by pressure, viscosity and walls: sim/mueller/pairs.c and sim/mueller/passes.c.
+// Accelerations by pressure, viscosity and walls: sim/methods/mueller/pairs_mueller.c and sim/methods/mueller/mueller.c.
 #include "sim/fragment/own.glsl"
 #include "sim/fragment/neighbours.glsl"
 #include "sim/wall_lift.glsl"

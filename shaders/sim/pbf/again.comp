@@ -1,4 +1,4 @@
-// pbf: goes on with another grid: again_body in sim/pbf/passes.c.
+// pbf: goes on with another grid: again_body in sim/methods/pbf/pbf_passes.c.
 #include "shaders/sim/bindings.h"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
 #include "sim/pbf/list.glsl"

@@ -1,4 +1,4 @@
-// pbf: a step's iterations begin with a part of the multipliers of the step before: begin_body in sim/pbf/passes.c.
+// pbf: a step's iterations begin with a part of the multipliers of the step before: begin_body in sim/methods/pbf/pbf_passes.c.
 #include "shaders/sim/bindings.h"
 layout(std430, binding = POSITIONS_BUFFER) readonly buffer Positions { vec4 position[]; };
 #include "sim/pbf/list.glsl"

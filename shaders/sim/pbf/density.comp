@@ -1,5 +1,5 @@
 // pbf: the number density after an iteration, and the growth of k in the next: density_body, finish_density, grown and
-// pack_motion in sim/pbf/passes.c.
+// pack_motion in sim/methods/pbf/pbf_passes.c.
 #define LISTS_LATER
 #define MOMENTUM PBF_MOMENTUM
 #include "shaders/sim/pbf/pbf_block.h"

@@ -1,4 +1,4 @@
-// pbf: accelerations of the whole step, including the way of the iterations: force_body in sim/pbf/passes.c.
+// pbf: accelerations of the whole step, including the way of the iterations: force_body in sim/methods/pbf/pbf_passes.c.
 #define LISTS_LATER
 #define SEEN_VELOCITY(i) motion[i].xyz
 #define FRICTION (min(viscous_dt / dt, 1.0) * friction_gradient) // within the step's stable limit

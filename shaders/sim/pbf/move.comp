@@ -1,4 +1,4 @@
-// pbf: positions by the growth of multipliers: move_one in sim/pbf/passes.c.
+// pbf: positions by the growth of multipliers: move_one in sim/methods/pbf/pbf_passes.c.
 #define LISTS_LATER
 #define PLACES near
 #include "shaders/sim/pbf/pbf_block.h"

@@ -1,4 +1,4 @@
-/* Constants of pbf, shared by C and shaders; filled by pbf_set of sim/pbf/pbf.c. */
+/* Constants of pbf, shared by C and shaders; filled by pbf_set of sim/methods/pbf/pbf.c. */
 #ifndef SLOSH_PBF_BLOCK_H
 #define SLOSH_PBF_BLOCK_H
 
@@ -35,7 +35,7 @@
 UNIFORM_BLOCK(PbfBlock, METHOD_BLOCK)
 {
     float gradient;          /* F = -W'(r) / r over f(r / h), of the density kernel, 1/m2 */
-    float friction_gradient; /* the same calibrated for gradients (sim/kernel/lattice.h) */
+    float friction_gradient; /* the same calibrated for gradients (sim/kernel/kernel.h) */
     float relaxation;        /* of Jacobi */
     float least_squares;     /* a part of sum F^2 r^2 on the lattice, 1/m2: over m added to D, as a lower
                                 bound */

@@ -1,4 +1,4 @@
-// pbf: effect of gravity on a free flight, in the middle of the flight: predict_body in sim/pbf/passes.c.
+// pbf: effect of gravity on a free flight, in the middle of the flight: predict_body in sim/methods/pbf/pbf_passes.c.
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
 layout(std430, binding = POSITIONS_BUFFER) buffer Positions { vec4 position[]; };

@@ -1,4 +1,4 @@
-// pbf: number density and pressure of a loaded state: settle_body in sim/pbf/passes.c.
+// pbf: number density and pressure of a loaded state: settle_body in sim/methods/pbf/pbf_passes.c.
 #define LISTS_FIRST
 #define OWN_ACCESS readonly
 #include "shaders/sim/pbf/pbf_block.h"

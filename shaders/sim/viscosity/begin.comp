@@ -1,5 +1,5 @@
-// Implicit viscosity: the right side, the blocks, and first values of the iterations: begin_range in sim/viscosity/pairs.c,
-// begin_one in sim/viscosity/passes.c.
+// Implicit viscosity: the right side, the blocks, and first values of the iterations: begin_range in sim/methods/shared/pairs_viscosity.c,
+// begin_one in sim/methods/shared/viscosity.c.
 #include "sim/viscosity/viscosity.glsl"
 #include "sim/own.glsl"
 #include "sim/viscosity/columns.glsl"
@@ -72,7 +72,7 @@ void meet_images(uint i, vec3 x, ivec3 at)
 #endif
 }
 
-// Walls of the box without slip: returns K and adds the walls' force to `friction`. held_by_walls in sim/viscosity/passes.c.
+// Walls of the box without slip: returns K and adds the walls' force to `friction`. held_by_walls in sim/methods/shared/viscosity.c.
 float held_by_walls(vec3 x, float volume, vec3 v)
 {
 #ifdef NO_SLIP

@@ -1,4 +1,4 @@
-// Implicit viscosity: accelerations from the change of velocity: end_body in sim/viscosity/passes.c.
+// Implicit viscosity: accelerations from the change of velocity: end_body in sim/methods/shared/viscosity.c.
 #include "sim/constants.glsl"
 #include "sim/scratch.glsl"
 #define OWN_ACCESS writeonly

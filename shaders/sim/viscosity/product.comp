@@ -1,5 +1,5 @@
 // Implicit viscosity: product of the matrix and the trial direction, and terms for the length of the next step. product_range
-// in sim/viscosity/pairs.c, product_body in sim/viscosity/passes.c.
+// in sim/methods/shared/pairs_viscosity.c, product_body in sim/methods/shared/viscosity.c.
 #include "sim/viscosity/viscosity.glsl"
 #include "sim/viscosity/columns.glsl"
 #include "sim/images.glsl"

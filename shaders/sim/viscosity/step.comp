@@ -1,4 +1,4 @@
-// Implicit viscosity: a step along the next direction, then the next trial direction: step_body in sim/viscosity/passes.c.
+// Implicit viscosity: a step along the next direction, then the next trial direction: step_body in sim/methods/shared/viscosity.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/solve_block.h"
 #include "shaders/sim/viscosity/buffers.h"

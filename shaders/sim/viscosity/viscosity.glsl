@@ -1,4 +1,4 @@
-// Shared by the walks of implicit viscosity: sim/viscosity/pairs.c. Two defines select Wendland's kernel or the quintic spline,
+// Shared by the walks of implicit viscosity: sim/methods/shared/pairs_viscosity.c. Two defines select Wendland's kernel or the quintic spline,
 // by ImplicitViscosity.kernel; without a define the kernel is the cubic spline.
 #define LISTS_LATER
 #include "shaders/sim/viscosity/buffers.h"

@@ -1,4 +1,4 @@
-// wcsph: velocity changes for shifts: sim/wcsph/carry.c, sim/wcsph/pairs_carry.c.
+// wcsph: velocity changes for shifts: sim/methods/wcsph/wcsph_passes.c, sim/methods/wcsph/pairs_wcsph.c.
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"
 #include "sim/walk.glsl"

@@ -1,5 +1,5 @@
 // wcsph: rate of density by the equation of continuity, with diffusion and the walls' images; then density, volume
-// and pressure: rate_range in sim/wcsph/pairs.c, rate_body in sim/wcsph/density.c, sim/wcsph/pairs_images.c.
+// and pressure: rate_range in sim/methods/wcsph/pairs_wcsph.c, rate_body in sim/methods/wcsph/wcsph_passes.c, sim/methods/wcsph/pairs_images.c.
 #define BEHIND_DRIFT
 #define OWN_ACCESS writeonly
 #include "sim/constants.glsl"

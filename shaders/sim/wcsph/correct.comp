@@ -1,4 +1,4 @@
-// wcsph: corrections of the gradients: matrix_range of sim/wcsph/pairs_corrected.c, correct_body of sim/wcsph/corrected.c.
+// wcsph: corrections of the gradients: matrix_range of sim/methods/wcsph/pairs_corrected.c, correct_body of sim/methods/wcsph/wcsph_passes.c.
 #ifndef CURVATURE
 #define LISTS_FIRST
 #endif

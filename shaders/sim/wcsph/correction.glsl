@@ -1,4 +1,4 @@
-// Corrections of the gradients, two vec4 per particle, xx yy zz and xy yz zx: sim/wcsph/corrected.c.
+// Corrections of the gradients, two vec4 per particle, xx yy zz and xy yz zx: sim/methods/wcsph/wcsph_passes.c.
 layout(std430, binding = CORRECTIONS_BUFFER) CORRECTION_ACCESS buffer Corrections { vec4 correction[]; };
 
 // C x, with C of particle i.

@@ -1,4 +1,4 @@
-// Force of surface tension by curvature: wcsph_curvature of sim/wcsph/pairs_surface.c. No force without CURVATURE.
+// Force of surface tension by curvature: wcsph_curvature of sim/methods/wcsph/pairs_surface.c. No force without CURVATURE.
 #ifdef CURVATURE
 #define OUTWARD_ACCESS readonly
 #include "sim/wcsph/surface.glsl"
@@ -59,7 +59,7 @@ vec3 curvature_force(uint i, vec3 x, ivec3 at)
     return -force * outward[i].xyz;
 }
 
-// Near a wall no shift goes out through the surface: keep_notches of sim/wcsph/force.c.
+// Near a wall no shift goes out through the surface: keep_notches of sim/methods/wcsph/wcsph_passes.c.
 vec3 keep_notch(uint i, vec3 shift)
 {
     vec3 n = outward[i].xyz, x = near[i].xyz;

@@ -1,4 +1,4 @@
-// wcsph with surface tension by curvature: each particle a body of its own; sim/wcsph/drops.c.
+// wcsph with surface tension by curvature: each particle a body of its own; sim/methods/wcsph/drops.c.
 #include "sim/constants.glsl"
 #include "shaders/sim/term_block.h"
 #include "sim/wcsph/drops.glsl"

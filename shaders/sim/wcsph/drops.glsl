@@ -1,4 +1,4 @@
-// Bodies of connected fluid, and sums over each: sim/wcsph/drops.c. Eight numbers per particle: a way to the root of its
+// Bodies of connected fluid, and sums over each: sim/methods/wcsph/drops.c. Eight numbers per particle: a way to the root of its
 // body; of roots the tally, and the sum of forces in steps, 64 bits along each axis.
 #include "shaders/sim/wcsph/drops_block.h"
 layout(std430, binding = DROPS_BUFFER) coherent buffer Drops { uint drop[]; };

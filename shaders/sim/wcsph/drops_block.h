@@ -1,4 +1,4 @@
-/* Numbers of sim/wcsph/drops.c, shared by C and shaders. */
+/* Numbers of sim/methods/wcsph/drops.c, shared by C and shaders. */
 #ifndef SLOSH_DROPS_BLOCK_H
 #define SLOSH_DROPS_BLOCK_H
 

@@ -1,4 +1,4 @@
-// Sums for shifting, computed together with the forces: wcsph_range of sim/wcsph/pairs.c. Nothing without SHIFTING.
+// Sums for shifting, computed together with the forces: wcsph_range of sim/methods/wcsph/pairs_wcsph.c. Nothing without SHIFTING.
 #ifdef SHIFTING
 layout(std430, binding = UNEVENS_BUFFER) writeonly buffer Unevens { vec4 uneven[]; }; // see shift.comp
 
@@ -24,7 +24,7 @@ void even_end_image(vec3 sign)
     even_image = vec4(0);
 }
 
-// complete_shift of sim/wcsph/force.c.
+// complete_shift of sim/methods/wcsph/wcsph_passes.c.
 void even_write(uint i)
 {
     float share = clamp((even_sum.w / (float(dimensions) * rest_number_density) - 0.8) / 0.15, 0.0, 1.0);

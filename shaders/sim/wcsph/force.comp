@@ -1,5 +1,5 @@
-// wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/wcsph/pairs.c, and
-// sim/wcsph/pairs_images.c.
+// wcsph: accelerations by pressure, viscosity and the walls' images: wcsph_range in sim/methods/wcsph/pairs_wcsph.c, and
+// sim/methods/wcsph/pairs_images.c.
 #ifdef CORRECTED
 #define MEET_MORE(j, d, r2, term) correct_meet(j, d, r2, term);
 #define FELT_FORCE(i, term, d, r2) \
@@ -24,9 +24,9 @@ float volume_felt(float volume) { return min(volume, 1.0 / (THINNEST * rest_numb
 #define CORRECTION_ACCESS readonly
 #include "sim/wcsph/correction.glsl"
 
-// push_of of sim/wcsph/pairs_corrected.c: sums of F x_ij, the same for an image, and of p_j V_j^2 C_j F x_ij.
+// push_of of sim/methods/wcsph/pairs_corrected.c: sums of F x_ij, the same for an image, and of p_j V_j^2 C_j F x_ij.
 vec3 even_push = vec3(0), even_image_push, correction_push = vec3(0);
-vec3 contrast_push = vec3(0), contrast_image_push; // the same sums times w of sim/wcsph/pairs_interface.c
+vec3 contrast_push = vec3(0), contrast_image_push; // the same sums times w of sim/methods/wcsph/pairs_surface.c
 
 #ifdef SHIFTING
 vec3 shift_push = vec3(0), shift_image_push; // of S_j F x_ij
@@ -41,7 +41,7 @@ float volume_squared(float volume)
 // tr C / (2 d) of particle i.
 float half_missing(uint i) { return dot(correction[2u * i].xyz, vec3(0.5 / float(dimensions))); }
 
-// sim/wcsph/pairs_friction.c.
+// sim/methods/wcsph/pairs_wcsph.c.
 vec3 more_friction(uint j, vec3 d, float f, float term)
 {
     Side other = side_of(j, term);
@@ -95,18 +95,18 @@ vec3 pair_force(Side own, Side other, vec3 d, float r2)
 #endif
 #endif
 #ifdef ARTIFICIAL
-    if (own.extra == other.extra || own.extra * other.extra == 0.0) // artificial_of of sim/wcsph/pairs.c
+    if (own.extra == other.extra || own.extra * other.extra == 0.0) // artificial_of of sim/methods/wcsph/pairs_wcsph.c
         push += volume_felt(own.volume) * volume_felt(other.volume) * (own.extra + other.extra) * dot(other.v - own.v, d) / (r2 + support * support / 400.0);
 #endif
     return rub(own, other, d, f) + f * push * d;
 }
 
 // Pressure on an image. Of the hydrostatic part, the rise from a particle to its own image is rise0 + 2 rise . d,
-// with d from the particle to the current image; rise_of of sim/wcsph/pairs_images.c.
+// with d from the particle to the current image; rise_of of sim/methods/wcsph/pairs_images.c.
 vec3 image_push, rise;
 float rise0, inverse_layer;
 
-// p V0^2 of the image of a particle with this `term`: image_term of sim/wcsph/pairs_images.c.
+// p V0^2 of the image of a particle with this `term`: image_term of sim/methods/wcsph/pairs_images.c.
 float image_term(float term, vec3 d)
 {
     float share = clamp(term * inverse_layer, 0.0, 1.0);
@@ -127,7 +127,7 @@ void push_image(float term, vec3 d, float w)
 #endif
 }
 
-// Friction of slip walls: image_rub of sim/wcsph/pairs_images.c. A macro, so that a side is read only if needed.
+// Friction of slip walls: image_rub of sim/methods/wcsph/pairs_images.c. A macro, so that a side is read only if needed.
 #if defined RUBS && !defined NO_SLIP
 #ifdef RADIAL
 #define RUB_NEAREST 1e-6

@@ -1,4 +1,4 @@
-// Moves particles down the gradient of their number density: shift_body of sim/wcsph/shift.c.
+// Moves particles down the gradient of their number density: shift_body of sim/methods/wcsph/wcsph_passes.c.
 #include "sim/constants.glsl"
 #include "sim/place.glsl"
 #include "shaders/sim/wcsph/wcsph_block.h"

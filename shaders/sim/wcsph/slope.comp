@@ -1,5 +1,5 @@
 // wcsph: gradient of relative density within a fluid, exact for linear fields (Antuono 2010): slope_range in
-// sim/wcsph/pairs.c.
+// sim/methods/wcsph/pairs_wcsph.c.
 #define BEHIND_DRIFT
 #include "sim/constants.glsl"
 #include "sim/wcsph/wcsph.glsl"

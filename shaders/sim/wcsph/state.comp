@@ -1,5 +1,5 @@
 // wcsph: density from its rate, volume and pressure; data read of neighbours by forces; data for diffusion:
-// state_body in sim/wcsph/density.c.
+// state_body in sim/methods/wcsph/wcsph_passes.c.
 #define OWN_ACCESS readonly
 #include "sim/constants.glsl"
 #include "sim/own.glsl"

@@ -1,5 +1,5 @@
 // wcsph with surface tension by curvature: bodies of connected fluid, and normals of the surfaces; their length is their weight: wcsph_normals of
-// sim/wcsph/pairs_surface.c. The first walk of a step.
+// sim/methods/wcsph/pairs_surface.c. The first walk of a step.
 #define LISTS_FIRST
 #define OUTWARD_ACCESS writeonly
 #include "sim/constants.glsl"
@@ -43,7 +43,7 @@ vec3 slopes_of_images(vec3 x, ivec3 at)
     return sum;
 }
 
-// curvature_weight of sim/matter/tension.h.
+// curvature_weight of sim/def/fluids.h.
 float weight_of(float x)
 {
     float t = clamp((x - curvature_least) / (curvature_whole - curvature_least), 0.0, 1.0);

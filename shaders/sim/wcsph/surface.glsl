@@ -1,4 +1,4 @@
-// Normals of the surfaces; their length is their weight: sim/wcsph/pairs_surface.c. Solids are not part of a surface.
+// Normals of the surfaces; their length is their weight: sim/methods/wcsph/pairs_surface.c. Solids are not part of a surface.
 layout(std430, binding = OUTWARDS_BUFFER) OUTWARD_ACCESS buffer Outwards { vec4 outward[]; };
 
 #ifdef LISTS

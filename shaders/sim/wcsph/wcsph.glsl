@@ -1,4 +1,4 @@
-// Shared code of the passes of wcsph: sim/wcsph/pairs.c, sim/wcsph/density.c.
+// Shared code of the passes of wcsph: sim/methods/wcsph/pairs_wcsph.c, sim/methods/wcsph/wcsph_passes.c.
 #include "shaders/sim/wcsph/wcsph_block.h"
 #include "sim/shapes.glsl"
 #include "sim/images.glsl"
@@ -10,7 +10,7 @@ float image_shape(float r)
     return shape(wide) * (wide / q);
 }
 
-// Pressure between fluids of different density, sim/wcsph/pairs_interface.c. contrast: w of two rest densities, 0 for
+// Pressure between fluids of different density, sim/methods/wcsph/pairs_surface.c. contrast: w of two rest densities, 0 for
 // solids. BOTH_PRESS: pressure of a pair from the p V^2 of both.
 #ifdef LAYERS
 float contrast(float mine, float theirs)
@@ -26,7 +26,7 @@ float contrast(float mine, float theirs)
 #define BOTH_PRESS(own, other, w) ((own) + (other))
 #endif
 
-// e = rho / rho0 - 1 after a change by x: wcsph_density_after of sim/wcsph/passes.h.
+// e = rho / rho0 - 1 after a change by x: wcsph_density_after of sim/methods/wcsph/wcsph.h.
 float density_after(float e, float x)
 {
     float before = 1.0 + e, sum = (e >= -0.5 ? e : -0.25 / before) + x;

@@ -1,4 +1,4 @@
-/* Constants of wcsph, shared by C and shaders; filled by wcsph_set of sim/wcsph/wcsph.c. */
+/* Constants of wcsph, shared by C and shaders; filled by wcsph_set of sim/methods/wcsph/wcsph.c. */
 #ifndef SLOSH_WCSPH_BLOCK_H
 #define SLOSH_WCSPH_BLOCK_H
 
@@ -15,7 +15,7 @@
    and would not be stable at the usual step: docs/failures.md. */
 #define THINNEST 0.9f
 
-/* Fluids with a greater density contrast share pressure by density: sim/wcsph/pairs_interface.c. */
+/* Fluids with a greater density contrast share pressure by density: sim/methods/wcsph/pairs_surface.c. */
 #define CONTRAST_LEAST 4.0f
 
 /* Distance to solids, over h, below which diffusion uses differences alone. */
@@ -33,11 +33,11 @@ UNIFORM_BLOCK(WcsphBlock, METHOD_BLOCK)
 {
     float gradient_scale;   /* -W'(r) / r over f(r / h), calibrated, 1/m2; f by kernel */
     float diffusion;        /* 2 delta c (h / 2), m2/s; 0: none */
-    float radial_friction;  /* R of sim/matter/viscosity.h, 1/m2; 0: friction in the form of Morris */
+    float radial_friction;  /* R of sim/def/fluids.h, 1/m2; 0: friction in the form of Morris */
     float shift_speed;      /* chi c h / 2, m2/s; 0: none: Lind 2012 */
     float density_return;   /* of shifting and diffusion, 1/s */
     int kernel_shape;       /* a ShapeKernel of sim/kernel/kernel.h */
-    int corrected_gradient; /* sim/wcsph/corrected.c */
+    int corrected_gradient; /* sim/methods/wcsph/wcsph_passes.c */
     int any_artificial;     /* some fluid has an artificial viscosity */
     WcsphFluid wcsph_fluids[FLUIDS_MOST];
 }

@@ -3,7 +3,7 @@
 #ifndef SLOSH_WALK_FORMS_CLOUD_H
 #define SLOSH_WALK_FORMS_CLOUD_H
 
-#include "sim/cpu/pair_args.h"
+#include "sim/cpu/pairs.h"
 
 /* How the particles are sorted, and how far lists see. */
 typedef struct Shape {

@@ -61,7 +61,7 @@ SIMD_INLINE f8 near3(f8 r2, f8 inverse_h)
     return t * t * t;
 }
 
-/* What the others do to `at`, 0 past h: as sim/mueller/pairs.c. */
+/* What the others do to `at`, 0 past h: as sim/methods/mueller/pairs_mueller.c. */
 SIMD_INLINE Vector8 pair_force(const Eight *at, const Eight *other, Vector8 d, f8 r2, f8 inverse_h)
 {
     const f8 r = f8_sqrt(r2), t = f8_positive(f8_splat(1) - r * inverse_h);

@@ -1,5 +1,5 @@
 #include "forms.h"
-#include "sim/cpu/pair_set.h"
+#include "sim/cpu/pairs.h"
 
 PAIR_LOOPS(lists);
 PAIR_LOOPS(mueller_density);

@@ -1,0 +1,420 @@
+/* Passes find the state's buffers by the names of storage blocks: a block declared in a shader is bound at
+   its declared binding. */
+#include "sim/gpu/compute/compute.h"
+
+#include "shaders/sim/bindings.h"
+#include "sim/gpu/packing.h"
+#include "sim/step/backend_sums.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *block;
+    size_t at; /* offset of the buffer's name in Compute */
+} named[COMPUTE_NAMED] = {
+    {"Positions", offsetof(Compute, now.position)},
+    {"Velocities", offsetof(Compute, now.velocity)},
+    {"Names", offsetof(Compute, now.name)},
+    {"Pressures", offsetof(Compute, pressure)},
+    {"Near", offsetof(Compute, near)},
+    {"Accelerations", offsetof(Compute, acceleration)},
+    {"Own", offsetof(Compute, now.own)},
+    {"Scratch", offsetof(Compute, scratch)},
+    {"Starts", offsetof(Compute, start)},
+    {"Lists", offsetof(Compute, lists)},
+    {"DragTables", offsetof(Compute, drag)},
+    {"WatchBlock", offsetof(Compute, watch.buffer)},
+    {"Felt", offsetof(Compute, felt.buffer)},
+    {"SolveBlock", offsetof(Compute, solve.buffer)},
+    {"Rests", offsetof(Compute, boundary.rest)},
+    {"BoundaryPositions", offsetof(Compute, boundary.position)},
+    {"BoundaryVelocities", offsetof(Compute, boundary.velocity)},
+    {"BoundaryStates", offsetof(Compute, boundary.state)},
+    {"BoundaryStarts", offsetof(Compute, boundary.start)},
+};
+
+static int binding_of(GLuint program, const char *block)
+{
+    const GLuint at = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block);
+    const GLenum what = GL_BUFFER_BINDING;
+    GLint binding = -1;
+    if (at != GL_INVALID_INDEX)
+        glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, at, 1, &what, 1, NULL, &binding);
+    return binding;
+}
+
+void compute_find_buffers(Compute *c, ComputePass pass)
+{
+    const GLuint program = c->program[pass];
+    c->takes_dt[pass] = program && glGetUniformLocation(program, "dt") >= 0;
+    for (int k = 0; k < COMPUTE_NAMED; k++)
+        c->bindings[pass][k] = (int8_t)(program ? binding_of(program, named[k].block) : -1);
+    for (int k = 0; k < COMPUTE_BUFFERS; k++) {
+        const ShaderBuffer *own = compute_buffer_at(c->constants, k);
+        c->bindings[pass][COMPUTE_NAMED + k] =
+            (int8_t)(program && own ? binding_of(program, own->block) : -1);
+    }
+}
+
+static void bind(int binding, unsigned buffer)
+{
+    if (binding >= 0 && buffer)
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, (GLuint)binding, buffer);
+}
+
+void compute_sweep(const Compute *c, ComputePass pass, size_t count)
+{
+    compute_boundary_bind(c);
+    for (int k = 0; k < COMPUTE_NAMED; k++)
+        bind(c->bindings[pass][k], *(const unsigned *)(const void *)((const char *)c + named[k].at));
+    for (int k = 0; k < COMPUTE_BUFFERS; k++)
+        bind(c->bindings[pass][COMPUTE_NAMED + k], c->of_shaders[k]);
+    compute_run(c, pass, count);
+}
+
+/* Columns kept per particle by a method and by terms of the scene: a storage buffer with all columns in
+   sequence, each with room for `capacity` numbers. A second buffer holds the shaders' scratch. Read by
+   shaders/sim/own.glsl and scratch.glsl. */
+
+static bool kept(const ColumnDef *column)
+{
+    return column_own(column) >= 0 && column->flags & (COLUMN_SAVED | COLUMN_SORTED);
+}
+
+size_t compute_scratch_place(const Compute *c, const ColumnDef *column)
+{
+    const ComputeScratch scratch = compute_scratch_of(c->constants);
+    size_t place = 0;
+    for (int k = 0; scratch.row[k] != column; k++)
+        place += (size_t)scratch.row[k]->components * c->capacity;
+    return place;
+}
+
+/* The buffer never shrinks: older programs, with more columns, may still use it. */
+bool compute_scratch_fit(Compute *c)
+{
+    const int total = compute_scratch_of(c->constants).total;
+    if (total <= c->scratch_total)
+        return true;
+    const unsigned buffer = compute_buffer(c, "scratch of the method's own", 4 * (size_t)total * c->capacity);
+    if (!buffer)
+        return c->full = false;
+    glDeleteBuffers(1, &c->scratch);
+    c->scratch = buffer;
+    c->scratch_total = total;
+    return true;
+}
+
+static void add_kept(const Constants *s, const ColumnDef *columns, const Term *of, ComputeOwn *own)
+{
+    for (; columns && columns->name; columns++)
+        if (kept(columns) && (!of || !columns->needed || columns->needed(s))) {
+            own->of[own->rows.count] = of;
+            own->rows.row[own->rows.count++] = columns;
+            for (int k = 0; k < columns->components; k++)
+                own->place[own->count++] = column_own(columns) + k;
+        }
+}
+
+ComputeOwn compute_own_of(const Constants *s)
+{
+    ComputeOwn own = {0};
+    add_kept(s, s->method->columns, NULL, &own);
+    if (s->wide)
+        add_kept(s, columns_left, NULL, &own);
+    for (const Term *const *term = shared_terms; *term; term++)
+        add_kept(s, (*term)->columns, *term, &own);
+    return own;
+}
+
+static bool widen(Compute *c, unsigned *buffer, int before, int count)
+{
+    const unsigned wider = compute_buffer(c, "columns of the method's own", 4 * (size_t)count * c->capacity);
+    if (!wider)
+        return c->full = false;
+    if (*buffer && before > 0)
+        glCopyNamedBufferSubData(*buffer, wider, 0, 0, (GLsizeiptr)(4 * (size_t)before * c->capacity));
+    glDeleteBuffers(1, buffer);
+    *buffer = wider;
+    return true;
+}
+
+/* Requires that terms added later are last in their list. */
+bool compute_own_fit(Compute *c)
+{
+    const ComputeOwn own = compute_own_of(c->constants);
+    const int before = c->own.count;
+    if (own.count <= before)
+        return true;
+    if (!widen(c, &c->now.own, before, own.count) || !widen(c, &c->spare.own, before, own.count) ||
+        (c->marked.position && !widen(c, &c->marked.own, before, own.count)))
+        return false;
+    c->own = own;
+    return true;
+}
+
+/* appends the columns */
+static void compute_own_rows(const Compute *c, ColumnRows *rows)
+{
+    for (int k = 0; k < c->own.rows.count; k++)
+        rows->row[rows->count++] = c->own.rows.row[k];
+}
+
+/* Defines the index of a column's first component in its buffer; for a term, with the term's name as
+   prefix. */
+static void define(const Compute *c, const char *buffer, const Term *of, const ColumnDef *column, size_t *at,
+                   char out[COMPUTE_DEFINES_MAX])
+{
+    const size_t used = strlen(out);
+    snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s_%s%s%s %zuu\n", buffer, of ? of->name : "",
+             of ? "_" : "", column->name, *at * c->capacity);
+    *at += (size_t)column->components;
+}
+
+void compute_own_defines(const Compute *c, char out[COMPUTE_DEFINES_MAX])
+{
+    const ComputeScratch scratch = compute_scratch_of(c->constants);
+    size_t own = 0, at = 0;
+    for (int k = 0; k < c->own.rows.count; k++)
+        define(c, "OWN", c->own.of[k], c->own.rows.row[k], &own, out);
+    for (int k = 0; k < scratch.count; k++)
+        define(c, "SCRATCH", scratch.of[k], scratch.row[k], &at, out);
+    const size_t used = strlen(out);
+    if (own + at > 0)
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define OWN_TOTAL %zuu\n#define OWN_STRIDE %zuu\n",
+                 own, c->capacity);
+}
+
+/* Offset of entry i of the k-th column, bytes. */
+static GLintptr place_of(const Compute *c, int k, size_t i)
+{
+    return (GLintptr)(4 * ((size_t)k * c->capacity + i));
+}
+
+static void clear_one(const Compute *c, int k, size_t first, size_t count)
+{
+    if (count > 0)
+        glClearNamedBufferSubData(c->now.own, GL_R32F, place_of(c, k, first), (GLsizeiptr)(4 * count), GL_RED,
+                                  GL_FLOAT, NULL);
+}
+
+/* A column is either written or cleared: NVIDIA's driver (580) let a clear overtake a later write. */
+static void compute_own_upload(const Compute *c, const ParticleColumns *from)
+{
+    for (int k = 0; k < c->own.count; k++)
+        if (from->own[c->own.place[k]])
+            glNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
+                                 from->own[c->own.place[k]]);
+        else
+            clear_one(c, k, 0, c->count);
+}
+
+static void compute_own_download(const Compute *c, const ParticleColumns *to)
+{
+    for (int k = 0; k < c->own.count; k++)
+        if (to->own[c->own.place[k]])
+            glGetNamedBufferSubData(c->now.own, place_of(c, k, 0), (GLsizeiptr)(4 * c->count),
+                                    to->own[c->own.place[k]]);
+}
+
+static void compute_own_copy(const Compute *c, unsigned from, unsigned to)
+{
+    for (int k = 0; k < c->own.count; k++)
+        glCopyNamedBufferSubData(from, to, place_of(c, k, 0), place_of(c, k, 0), (GLsizeiptr)(4 * c->count));
+}
+
+void compute_own_copy_one(const Compute *c, int k, unsigned to)
+{
+    if (c->count > 0)
+        glCopyNamedBufferSubData(c->now.own, to, place_of(c, k, 0), 0, (GLsizeiptr)(4 * c->count));
+}
+
+void compute_own_clear(const Compute *c, size_t first, size_t count)
+{
+    for (int k = 0; k < c->own.count; k++)
+        clear_one(c, k, first, count);
+}
+
+void compute_own_move(const Compute *c, unsigned order)
+{
+    if (c->own.count == 0)
+        return;
+    BIND([ORDERS_BUFFER] = order, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    compute_run(c, COMPUTE_OWN_MOVE, c->count);
+}
+
+void compute_own_gather(const Compute *c, unsigned marks)
+{
+    if (c->own.count == 0)
+        return;
+    BIND([MARKS_BUFFER] = marks, [OLD_OWN_BUFFER] = c->now.own, [OWN_BUFFER] = c->spare.own);
+    compute_run(c, COMPUTE_OWN_GATHER, c->count);
+}
+
+/* The particles' columns in storage buffers: layout and transfer both ways. */
+
+enum { POSITION = 1, VELOCITY, NAME, MOVED, PRESSURE = MOVED, BUFFERS };
+
+#define AT(member) offsetof(ParticleColumns, member)
+
+static const Packing packing = {.words = {[POSITION] = 4, [VELOCITY] = 4, [NAME] = 2, [PRESSURE] = 2},
+                                .column = {
+                                    {POSITION, 0, AT(x), COLUMN_FLOAT},
+                                    {POSITION, 3, AT(volume), COLUMN_FLOAT},
+                                    {VELOCITY, 0, AT(vx), COLUMN_FLOAT},
+                                    {VELOCITY, 3, AT(compression), COLUMN_FLOAT},
+                                    {NAME, 0, AT(id), COLUMN_INDEX},
+                                    {NAME, 1, AT(fluid), COLUMN_INDEX},
+                                    {PRESSURE, 0, AT(pressure), COLUMN_FLOAT},
+                                    {PRESSURE, 1, AT(pressure_term), COLUMN_FLOAT},
+                                }};
+
+/* Buffers moved by the sort: from POSITION to before MOVED. */
+static const struct {
+    const char *label;
+    size_t at; /* offset in ComputeParticles */
+} moved[MOVED] = {
+    [POSITION] = {"particle positions", offsetof(ComputeParticles, position)},
+    [VELOCITY] = {"particle velocities", offsetof(ComputeParticles, velocity)},
+    [NAME] = {"particle ids and fluids", offsetof(ComputeParticles, name)},
+};
+
+static size_t entry_bytes(int buffer)
+{
+    return 4 * (size_t)packing.words[buffer];
+}
+
+static unsigned *moved_in(ComputeParticles *particles, int buffer)
+{
+    return (unsigned *)(void *)((char *)particles + moved[buffer].at);
+}
+
+static unsigned buffer_of(const Compute *c, int buffer)
+{
+    ComputeParticles now = c->now;
+    return buffer == PRESSURE ? c->pressure : *moved_in(&now, buffer);
+}
+
+bool compute_particles_create(Compute *c, ComputeParticles *particles, Error *error)
+{
+    for (int b = POSITION; b < MOVED; b++)
+        *moved_in(particles, b) = compute_buffer(c, moved[b].label, entry_bytes(b) * c->capacity);
+    if (c->own.count > 0)
+        particles->own =
+            compute_buffer(c, "columns of the method's own", 4 * (size_t)c->own.count * c->capacity);
+    return !c->full || compute_no_memory(c, error);
+}
+
+void compute_particles_destroy(ComputeParticles *particles)
+{
+    for (int b = POSITION; b < MOVED; b++)
+        glDeleteBuffers(1, moved_in(particles, b));
+    glDeleteBuffers(1, &particles->own);
+}
+
+void compute_particles_copy(const Compute *c, ComputeParticles from, ComputeParticles to)
+{
+    for (int b = POSITION; b < MOVED; b++)
+        glCopyNamedBufferSubData(*moved_in(&from, b), *moved_in(&to, b), 0, 0,
+                                 (GLsizeiptr)(entry_bytes(b) * c->count));
+    compute_own_copy(c, from.own, to.own);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void compute_swap(Compute *c)
+{
+    const ComputeParticles other = c->spare;
+    c->spare = c->now;
+    c->now = other;
+}
+
+/* Uploads columns; volumes and missing columns become 0. */
+static void upload(const Compute *c, const ParticleColumns *from, uint32_t *entries)
+{
+    for (int b = POSITION; b < MOVED; b++) {
+        memset(entries, 0, entry_bytes(b) * c->count);
+        packing_pack(&packing, b, c->constants->method, from, c->count, NULL, entries);
+        glNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
+    }
+    compute_own_upload(c, from);
+}
+
+static void download(const Compute *c, const ParticleColumns *to, uint32_t *entries)
+{
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    for (int b = POSITION; b < BUFFERS; b++) {
+        glGetNamedBufferSubData(buffer_of(c, b), 0, (GLsizeiptr)(entry_bytes(b) * c->count), entries);
+        packing_unpack(&packing, b, c->constants->method, entries, c->count, to);
+    }
+    for (size_t i = 0; to->volume && i < c->count; i++) /* m3, for the views */
+        to->volume[i] /= (float)c->constants->unit_volume;
+    compute_own_download(c, to);
+}
+
+/* Memory for the largest entries of `count` particles. */
+static uint32_t *entries_create(size_t count)
+{
+    return malloc(4 * PACKED_WORDS * (count + 1));
+}
+
+static ColumnRows rows_of(const Compute *c)
+{
+    ColumnRows rows = packing_rows(&packing, c->constants->method);
+    compute_own_rows(c, &rows);
+    return rows;
+}
+
+bool compute_download(const Compute *c, ParticleColumns *columns)
+{
+    const ColumnRows rows = rows_of(c);
+    uint32_t *entries = entries_create(c->count);
+    *columns = (ParticleColumns){0};
+    const bool done = entries && columns_create(columns, &rows, c->count, NULL);
+    if (done)
+        download(c, columns, entries);
+    else
+        columns_destroy(columns);
+    free(entries);
+    return done;
+}
+
+bool compute_set_particles(Compute *c, const InitialState *initial)
+{
+    const ColumnRows rows = rows_of(c);
+    ParticleColumns columns = {0};
+    uint32_t *entries = entries_create(c->count);
+    const bool done = entries && columns_create(&columns, &rows, c->count, NULL);
+    if (done) {
+        particles_set(&columns, c->constants, initial);
+        upload(c, &columns, entries);
+    }
+    columns_destroy(&columns);
+    free(entries);
+    return done;
+}
+
+bool compute_save(void *state, const ParticleColumns *to)
+{
+    const Compute *c = state;
+    uint32_t *entries = entries_create(c->count);
+    if (entries)
+        download(c, to, entries);
+    free(entries);
+    return entries != NULL;
+}
+
+bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded)
+{
+    Compute *c = state;
+    uint32_t *entries = count > c->capacity ? NULL : entries_create(count);
+    if (!entries)
+        return false;
+    compute_set_count(c, count);
+    upload(c, from, entries);
+    free(entries);
+    compute_watch_reset(c, guarded);
+    return true;
+}

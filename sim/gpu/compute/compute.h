@@ -1,0 +1,318 @@
+/* The backend `compute`: OpenGL 4.5 compute shaders with storage buffers. Its state, for the files of
+   sim/gpu/compute. Needs a current context, always the same. Passes as in sim/cpu, in shaders/sim. */
+#ifndef SIM_GPU_COMPUTE_COMPUTE_H
+#define SIM_GPU_COMPUTE_COMPUTE_H
+
+#include "sim/gpu/particle_buffers.h"
+#include "sim/step/backend.h"
+#include "sim/step/cells.h"
+
+enum {
+    COMPUTE_SCAN_LEVELS = 3,
+    COMPUTE_SCAN_BLOCK = 1024,
+    COMPUTE_GROUP = 64,
+    COMPUTE_LAYER = 4096,
+    COMPUTE_GAUGE_GROUPS = 64,
+    COMPUTE_EXCESS_GROUPS = 64, /* number of groups summed by decide.comp */
+    COMPUTE_ALONG = 65535,      /* work groups per row */
+    COMPUTE_NAMED = 19,
+    COMPUTE_BUFFERS = METHOD_BUFFERS_MAX + 4, /* of the method, and a buffer per term */
+    COMPUTE_DEFINES_MAX = 4096
+};
+
+/* Outputs of show.comp: a scalar by number, the fluid, the id. */
+enum { COMPUTE_SHOW_FLUID = SCALAR_STATE_COUNT, COMPUTE_SHOW_ID, COMPUTE_SHOWN };
+
+/* Particle data moved by the sort. */
+typedef struct ComputeParticles {
+    unsigned position; /* vec4: x y z, volume */
+    unsigned velocity; /* vec4: x y z; rho / rho0 - 1 if particles carry density, otherwise volume */
+    unsigned name;     /* uvec2: id, fluid */
+    unsigned own;      /* float, columns in sequence: ComputeOwn; 0: the method keeps none */
+} ComputeParticles;
+
+/* Columns kept per particle by the method and by terms. `place`: index in ParticleColumns.own of each
+   component. `of`: owner of each column, NULL is the method. */
+typedef struct ComputeOwn {
+    int count, place[COLUMNS_OWN];
+    ColumnRows rows;
+    const Term *of[COLUMNS_OWN];
+} ComputeOwn;
+
+/* Scratch columns in the shaders of a scene. `of`: owner, NULL is the method. */
+typedef struct ComputeScratch {
+    int count, total; /* total: components */
+    const ColumnDef *row[COLUMNS_MAX];
+    const Term *of[COLUMNS_MAX];
+} ComputeScratch;
+
+/* Passes: shaders/sim/NAME.comp. The method's passes follow, in the method's order. */
+#define COMPUTE_PASSES(X)                                                                                    \
+    X(DRIFT, "compute/drift")                                                                                \
+    X(BIN, "compute/bin")                                                                                    \
+    X(SCAN, "compute/scan")                                                                                  \
+    X(SCAN_ADD, "compute/scan_add")                                                                          \
+    X(PLACE, "compute/place")                                                                                \
+    X(SORT, "compute/sort")                                                                                  \
+    X(MOVE, "compute/move")                                                                                  \
+    X(KICK, "compute/kick")                                                                                  \
+    X(TOUCH, "compute/touch")                                                                                \
+    X(GAUGE, "compute/gauge")                                                                                \
+    X(ENERGY, "compute/energy")                                                                              \
+    X(EXCESS, "compute/excess")                                                                              \
+    X(DECIDE, "compute/decide")                                                                              \
+    X(SHOW, "compute/show")                                                                                  \
+    X(BOUNDARY_BIN, "compute/boundary_bin")                                                                  \
+    X(BOUNDARY_PLACE, "compute/boundary_place")                                                              \
+    X(BOUNDARY_SORT, "compute/boundary_sort")                                                                \
+    X(BOUNDARY_FILL, "compute/boundary_fill")                                                                \
+    X(GUIDE, "compute/guide")                                                                                \
+    X(EMIT_MARK, "compute/emit_mark")                                                                        \
+    X(EMIT_ADD, "compute/emit_add")                                                                          \
+    X(DRAIN_MARK, "compute/drain_mark")                                                                      \
+    X(DRAIN_GATHER, "compute/drain_gather")                                                                  \
+    X(OWN_MOVE, "compute/own_move")                                                                          \
+    X(OWN_GATHER, "compute/own_gather")
+
+typedef enum ComputePass {
+#define X(NAME, name) COMPUTE_##NAME,
+    COMPUTE_PASSES(X)
+#undef X
+        COMPUTE_METHOD,                 /* the method's passes, then the terms' passes */
+    COMPUTE_FELT = COMPUTE_METHOD + 24, /* forces of these passes on solids, in the same order */
+    COMPUTE_PASS_COUNT = COMPUTE_FELT + 24
+} ComputePass;
+
+/* Boundary particles of solids; all 0 without solids. */
+typedef struct ComputeBoundary {
+    unsigned rest;                      /* vec4: x y z in the solid's frame, solid */
+    unsigned cell, rank, order, start;  /* start: places of `fold` + 2; the last for particles set aside */
+    unsigned position, velocity, state; /* vec4, vec4, uvec2: see boundary.glsl; sorted by cell */
+    unsigned block, exact;              /* uniforms */
+    bool due;                           /* solids have moved since the sort */
+} ComputeBoundary;
+
+/* Distances to mesh solids; all 0 without meshes. */
+typedef struct ComputeMeshes {
+    unsigned block;           /* uniforms */
+    unsigned values, texture; /* float each */
+} ComputeMeshes;
+
+/* Emitters and drains; all 0 without both. */
+typedef struct ComputeFlow {
+    unsigned block;        /* uniforms */
+    unsigned layer, marks; /* x y z of up to COMPUTE_LAYER candidates; uint each, plus an extra entry */
+} ComputeFlow;
+
+/* Forces on box and solids; no buffers before a request. */
+typedef struct ComputeFelt {
+    unsigned buffer, marked; /* FeltPart: shaders/sim/felt.glsl; at the state marked by the sentinel */
+    double seconds, seconds_marked;
+    struct Forces *to; /* NULL: not requested */
+} ComputeFelt;
+
+typedef struct Compute {
+    const Constants *constants;
+    size_t count, capacity; /* particles; room for them */
+    size_t gridded;         /* by `grid`: particles in the grid */
+    ComputeBoundary boundary;
+    ComputeMeshes meshes;
+    ComputeFlow flow;
+    ComputeParticles now, spare, marked; /* marked: empty before the first `mark` */
+    ComputeOwn own;
+    unsigned scratch; /* float, columns in sequence; 0: the method's shaders have none */
+    int scratch_total;
+    unsigned lists; /* uint: shaders/sim/lists.glsl; 0: none */
+    size_t list_most;
+    size_t unlisted; /* bytes of lists that exceed the memory */
+    CellFold fold;
+    unsigned cell, rank, order, start;    /* start: places of `fold` + 1 */
+    unsigned totals[COMPUTE_SCAN_LEVELS]; /* of blocks of the level before */
+    unsigned pressure;                    /* vec2: p, p V^2 */
+    unsigned near;                        /* vec4: x y z, p V^2, read of neighbours by forces */
+    unsigned acceleration;                /* vec4 */
+    Mailbox watch;                        /* WatchBlock */
+    bool watch_due;                       /* kicks were noted and not sent */
+    float longest;                        /* longest dt of the kicks since the watch was read, s */
+    Mailbox solve;                        /* SolveBlock; none if no pass iterates */
+    Mailbox parts;                        /* ExcessPart per group: iterate.c; none if no pass iterates */
+    bool decided;                         /* the method's passes take their number of work groups from
+                                             SolveBlock */
+    Mailbox gauge;                        /* GaugePart per group; none before the first `gauge` */
+    Mailbox energy;                       /* energy.comp: sums per group; none before the first */
+    size_t gauged;                        /* particles in the last gauge */
+    ComputeFelt felt;
+    unsigned shown[COMPUTE_SHOWN]; /* for the views: uint or float; 0 before the first request */
+    unsigned constant_block, step; /* uniform blocks */
+    unsigned program[COMPUTE_PASS_COUNT];
+    bool takes_dt[COMPUTE_PASS_COUNT];
+    /* Bindings of buffers found by name, the method's last; -1: none. */
+    int8_t bindings[COMPUTE_PASS_COUNT][COMPUTE_NAMED + COMPUTE_BUFFERS];
+    bool full;                             /* the GPU's memory is exhausted */
+    size_t bytes, guarded_before, guarded; /* of all buffers; before the last load; since the last load */
+
+    unsigned of_shaders[COMPUTE_BUFFERS]; /* compute_buffer_at; 0: not needed by the scene */
+    unsigned drag;                        /* tables; 0: slip walls */
+    unsigned terms, of_method;            /* uniform blocks */
+    char defines[COMPUTE_DEFINES_MAX];    /* used to compile the programs */
+} Compute;
+
+/* Compiles a pass with the lines `defines` before its source; 0 with the reason. */
+unsigned compute_program(const Compute *compute, ComputePass pass, const char *defines, Error *error);
+
+/* with_terms.c. compute_pass_at: the k-th of the method's passes, then of the terms' passes (`of`: the
+   term, else NULL); NULL after the last. compute_pass_needed: true if the scene needs the pass.
+   compute_method_pass: number of a pass. */
+const Pass *compute_pass_at(const Method *method, int k, const Term **of);
+ComputePass compute_method_pass(const Compute *compute, const Pass *pass);
+
+/* Number k of the COMPUTE_BUFFERS found by name in shaders; NULL: none. */
+const ShaderBuffer *compute_buffer_at(const Constants *constants, int k);
+
+ComputeScratch compute_scratch_of(const Constants *constants);
+
+/* A zeroed storage buffer of `bytes`; 0 if memory is short, and sets `full`. */
+unsigned compute_buffer(Compute *compute, const char *label, size_t bytes);
+
+/* particles.c. Return false with the reason. */
+bool compute_particles_create(Compute *compute, ComputeParticles *particles, Error *error);
+void compute_particles_destroy(ComputeParticles *particles);
+void compute_particles_copy(const Compute *compute, ComputeParticles from, ComputeParticles to);
+
+/* Downloads the particles to columns; free with columns_destroy. Returns false if memory is short. */
+bool compute_download(const Compute *compute, ParticleColumns *columns);
+
+/* own.c: a buffer for scratch. Returns false if memory is short. */
+bool compute_scratch_fit(Compute *compute);
+
+/* Index of a column's first number in scratch. */
+size_t compute_scratch_place(const Compute *compute, const ColumnDef *column);
+
+/* Recompiles the selected passes, without terms that the scene does not name. On failure the old programs
+   stay. */
+bool compute_programs(Compute *compute, bool (*which)(ComputePass pass), Error *error);
+
+/* forces.c. compute_feels: true for passes that change with a request for forces. compute_felt_defines:
+   their lines. compute_feel_solids: adds forces on solids of a pass over dt (s). _mark and _back: save and
+   restore the sums with the particles. */
+bool compute_feels(ComputePass pass);
+void compute_felt_defines(const Compute *compute, ComputePass pass, char out[COMPUTE_DEFINES_MAX]);
+void compute_feel_solids(Compute *compute, const Pass *pass, float dt);
+void compute_felt_mark(Compute *compute);
+void compute_felt_back(Compute *compute);
+
+bool compute_iterate_fit(Compute *compute);
+
+/* lists.c: neighbour lists if the driver supports them; lines for the shaders. */
+void compute_lists_create(Compute *compute);
+void compute_list_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
+
+/* own.c: nothing to do for a method without own columns. _defines: lines for the shaders after
+   compute_defines. _upload, _download: from and to plain arrays, NULL arrays skipped. _copy: to another
+   buffer. _clear: 0 for `count` particles. _move, _gather: from `now` to `spare`, reordered or without
+   drained particles. */
+ComputeOwn compute_own_of(const Constants *constants);
+bool compute_own_fit(Compute *compute); /* room for columns added later; false if memory is short */
+void compute_own_defines(const Compute *compute, char out[COMPUTE_DEFINES_MAX]);
+void compute_own_copy_one(const Compute *compute, int k, unsigned to); /* the k-th component, to a buffer's
+                                                                          begin */
+void compute_own_clear(const Compute *compute, size_t first, size_t count);
+void compute_own_move(const Compute *compute, unsigned order);
+void compute_own_gather(const Compute *compute, unsigned marks);
+
+/* Sets the error; returns false. */
+bool compute_no_memory(const Compute *compute, Error *error);
+
+/* _note: call after a kick of dt, s. _send: starts the transfer of the kicks' findings since the last send;
+   once per frame, before pictures, to avoid waiting for them. */
+void compute_watch_note(Compute *compute, float dt);
+
+/* Restarts the watch, with `guarded` counts before. */
+void compute_watch_reset(Compute *compute, size_t guarded);
+
+/* Runs an invocation per particle, or `count` invocations, then a storage barrier. */
+void compute_run(const Compute *compute, ComputePass pass, size_t count);
+
+/* _find_buffers: finds a program's bindings of the state's buffers, by names of storage blocks. _sweep:
+   binds these buffers and runs a pass over `count` particles. */
+void compute_find_buffers(Compute *compute, ComputePass pass);
+void compute_sweep(const Compute *compute, ComputePass pass, size_t count);
+
+/* Dispatches work groups in rows: shaders/sim/constants.glsl. */
+void compute_dispatch(size_t groups);
+
+/* Binds buffers to storage bindings 0, 1, ...; 0 leaves a binding unchanged. BIND([NUMBER] = buffer, ...)
+   uses the numbers of shaders/sim/bindings.h. */
+void compute_bind(const unsigned *buffers, int count);
+#define BIND(...)                                                                                            \
+    compute_bind((const unsigned[]){__VA_ARGS__},                                                            \
+                 (int)(sizeof((const unsigned[]){__VA_ARGS__}) / sizeof(unsigned)))
+
+/* Sets the number of particles. */
+void compute_set_count(Compute *compute, size_t count);
+
+/* Swaps `now` and `spare`. */
+void compute_swap(Compute *compute);
+
+/* terms.c. _defines: lines before the shaders (numbers of scalars, terms of the scene). _pass_named: true
+   if the scene needs a pass. _term_buffers: creates missing buffers of terms. _term_constants: the uniform
+   block of terms. */
+void compute_defines(const Constants *constants, char out[COMPUTE_DEFINES_MAX]);
+bool compute_pass_named(const Constants *constants, ComputePass pass);
+bool compute_term_buffers(Compute *compute);
+void compute_term_constants(Compute *compute);
+
+/* Fills the uniform blocks. */
+void compute_constants(Compute *compute);
+void compute_vary(void *state);
+void compute_set_drift(Compute *compute, const BoxStep *step);
+void compute_set_force(Compute *compute, const PassInput *input);
+void compute_set_kick(Compute *compute, const float gravity[3], float dt);
+
+/* Exclusive prefix sums of the first `size` numbers of a buffer, in place. */
+void compute_scan(Compute *compute, unsigned buffer, size_t size);
+
+/* boundary.c: nothing to do without solids. Returns false if memory is short. */
+bool compute_boundary_create(Compute *compute);
+void compute_boundary_destroy(Compute *compute);
+void compute_boundary_bind(const Compute *compute);
+
+/* meshes.c: nothing to do without meshes. Returns false with the error if the driver's textures are too
+   small for the distances. */
+bool compute_meshes_create(Compute *compute, Error *error);
+void compute_meshes_destroy(Compute *compute);
+
+void compute_boundary_move(Compute *compute, const SolidStep *steps);
+void compute_boundary_grid(Compute *compute); /* sorts boundary particles after a move */
+void compute_boundary_fill(const Compute *compute);
+
+void compute_flow_create(Compute *compute);
+void compute_flow_destroy(Compute *compute);
+
+void compute_pose(void *state, const SolidPose *pose);
+size_t compute_emit(void *state, const EmitLayer *layer, size_t most);
+double compute_guide(void *state, const Guide *guides, int count);
+size_t compute_drain(void *state, const Fill *regions, int count);
+void compute_grid(void *state);
+void compute_pass(void *state, const Pass *pass, const PassInput *input);
+void compute_iterate(void *state, const struct Iteration *iteration, const PassInput *input,
+                     StepSolve *solve);
+StepWatch compute_watch(void *state);
+bool compute_mark(void *state, Error *error);
+void compute_back(void *state, size_t count, size_t guarded);
+bool compute_feel(void *state, struct Forces *to, Error *error);
+bool compute_felt(void *state);
+void compute_share(void *state, unsigned attributes, struct ParticleBuffers *out);
+void compute_sums(void *state, WorldSums *sums);
+bool compute_read(void *state, const ParticleArrays *out);
+bool compute_gauge(void *state, const double gravity[3]);
+bool compute_gauged(void *state, WorldGauge *gauge, bool waits);
+void compute_energy(void *state, bool turning, EnergySums *sums);
+bool compute_save(void *state, const ParticleColumns *to);
+bool compute_load(void *state, const ParticleColumns *from, size_t count, size_t guarded);
+void compute_info(const void *state, WorldInfo *info);
+
+/* Uploads `initial`. Returns false if memory is short. */
+bool compute_set_particles(Compute *compute, const InitialState *initial);
+
+#endif

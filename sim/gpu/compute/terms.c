@@ -1,0 +1,316 @@
+/* The loop of an iterating solver, decided on the GPU. Passes of an iteration take their work groups from a
+   buffer, and after each iteration a small pass sets the number to 0 once the residual is small enough. A
+   batch has slightly more iterations than the last step needed. So a step usually waits once per solver,
+   not once per iteration. */
+#include "sim/gpu/compute/compute.h"
+
+#include "shaders/sim/bindings.h"
+#include "shaders/sim/excess_part.h"
+#include "shaders/sim/solve_block.h"
+#include "shaders/sim/term_block.h"
+#include "sim/step/iterate.h"
+
+#include <epoxy/gl.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MORE = 2 }; /* iterations beyond those of the last step */
+
+/* Summed columns: the residual, its scale, and requested columns. */
+enum { RESIDUAL_PARTS, SCALE_PARTS = EXCESS_OF_SCALE, ASKED_PARTS, PARTS = ASKED_PARTS + ITERATION_ASKED };
+
+/* iterate.c. compute_iterates: true if passes of the scene iterate. compute_iterate_fit: creates missing
+   buffers; false if memory is short. */
+static bool compute_iterates(const Constants *s)
+{
+    const Term *of;
+    const Pass *pass;
+    bool solves = false;
+    for (int k = 0; (pass = compute_pass_at(s->method, k, &of)); k++)
+        solves |= pass->stage == STAGE_SOLVE && (!of || of->needed(s));
+    return solves;
+}
+
+bool compute_iterate_fit(Compute *c)
+{
+    if (c->parts.buffer || !compute_iterates(c->constants))
+        return true;
+    return mailbox_create(&c->parts, "parts of residuals",
+                          (size_t)PARTS * COMPUTE_EXCESS_GROUPS * sizeof(ExcessPart)) &&
+           mailbox_create(&c->solve, "solver", sizeof(SolveBlock));
+}
+
+static void begin(const Compute *c, const Iteration *iteration)
+{
+    const size_t groups = (c->count + COMPUTE_GROUP - 1) / COMPUTE_GROUP;
+    const SolveBlock block = {.groups_along = (uint)(groups > COMPUTE_ALONG ? COMPUTE_ALONG : groups),
+                              .groups_rows = (uint)((groups + COMPUTE_ALONG - 1) / COMPUTE_ALONG),
+                              .groups_deep = 1,
+                              .iterations = iteration->begun ? UINT32_MAX : 0, /* the first measure adds 1 */
+                              .tolerance = (float)iteration->tolerance,
+                              .worst = (float)iteration->worst,
+                              .iterations_few = (uint)iteration->few,
+                              .iterations_most = (uint)iteration->most,
+                              .scaled = iteration->scale != NULL};
+    glNamedBufferSubData(c->solve.buffer, 0, sizeof block, &block);
+}
+
+static GLuint place_of(const Compute *c, const ColumnDef *column)
+{
+    return column ? (GLuint)compute_scratch_place(c, column) : EXCESS_NO_COLUMN;
+}
+
+/* Sums a column into part `which`; for a residual also the sums of conjugate gradients. */
+static void sum_up(Compute *c, const ColumnDef *column, int which, const ColumnDef *power,
+                   const ColumnDef *curvature)
+{
+    glProgramUniform4ui(c->program[COMPUTE_EXCESS], COLUMN_AT, place_of(c, column),
+                        (GLuint)(which * COMPUTE_EXCESS_GROUPS), place_of(c, power), place_of(c, curvature));
+    BIND([SCRATCH_BUFFER] = c->scratch, [PARTS_BUFFER] = c->parts.buffer);
+    compute_run(c, COMPUTE_EXCESS, (size_t)COMPUTE_EXCESS_GROUPS * COMPUTE_GROUP);
+}
+
+static Excess excess_of(const Compute *c, int which)
+{
+    const ExcessPart *part = (const ExcessPart *)c->parts.mapped + (ptrdiff_t)which * COMPUTE_EXCESS_GROUPS;
+    Excess excess = {0};
+    for (int k = 0; k < COMPUTE_EXCESS_GROUPS; k++) {
+        excess.mean += (double)part[k].above;
+        excess.greatest = part[k].greatest > excess.greatest ? part[k].greatest : excess.greatest;
+    }
+    excess.mean /= c->count > 0 ? (double)c->count : 1;
+    return excess;
+}
+
+/* Sends the requested sums before the solver's result, which is waited for. */
+static void ask(Compute *c, const Iteration *iteration)
+{
+    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
+        sum_up(c, iteration->asked[k].column, ASKED_PARTS + k, NULL, NULL);
+    if (iteration->asked[0].column)
+        mailbox_send(&c->parts);
+}
+
+static void answer(const Compute *c, const Iteration *iteration)
+{
+    for (int k = 0; k < ITERATION_ASKED && iteration->asked[k].column; k++)
+        *iteration->asked[k].to = excess_of(c, ASKED_PARTS + k);
+}
+
+static void decide(Compute *c, const Iteration *iteration)
+{
+    sum_up(c, iteration->residual, RESIDUAL_PARTS, iteration->power, iteration->curvature);
+    BIND([PARTS_BUFFER] = c->parts.buffer, [SOLVE_BUFFER] = c->solve.buffer);
+    compute_run(c, COMPUTE_DECIDE, COMPUTE_GROUP);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+}
+
+static void iterate_once(Compute *c, const Iteration *iteration, const PassInput *input)
+{
+    c->decided = true;
+    for (int k = 0; iteration->passes[k]; k++)
+        compute_pass(c, iteration->passes[k], input);
+    c->decided = false;
+    decide(c, iteration);
+}
+
+void compute_iterate(void *state, const Iteration *iteration, const PassInput *input, StepSolve *solve)
+{
+    Compute *c = state;
+    /* without execution, as in a test of texts, the number set by `begin` comes back */
+    const int at_once = (int)fmin(solve->iterations, iteration->most) + MORE;
+    const SolveBlock *found;
+    int asked = 0;
+    begin(c, iteration);
+    if (iteration->scale)
+        sum_up(c, iteration->scale, SCALE_PARTS, NULL, NULL);
+    if (iteration->begun)
+        decide(c, iteration);
+    do {
+        for (int k = 0; k < at_once && asked < iteration->most; k++, asked++)
+            iterate_once(c, iteration, input);
+        ask(c, iteration);
+        mailbox_send(&c->solve);
+        found = mailbox_wait(&c->solve);
+    } while (found && !found->ended && asked < iteration->most);
+    answer(c, iteration);
+    *solve = (StepSolve){.tolerance = iteration->tolerance};
+    if (found)
+        *solve = (StepSolve){.iterations = found->ended ? (double)found->iterations
+                                                        : asked, /* a GPU may have done nothing */
+                             .mean = (double)found->left_mean,
+                             .most = (double)found->left_most,
+                             .tolerance = iteration->tolerance};
+}
+
+/* Optional terms of scenes: lines before the shaders, uniforms and buffers. */
+
+static size_t put_define(char out[COMPUTE_DEFINES_MAX], size_t used, const char *name)
+{
+    return used + (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define %s 1\n", name);
+}
+
+static bool has_meshes(const Constants *s)
+{
+    for (int k = 0; k < s->solid_count; k++)
+        if (s->solids[k].kind == SOLID_MESH)
+            return true;
+    return false;
+}
+
+static size_t put_defines(const Constants *s, const ShaderTerm *terms, char out[COMPUTE_DEFINES_MAX],
+                          size_t used)
+{
+    for (; terms && terms->name; terms++)
+        if (terms->needed(s))
+            used = put_define(out, used, terms->name);
+    return used;
+}
+
+void compute_defines(const Constants *s, char out[COMPUTE_DEFINES_MAX])
+{
+    const struct {
+        bool named;
+        const char *name;
+    } terms[] = {
+        {s->solid_count > 0, "SOLIDS"},
+        {has_meshes(s), "MESHES"},
+        {s->reproducible, "REPRODUCIBLE"},
+        {s->fluid_count == 1, "ONE_FLUID"},
+        {s->holds, "HOLDS"},
+        {s->rubs, "RUBS"},
+        {s->negative_pressure, "NEGATIVE_PRESSURE"},
+        {s->method->carries_density, "CARRIES_DENSITY"},
+        {s->tension_model == TENSION_COLOUR_FIELD || s->tension_model == TENSION_COHESION, "TENSION"},
+        {s->tension_model == TENSION_COHESION, "COHESION"},
+        {s->no_slip, "NO_SLIP"},
+        {s->lid, "LID"},
+        {s->method->leaps, "LEAPS"},
+        {s->wide, "WIDE"},
+    };
+    size_t used = 0;
+    if (s->periodic.any)
+        used += (size_t)snprintf(out, COMPUTE_DEFINES_MAX, "#define PERIODIC bvec3(%d, %d, %d)\n",
+                                 s->periodic.axis[0], s->periodic.axis[1], s->periodic.axis[2]);
+#define X(NAME, name, unit)                                                                                  \
+    used += (size_t)snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define SCALAR_" #NAME " %d\n",        \
+                             SCALAR_##NAME);
+    STATE_SCALAR_LIST(X)
+    X(STATE_COUNT, , )
+#undef X
+    for (size_t k = 0; k < sizeof terms / sizeof *terms; k++)
+        if (terms[k].named)
+            used = put_define(out, used, terms[k].name);
+    used = put_defines(s, s->method->terms, out, used);
+    for (const Term *const *term = shared_terms; *term; term++)
+        used = put_defines(s, (*term)->terms, out, used);
+    if (s->method->energy_shader)
+        snprintf(out + used, COMPUTE_DEFINES_MAX - used, "#define ENERGY_OF_METHOD sim/%s.glsl\n",
+                 s->method->energy_shader);
+}
+
+bool compute_pass_named(const Constants *s, ComputePass pass)
+{
+    switch (pass) {
+    case COMPUTE_SORT:
+        return s->reproducible;
+    case COMPUTE_BOUNDARY_BIN:
+    case COMPUTE_BOUNDARY_PLACE:
+    case COMPUTE_BOUNDARY_SORT:
+    case COMPUTE_BOUNDARY_FILL:
+        return s->solid_count > 0;
+    case COMPUTE_EXCESS:
+    case COMPUTE_DECIDE:
+        return compute_iterates(s);
+    case COMPUTE_GUIDE:
+    case COMPUTE_EMIT_MARK:
+    case COMPUTE_EMIT_ADD:
+        return s->emits;
+    case COMPUTE_DRAIN_MARK:
+    case COMPUTE_DRAIN_GATHER:
+        return s->drains;
+    default:
+        return true;
+    }
+}
+
+/* Number of entries in the tables of t + 1 faces. */
+static size_t drag_entries(const WallDrag *drag, int t)
+{
+    size_t entries = 1;
+    for (int k = 0; k <= t; k++)
+        entries *= (size_t)drag->nodes[t];
+    return entries;
+}
+
+static void drag_upload(Compute *c)
+{
+    const WallDrag *drag = &c->constants->drag;
+    size_t all = 0, at = 0;
+    for (int t = 0; t < drag->dimensions; t++)
+        all += drag_entries(drag, t);
+    c->drag = compute_buffer(c, "tables of the walls' friction", all * sizeof(float));
+    for (int t = 0; t < drag->dimensions && c->drag; t++) {
+        const size_t bytes = drag_entries(drag, t) * sizeof(float);
+        glNamedBufferSubData(c->drag, (GLintptr)at, (GLsizeiptr)bytes, drag->table[t]);
+        at += bytes;
+    }
+}
+
+bool compute_term_buffers(Compute *c)
+{
+    const Constants *s = c->constants;
+    for (int k = 0; k < COMPUTE_BUFFERS; k++) {
+        const ShaderBuffer *own = compute_buffer_at(s, k);
+        if (own && own->needed(s) && !c->of_shaders[k])
+            c->of_shaders[k] = compute_buffer(c, own->block, own->size * c->capacity);
+    }
+    if (s->no_slip && !c->drag)
+        drag_upload(c);
+    const bool all = !c->full;
+    c->full = false; /* the world can go on without */
+    return all;
+}
+
+static void drag_constants(const WallDrag *drag, TermBlock *terms)
+{
+    size_t offset = 0;
+    for (int t = 0; t < drag->dimensions; t++) {
+        terms->drag_nodes[t] = drag->nodes[t];
+        terms->drag_steps[t] = drag->inverse_step[t];
+        terms->drag_offset[t] = (int)offset;
+        offset += drag_entries(drag, t);
+    }
+    terms->drag_range = drag->range;
+}
+
+static void uniforms(unsigned *buffer, const void *values, size_t size)
+{
+    if (!*buffer) {
+        glCreateBuffers(1, buffer);
+        glNamedBufferStorage(*buffer, (GLsizeiptr)size, NULL, GL_DYNAMIC_STORAGE_BIT);
+    }
+    glNamedBufferSubData(*buffer, 0, (GLsizeiptr)size, values);
+}
+
+void compute_term_constants(Compute *c)
+{
+    const Constants *s = c->constants;
+    TermBlock terms = {.colour_scale = s->colour, .friction_scale = s->implicit.scale};
+    for (int f = 0; f < s->fluid_count; f++)
+        terms.fluid_terms[f] = (FluidTerms){s->tension[f], s->wet[f]};
+    terms.curvature_least = CURVATURE_LEAST / 100.0F;
+    terms.curvature_whole = CURVATURE_WHOLE / 100.0F;
+    terms.curvature_full = s->curvature.full;
+    terms.curvature_crowd_least = CROWD_LEAST;
+    terms.curvature_few = s->curvature.few;
+    terms.curvature_crowd = s->curvature.crowd;
+    terms.curvature_offset = s->curvature.offset;
+    terms.curvature_most = s->curvature.most;
+    if (s->no_slip)
+        drag_constants(&s->drag, &terms);
+    memcpy(terms.lid_velocity, s->lid_velocity, sizeof s->lid_velocity);
+    uniforms(&c->terms, &terms, sizeof terms);
+    uniforms(&c->of_method, s->of_method, sizeof s->of_method);
+}

@@ -1,0 +1,206 @@
+/* Programs, and drawing of a pass. */
+#include "sim/gpu/fragment/fragment.h"
+
+#include "sim/gpu/program.h"
+
+#include <epoxy/gl.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { FIRST_UNIT = 16 }; /* the views use lower units; GL 4.5 has 80 over all stages */
+
+static const struct {
+    const char *vertex, *next, *defines;
+} passes[] = {
+#define X(NAME, vertex, next, defines) {vertex, next, defines},
+    FRAGMENT_PASSES(X)
+#undef X
+};
+
+static const char *const samplers[] = {
+#define X(NAME, name) name,
+    FRAGMENT_SAMPLERS(X)
+#undef X
+};
+
+static bool shader_of(const Pass *pass, char path[64])
+{
+    snprintf(path, 64, "sim/%s.frag", pass->shader ? pass->shader : "");
+    return pass->shader != NULL;
+}
+
+bool fragment_has(const Method *method)
+{
+    int of_stage[STAGE_COUNT] = {0};
+    char path[64];
+    for (const Pass *const *pass = method->passes; *pass; pass++)
+        if (!shader_of(*pass, path) || !shader_source_has(path) || of_stage[(*pass)->stage]++ > 0)
+            return false;
+    return of_stage[STAGE_DENSITY] == 1 && of_stage[STAGE_FORCE] == 1;
+}
+
+/* The shader after the vertex shader of a pass: the table's shader, or the method's for the stage. */
+static void next_shader(const Method *method, FragmentPass pass, char path[64])
+{
+    const Stage stage = pass == FRAGMENT_DENSITY ? STAGE_DENSITY : STAGE_FORCE;
+    const Pass *const *own = method->passes;
+    if (passes[pass].next) {
+        snprintf(path, 64, "sim/%s", passes[pass].next);
+        return;
+    }
+    while ((*own)->stage != stage)
+        own++;
+    shader_of(*own, path);
+}
+
+/* Sets an output for transform feedback, which requires linking again. */
+static void capture(unsigned program, const char *output)
+{
+    glTransformFeedbackVaryings(program, 1, &output, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(program);
+}
+
+static unsigned pass_create(const Fragment *f, FragmentPass pass, const char *constant_lines, Error *error)
+{
+    char vertex[64], next[64], text[4096];
+    snprintf(vertex, sizeof vertex, "sim/%s", passes[pass].vertex);
+    next_shader(f->constants->method, pass, next);
+    snprintf(text, sizeof text, "%s%s", passes[pass].defines, constant_lines);
+    const char *const stages[] = {vertex, next, NULL};
+    const unsigned program = program_create(next + strlen("sim/"), stages, text, error);
+    if (program && (pass == FRAGMENT_WAITING || pass == FRAGMENT_ORDER))
+        capture(program, "waiting");
+    for (int s = 0; program && s < FRAGMENT_SAMPLER_COUNT; s++) {
+        const GLint at = glGetUniformLocation(program, samplers[s]);
+        if (at >= 0)
+            glProgramUniform1i(program, at, FIRST_UNIT + s);
+    }
+    return program;
+}
+
+int fragment_uniform(const Fragment *f, FragmentPass pass, FragmentUniform uniform)
+{
+    return f->uniform[pass][uniform];
+}
+
+static void find_uniforms(Fragment *f, int pass)
+{
+    static const char *const names[] = {
+#define X(name) #name,
+        FRAGMENT_UNIFORMS(X)
+#undef X
+    };
+    for (int k = 0; k < FRAGMENT_UNIFORM_COUNT; k++)
+        f->uniform[pass][k] = f->program[pass] ? glGetUniformLocation(f->program[pass], names[k]) : -1;
+}
+
+void fragment_set_fluids(const Fragment *f)
+{
+    const Constants *s = f->constants;
+    float fluids[FLUIDS_MAX][4];
+    for (int k = 0; k < s->fluid_count; k++)
+        memcpy(fluids[k], (const float[]){s->mass[k], s->density[k], s->stiffness[k], s->viscosity[k]},
+               sizeof fluids[k]);
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        const GLint at = f->program[p] ? fragment_uniform(f, (FragmentPass)p, FRAGMENT_fluid_numbers) : -1;
+        if (at >= 0)
+            glProgramUniform4fv(f->program[p], at, s->fluid_count, fluids[0]);
+        if (f->program[p])
+            fragment_set3(f, (FragmentPass)p, FRAGMENT_half_size, s->walls.half_size);
+    }
+}
+
+static bool is_gauge(int pass)
+{
+    return pass == FRAGMENT_GAUGE_FIRST || pass == FRAGMENT_GAUGE_MORE || pass == FRAGMENT_ENERGY_FIRST;
+}
+
+bool fragment_gauge_programs(Fragment *f, Error *error)
+{
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        if (!is_gauge(p) || f->program[p])
+            continue;
+        f->program[p] = pass_create(f, (FragmentPass)p, f->constant_lines, error);
+        find_uniforms(f, p);
+        if (!f->program[p])
+            return false;
+    }
+    fragment_set_fluids(f);
+    return true;
+}
+
+bool fragment_programs_create(Fragment *f, Error *error)
+{
+    unsigned made[FRAGMENT_PASS_COUNT] = {0};
+    char constant_lines[FRAGMENT_CONSTANTS_MAX];
+    fragment_constants(f, constant_lines);
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        if (is_gauge(p) && !f->program[p]) /* not requested */
+            continue;
+        made[p] = pass_create(f, (FragmentPass)p, constant_lines, error);
+        if (made[p])
+            continue;
+        while (p-- > 0)
+            glDeleteProgram(made[p]);
+        return false;
+    }
+    for (int p = 0; p < FRAGMENT_PASS_COUNT; p++) {
+        glDeleteProgram(f->program[p]);
+        f->program[p] = made[p];
+        find_uniforms(f, p);
+    }
+    memcpy(f->constant_lines, constant_lines, sizeof constant_lines);
+    fragment_set_fluids(f);
+    return true;
+}
+
+void fragment_set3(const Fragment *f, FragmentPass pass, FragmentUniform uniform, const float value[3])
+{
+    glProgramUniform3fv(f->program[pass], fragment_uniform(f, pass, uniform), 1, value);
+}
+
+void fragment_set1(const Fragment *f, FragmentPass pass, FragmentUniform uniform, float value)
+{
+    glProgramUniform1f(f->program[pass], fragment_uniform(f, pass, uniform), value);
+}
+
+void fragment_sample(FragmentSampler sampler, unsigned texture)
+{
+    glBindTextureUnit((GLuint)(FIRST_UNIT + (int)sampler), texture);
+}
+
+void fragment_target(const Fragment *f, const unsigned *targets, int count, int width, int height)
+{
+    static const GLenum attachments[3] = {GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1, GL_COLOR_ATTACHMENT2};
+    for (int k = 0; k < 3; k++)
+        glNamedFramebufferTexture(f->framebuffer, attachments[k], k < count ? targets[k] : 0, 0);
+    glNamedFramebufferDrawBuffers(f->framebuffer, count, attachments);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, f->framebuffer);
+    glViewport(0, 0, width, height);
+    glBindVertexArray(f->vertex_array);
+}
+
+void fragment_draw(const Fragment *f, FragmentPass pass, const unsigned *targets, int count, int width,
+                   int height)
+{
+    fragment_target(f, targets, count, width, height);
+    glUseProgram(f->program[pass]);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void fragment_pack(unsigned texture, unsigned format, unsigned buffer, size_t at, size_t bytes)
+{
+    const GLenum type = format == GL_RGBA ? GL_FLOAT : GL_UNSIGNED_INT;
+    GLint before;
+    glGetIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &before);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, buffer);
+    glGetTextureImage(texture, 0, format, type, (GLsizei)bytes, (void *)at);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, (GLuint)before);
+}
+
+void fragment_swap(unsigned pair[2])
+{
+    const unsigned before = pair[0];
+    pair[0] = pair[1];
+    pair[1] = before;
+}

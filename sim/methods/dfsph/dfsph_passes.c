@@ -1,0 +1,565 @@
+#include "sim/methods/dfsph/dfsph_private.h"
+
+#include "sim/methods/shared/incompressible.h"
+
+#include <math.h>
+#include <string.h>
+
+PAIR_LOOPS(dfsph_factor);
+PAIR_LOOPS(dfsph_solids);
+PAIR_LOOPS(dfsph_push);
+PAIR_LOOPS(dfsph_rate);
+PAIR_LOOPS(dfsph_friction);
+
+static bool of_fluid(const Cpu *cpu, size_t i)
+{
+    return cpu->now.fluid[i] < FLUIDS_MAX;
+}
+
+/* --- state --- */
+
+static void terms_body(const CpuRange *range)
+{
+    Cpu *cpu = range->cpu;
+    const CpuParticles *p = &cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->pressure_term[i] = 0;
+        if (of_fluid(cpu, i)) {
+            p->own[INVERSE_MASS][i] = 1 / cpu->constants->mass[p->fluid[i]];
+            cpu_fill_terms(cpu, i);
+            continue;
+        }
+        p->own[INVERSE_MASS][i] = 0;
+        cpu_boundary_terms(cpu, i);
+    }
+}
+
+/* 1 / D, from the sums in n, acceleration and squares. Where particles are crowded, many k affect each rate,
+   and Jacobi's step is shorter. */
+static void finish_factor(const Cpu *cpu, size_t i)
+{
+    const CpuParticles *p = &cpu->now;
+    const float *const *solid = (const float *const *)p->own + SOLID_SLOPE;
+    const float sx = p->ax[i] + (solid[0] ? solid[0][i] : 0), sy = p->ay[i] + (solid[1] ? solid[1][i] : 0),
+                sz = p->az[i] + (solid[2] ? solid[2][i] : 0);
+    const float d = (sx * sx + sy * sy + sz * sz) * p->own[INVERSE_MASS][i] + p->own[SQUARES][i];
+    const float least = dfsph_constants(cpu->constants)->least_squares * p->own[INVERSE_MASS][i];
+    const float whole = d > least ? d : least;
+    p->own[FACTOR][i] = whole > 0 ? fminf(1, cpu->constants->rest_number_density / p->volume[i]) / whole : 0;
+    p->volume[i] = 1 / p->volume[i];
+    p->pressure[i] = dfsph_constants(cpu->constants)->pressure_of_term * p->own[KEPT][i];
+    p->ax[i] = p->ay[i] = p->az[i] = 0;
+}
+
+/* {x, 1 / m}, and velocities, used only for solids. */
+static void pack_masses(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], p->own[INVERSE_MASS][i]}, 16);
+        memcpy(range->cpu->motion[i], (float[]){p->vx[i], p->vy[i], p->vz[i], p->volume[i]}, 16);
+    }
+}
+
+static void factor_body(const CpuRange *range)
+{
+    cpu_pairs(range, &dfsph_factor);
+    if (range->cpu->now.own[SOLID_SLOPE])
+        cpu_pairs(range, &dfsph_solids);
+    for (size_t i = range->begin; i < range->end; i++)
+        finish_factor(range->cpu, i);
+}
+
+static const CpuPass state = {
+    .loops = {{terms_body, .solids = true}, {factor_body, .walks = true, .pack = pack_masses}}};
+
+const Pass dfsph_state = {
+    .name = "factor",
+    .stage = STAGE_DENSITY,
+    .cpu = &state,
+    .shader = "dfsph/factor",
+    .reads = "position id fluid kept_term",
+    .writes = "volume pressure pressure_term acceleration viscosity tension kind factor squares inverse_mass "
+              "solid_slope solid_flow solid_share",
+};
+
+/* --- accelerations except pressure --- */
+
+static void others_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const Constants *s = range->cpu->constants;
+    if (s->rubs)
+        cpu_pairs(range, &dfsph_friction);
+    else
+        for (size_t i = range->begin; i < range->end; i++)
+            p->ax[i] = p->ay[i] = p->az[i] = 0;
+    cpu_force_end(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->own[OTHER][i] = p->ax[i];
+        p->own[OTHER + 1][i] = p->ay[i];
+        p->own[OTHER + 2][i] = p->az[i];
+    }
+}
+
+static void rub_solid(const SolidPair *pair, float force[3])
+{
+    const CpuParticles *p = &pair->cpu->now;
+    const size_t i = pair->i, b = pair->b;
+    incompressible_rub(pair, (float[]){p->vx[b] - p->vx[i], p->vy[b] - p->vy[i], p->vz[b] - p->vz[i]}, force);
+}
+
+static const CpuPass others = {.loops = {{others_body, .walks = true}}, .solid = rub_solid};
+
+const Pass dfsph_others = {
+    .name = "force",
+    .stage = STAGE_FORCE,
+    .cpu = &others,
+    .shader = "dfsph/force",
+    .reads = "position velocity id fluid volume viscosity tension kind",
+    .writes = "acceleration other",
+    .felt = true,
+    .mirrors = true,
+};
+
+/* --- terms that need the pressure --- */
+
+static void pressed_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    float *const a[3] = {p->ax, p->ay, p->az}, *const *other = p->own + OTHER;
+    for (int k = 0; k < 3; k++)
+        for (size_t i = range->begin; i < range->end; i++) {
+            const float pressed = a[k][i];
+            a[k][i] += other[k][i];
+            other[k][i] = -pressed;
+        }
+}
+
+static void unpressed_body(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float *const a[3] = {p->ax, p->ay, p->az};
+    for (int k = 0; k < 3; k++)
+        for (size_t i = range->begin; i < range->end; i++)
+            p->own[OTHER + k][i] += a[k][i];
+}
+
+static bool has_terms(const Constants *constants)
+{
+    return constants->implicit.on;
+}
+
+static const CpuPass pressed = {.loops = {{pressed_body}}}, unpressed = {.loops = {{unpressed_body}}};
+
+const Pass dfsph_pressed = {
+    .name = "pressed",
+    .stage = STAGE_SOLVE,
+    .cpu = &pressed,
+    .shader = "dfsph/pressed",
+    .reads = "acceleration other",
+    .writes = "acceleration other",
+    .needed = has_terms,
+};
+
+const Pass dfsph_unpressed = {
+    .name = "unpressed",
+    .stage = STAGE_SOLVE,
+    .cpu = &unpressed,
+    .shader = "dfsph/unpressed",
+    .reads = "acceleration other",
+    .writes = "other",
+    .needed = has_terms,
+};
+
+/* --- solvers: begin and end --- */
+
+static void forget(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++)
+        p->own[RESIDUAL][i] = p->own[CHANGE][i] = 0;
+}
+
+static void divergence_begin(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    forget(range);
+    for (size_t i = range->begin; i < range->end; i++)
+        p->pressure_term[i] = p->own[KEPT][i];
+}
+
+static void divergence_end(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->own[KEPT][i] = p->pressure_term[i];
+        p->pressure[i] = dfsph_constants(range->cpu->constants)->pressure_of_term * p->pressure_term[i];
+        p->ax[i] += p->own[OTHER][i];
+        p->ay[i] += p->own[OTHER + 1][i];
+        p->az[i] += p->own[OTHER + 2][i];
+    }
+}
+
+/* Effect of the box on a particle until the middle of the next step, and the kick's gravity, m/s2. */
+static void felt_at(const PassInput *input, bool before_kick, const float x[3], float g[3])
+{
+    apparent_gravity_at(input->apparent, x, g);
+    for (int k = 0; k < 3; k++)
+        g[k] = 0.5F * (g[k] - input->gravity[k]) + (before_kick ? input->gravity[k] : 0);
+}
+
+static bool turning(const ApparentGravity *apparent)
+{
+    const float *a = apparent->alpha, *w = apparent->omega;
+    return a[0] != 0 || a[1] != 0 || a[2] != 0 || w[0] != 0 || w[1] != 0 || w[2] != 0;
+}
+
+/* Velocities of the particles on the way to the middle of the next step, without the solver. They include
+   half of the box's effect in the halves of the drift, and before the kick all accelerations except
+   pressure. */
+static void begin_motion(const CpuRange *range, bool before_kick)
+{
+    const CpuParticles p =
+        range->cpu->now; /* a copy: for the compiler a write may change any pointer in memory */
+    const PassInput *input = range->input;
+    const bool turns = turning(input->apparent);
+    float *const *base = p.own + BASE, *const *more = before_kick ? p.own + OTHER : NULL, g[3];
+    felt_at(input, before_kick, (float[]){0, 0, 0}, g); /* the same everywhere if the box does not turn */
+    for (size_t i = range->begin; i < range->end; i++) {
+        const bool solid = p.fluid[i] >= FLUIDS_MAX; /* keeps its velocity */
+        const float v[3] = {p.vx[i], p.vy[i], p.vz[i]}, t = solid ? 0 : input->dt;
+        if (turns)
+            felt_at(input, before_kick, (float[]){p.x[i], p.y[i], p.z[i]}, g);
+        for (int k = 0; k < 3; k++)
+            range->cpu->motion[i][k] = base[k][i] = v[k] + t * (g[k] + (more && !solid ? more[k][i] : 0));
+        range->cpu->motion[i][3] = p.volume[i];
+    }
+}
+
+/* Start from no move: a part of the last step's move would act on fluid at rest again and again, and lift it.
+   OTHER keeps the accelerations meanwhile. */
+static void density_begin(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    forget(range);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->pressure_term[i] = 0;
+        p->own[OTHER][i] = p->ax[i];
+        p->own[OTHER + 1][i] = p->ay[i];
+        p->own[OTHER + 2][i] = p->az[i];
+        p->ax[i] = p->ay[i] = p->az[i] = 0;
+    }
+}
+
+static void divergence_motion(const CpuRange *range)
+{
+    begin_motion(range, true);
+}
+
+static void density_motion(const CpuRange *range)
+{
+    begin_motion(range, false);
+}
+
+/* A step's move is a part of a spacing: without the guard of solids. */
+static inline void density_end_run(const CpuRange *range, const bool wide)
+{
+    const CpuParticles *p = &range->cpu->now;
+    float *const x[3] = {p->x, p->y, p->z};
+    const float dt2 = range->input->dt * range->input->dt, most = MOVE_MOST * range->cpu->constants->spacing;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float move[3] = {p->ax[i] * dt2, p->ay[i] * dt2, p->az[i] * dt2};
+        const float length = sqrtf(move[0] * move[0] + move[1] * move[1] + move[2] * move[2]);
+        const float share = length > most ? most / length : 1;
+        for (int k = 0; k < 3; k++)
+            place_move(&x[k][i], wide ? &p->own[COLUMNS_LEFT + k][i] : NULL, share * move[k]);
+        p->ax[i] = p->own[OTHER][i];
+        p->ay[i] = p->own[OTHER + 1][i];
+        p->az[i] = p->own[OTHER + 2][i];
+    }
+}
+
+static void density_end(const CpuRange *range)
+{
+    if (range->cpu->constants->wide)
+        density_end_run(range, true);
+    else
+        density_end_run(range, false);
+}
+
+/* --- solvers: an iteration --- */
+
+/* k by Jacobi's step plus a part of the last change, then {x, k}. The first change of a k counts by the
+   factor `begins`. */
+static void pack_place(const CpuRange *range, float went_on, float begins)
+{
+    const Constants *s = range->cpu->constants;
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt;
+    const float relaxed = dfsph_constants(s)->relaxation * s->rest_number_density;
+    const float scale = dt > 0 ? relaxed / (dt * dt) : 0;
+    const bool pulls = s->negative_pressure;
+    const float momentum = dt > 0 ? went_on : 0;
+    for (size_t i = range->begin; i < range->end; i++) {
+        if (of_fluid(range->cpu, i)) {
+            const float before = p->pressure_term[i];
+            const float k =
+                before + scale * p->own[RESIDUAL][i] * p->own[FACTOR][i] + momentum * p->own[CHANGE][i];
+            p->pressure_term[i] = k > 0 || pulls ? k : 0;
+            p->own[CHANGE][i] = (p->own[CHANGE][i] == 0 ? begins : 1) * (p->pressure_term[i] - before);
+        }
+        const float k = of_fluid(range->cpu, i) ? p->pressure_term[i] : 0; /* particles of solids have none */
+        memcpy(range->cpu->place[i], (float[]){p->x[i], p->y[i], p->z[i], k}, 16);
+    }
+}
+
+static void pack_density(const CpuRange *range)
+{
+    pack_place(range, DENSITY_MOMENTUM, 1);
+}
+
+static void pack_divergence(const CpuRange *range)
+{
+    pack_place(range, DIVERGENCE_MOMENTUM, DIVERGENCE_BEGINS);
+}
+
+static void push(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    cpu_pairs(range, &dfsph_push);
+    for (size_t i = range->begin; i < range->end; i++) {
+        p->ax[i] *= p->own[INVERSE_MASS][i];
+        p->ay[i] *= p->own[INVERSE_MASS][i];
+        p->az[i] *= p->own[INVERSE_MASS][i];
+    }
+}
+
+static void go_on(const CpuRange *range)
+{
+    const CpuParticles p = range->cpu->now;
+    float(*motion)[4] = range->cpu->motion;
+    const float dt = range->input->dt;
+    for (size_t i = range->begin; i < range->end; i++) {
+        motion[i][0] = p.own[BASE][i] + dt * p.ax[i];
+        motion[i][1] = p.own[BASE + 1][i] + dt * p.ay[i];
+        motion[i][2] = p.own[BASE + 2][i] + dt * p.az[i];
+    }
+}
+
+static void density_push(const CpuRange *range)
+{
+    push(range);
+    go_on(range);
+}
+
+/* SOLID_SHARE, at most SHARE_MOST. */
+static float share_of(const CpuParticles *p, size_t i)
+{
+    return fminf(p->own[SOLID_SHARE][i], SHARE_MOST);
+}
+
+/* Remove the part of a vector of particle i across its solid; the part along the solid stays. */
+static void along_solid(const CpuParticles *p, size_t i, float v[3])
+{
+    const float s[3] = {p->own[SOLID_SLOPE][i], p->own[SOLID_SLOPE + 1][i], p->own[SOLID_SLOPE + 2][i]};
+    const float square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2],
+                across = square > 0 ? (s[0] * v[0] + s[1] * v[1] + s[2] * v[2]) / square : 0;
+    for (int k = 0; k < 3; k++)
+        v[k] -= across * s[k];
+}
+
+/* Add the push by the boundary particles' own k, and the part along the solid. */
+static void push_solids(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float push = p->pressure_term[i] * p->own[INVERSE_MASS][i], share = share_of(p, i);
+        p->ax[i] += push * p->own[SOLID_SLOPE][i];
+        p->ay[i] += push * p->own[SOLID_SLOPE + 1][i];
+        p->az[i] += push * p->own[SOLID_SLOPE + 2][i];
+        if (share <= 0) /* below 0 by rounding */
+            continue;
+        float a[3] = {p->ax[i], p->ay[i], p->az[i]};
+        along_solid(p, i, a);
+        p->ax[i] += share / (1 - share) * a[0];
+        p->ay[i] += share / (1 - share) * a[1];
+        p->az[i] += share / (1 - share) * a[2];
+    }
+}
+
+static void divergence_push(const CpuRange *range)
+{
+    push(range);
+    if (range->cpu->now.own[SOLID_SLOPE])
+        push_solids(range);
+    go_on(range);
+}
+
+/* Add the second half of the rate by boundary particles, whose velocities are mirrored. */
+static void rate_solids(const CpuRange *range)
+{
+    const CpuParticles *p = &range->cpu->now;
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float *v = range->cpu->motion[i];
+        p->own[RESIDUAL][i] += p->own[SOLID_FLOW][i] - v[0] * p->own[SOLID_SLOPE][i] -
+                               v[1] * p->own[SOLID_SLOPE + 1][i] - v[2] * p->own[SOLID_SLOPE + 2][i];
+    }
+}
+
+/* n / n0 - 1 after the step. For divergence an excess of density at the begin counts as 0, and a lack counts:
+   such a particle is free to come together. Where pressure pulls, a lack counts as 0 too: no velocity may
+   close a gap in one step; positions do. */
+static void rate(const CpuRange *range, bool of_density)
+{
+    const CpuParticles *p = &range->cpu->now;
+    const float dt = range->input->dt, n0 = range->cpu->constants->rest_number_density;
+    const bool pulls = range->cpu->constants->negative_pressure;
+    float *residual = p->own[RESIDUAL];
+    cpu_pairs(range, &dfsph_rate);
+    if (p->own[SOLID_SLOPE] && !of_density)
+        rate_solids(range);
+    const float *volume = p->volume, *k = p->pressure_term, change = dt / n0;
+    const float above = of_density, below = of_density || !pulls,
+                free = pulls; /* factors: excess, lack, no k */
+    float *miss = p->own[MISS];
+#pragma omp simd
+    for (size_t i = range->begin; i < range->end; i++) {
+        const float now = 1 / (volume[i] * n0) - 1, counts = now > 0 ? above : below;
+        const float left = now * counts + change * residual[i], held = k[i] > 0 ? 1 : free;
+        const float other = -held * left;
+        residual[i] = left;
+        miss[i] = left > other ? left : other;
+    }
+}
+
+static void density_rate(const CpuRange *range)
+{
+    rate(range, true);
+}
+
+static void divergence_rate(const CpuRange *range)
+{
+    rate(range, false);
+}
+
+/* The motion of solids' particles stays through all iterations. */
+static const CpuPass begins[] = {
+    {.loops = {{divergence_begin}, {divergence_motion, .solids = true}}},
+    {.loops = {{density_begin}, {density_motion, .solids = true}}},
+};
+/* k for the pushed particle, k for b itself; along the solid b's part of the push added by push_solids. */
+static void push_solid(const SolidPair *pair, float force[3])
+{
+    const CpuParticles *p = &pair->cpu->now;
+    const size_t i = pair->i;
+    const float *const *other = (const float *const *)p->own + OTHER;
+    float a[3] = {p->ax[i] - other[0][i], p->ay[i] - other[1][i], p->az[i] - other[2][i]}, d[3], f[3];
+    incompressible_push(pair, 2 * p->own[KEPT][i], force);
+    if (p->own[SOLID_SHARE][i] <= 0)
+        return;
+    memcpy(d, pair->d, sizeof d);
+    along_solid(p, i, a);
+    along_solid(p, i, d);
+    incompressible_push(pair, 1, f); /* F x_ib */
+    const Constants *s = pair->cpu->constants;
+    const float square = f[0] * d[0] + f[1] * d[1] + f[2] * d[2],
+                part = square / (float)(s->dimensions - 1) * s->rest_number_density /
+                       dfsph_constants(s)->pressure_of_term,
+                weight = part * share_of(p, i) / p->own[SOLID_SHARE][i] / p->own[INVERSE_MASS][i];
+    for (int k = 0; k < 3; k++)
+        force[k] += weight * a[k];
+}
+
+static const CpuPass ends[] = {{.loops = {{divergence_end}}, .solid = push_solid},
+                               {.loops = {{density_end}}}};
+
+/* Per neighbour {x, k}; for a rate {v, V} too. */
+static PairCost push_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 16, .flops = 23};
+}
+
+static PairCost rate_pair(const Constants *constants)
+{
+    (void)constants;
+    return (PairCost){.gather = 32, .flops = 26};
+}
+
+static const CpuPass pushes[] = {
+    {.loops = {{divergence_push, .walks = true, .pack = pack_divergence}}, .pair = push_pair},
+    {.loops = {{density_push, .walks = true, .pack = pack_density}}, .pair = push_pair},
+};
+static const CpuPass rates[] = {
+    {.loops = {{divergence_rate, .walks = true, .packed = true}}, .pair = rate_pair},
+    {.loops = {{density_rate, .walks = true, .packed = true}}, .pair = rate_pair},
+};
+
+#define SOLVE(NAME, CPU, SHADER, READS, WRITES)                                                              \
+    {                                                                                                        \
+        .name = NAME, .stage = STAGE_SOLVE, .cpu = &(CPU), .shader = "dfsph/" SHADER, .reads = READS,        \
+        .writes = WRITES                                                                                     \
+    }
+
+#define PUSH_READS "position id fluid base pressure_term residual factor inverse_mass change"
+#define RATE_READS "position id fluid volume pressure_term"
+
+const Pass dfsph_divergence_begin =
+    SOLVE("divergence begin", begins[0], "divergence_begin", "position velocity fluid volume other kept_term",
+          "pressure_term residual change base");
+const Pass dfsph_divergence_push =
+    SOLVE("divergence push", pushes[0], "divergence_push", PUSH_READS " solid_slope solid_share",
+          "pressure_term acceleration change");
+const Pass dfsph_divergence_rate = SOLVE("divergence rate", rates[0], "divergence_rate",
+                                         RATE_READS " solid_slope solid_flow", "residual miss");
+const Pass dfsph_divergence_end = {
+    .name = "divergence end",
+    .stage = STAGE_SOLVE,
+    .cpu = &ends[0],
+    .shader = "dfsph/divergence_end",
+    .reads = "pressure_term acceleration other",
+    .writes = "kept_term pressure acceleration",
+    .felt = true,
+};
+const Pass dfsph_density_begin =
+    SOLVE("density begin", begins[1], "density_begin", "position velocity fluid volume acceleration",
+          "pressure_term residual change other acceleration base");
+const Pass dfsph_density_push =
+    SOLVE("density push", pushes[1], "density_push", PUSH_READS, "pressure_term acceleration change");
+const Pass dfsph_density_rate = SOLVE("density rate", rates[1], "density_rate", RATE_READS, "residual miss");
+const Pass dfsph_density_end =
+    SOLVE("density end", ends[1], "density_end", "position remainder acceleration other",
+          "position remainder acceleration");
+
+static bool many_viscous(const Constants *constants)
+{
+    return constants->viscous && (constants->fluid_count > 1 || constants->solid_count > 0);
+}
+
+static bool with_solids(const Constants *constants)
+{
+    return constants->solid_count > 0;
+}
+
+#define OWN(k) .at = COLUMN_OWN(k)
+
+const ColumnDef dfsph_columns[] = {
+    {"kept_term", "Pa", OWN(KEPT), 1, COLUMN_FLOAT, .flags = COLUMN_SAVED | COLUMN_SORTED},
+    {"factor", "kg/m", OWN(FACTOR), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
+    {"squares", "m/kg", OWN(SQUARES), 1, COLUMN_FLOAT},
+    {"inverse_mass", "m3/kg", OWN(INVERSE_MASS), 1, COLUMN_FLOAT},
+    {"residual", "", OWN(RESIDUAL), 1, COLUMN_FLOAT},
+    {"miss", "", OWN(MISS), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
+    {"change", "Pa", OWN(CHANGE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS},
+    {"other", "m/s2", OWN(OTHER), 3, COLUMN_FLOAT},
+    {"base", "m/s", OWN(BASE), 3, COLUMN_FLOAT},
+    {"solid_slope", "1/m", OWN(SOLID_SLOPE), 3, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = with_solids},
+    {"solid_flow", "1/s", OWN(SOLID_FLOW), 1, COLUMN_FLOAT, .needed = with_solids},
+    {"solid_share", "", OWN(SOLID_SHARE), 1, COLUMN_FLOAT, .flags = COLUMN_SHADERS, .needed = with_solids},
+    {"viscosity", "Pa s", .at = offsetof(ParticleColumns, viscosity), 1, COLUMN_FLOAT, .flags = COLUMN_FLUIDS,
+     .needed = many_viscous},
+    {0},
+};
+
+const ColumnDef *const dfsph_miss = &dfsph_columns[MISS];

@@ -1,0 +1,38 @@
+/* What the files of mueller share: its constants, columns and passes. */
+#ifndef SIM_METHODS_MUELLER_MUELLER_PRIVATE_H
+#define SIM_METHODS_MUELLER_MUELLER_PRIVATE_H
+
+#include "sim/methods/mueller/mueller.h"
+
+#include "sim/box/walls.h"
+#include "sim/cpu/cpu.h"
+#include "sim/step/method.h"
+
+/* Passes and columns of mueller. */
+
+/* Constants of mueller alone. */
+typedef struct MuellerConstants {
+    bool poly6; /* the density kernel: (1 - (r/h)^2)^3, or spiky, (1 - r/h)^3 */
+    WallLift lift;
+} MuellerConstants;
+
+static inline const MuellerConstants *mueller_constants(const Constants *constants)
+{
+    return (const MuellerConstants *)(const void *)constants->of_method;
+}
+
+/* Equation of state, p = c^2 (rho - rho0), for `crowded` = n / n0 - 1: Müller 2003, eq. 12. */
+static inline float mueller_state(const Constants *constants, int fluid, float crowded)
+{
+    return constants->stiffness[fluid] * crowded;
+}
+
+/* Number density, volume and pressure of every particle: Müller 2003, eq. 3 and 12. */
+extern const Pass mueller_densities;
+
+/* Accelerations by pressure, viscosity, walls and solids: eq. 10 and 14. */
+extern const Pass mueller_forces;
+
+extern const ColumnDef mueller_columns[];
+
+#endif

@@ -1,0 +1,197 @@
+/* after: M. Macklin, M. Müller, "Position Based Fluids", 2013 */
+#include "sim/methods/pbf/pbf_private.h"
+
+#include "sim/base/key_rows.h"
+#include "sim/methods/shared/incompressible.h"
+#include "sim/step/iterate.h"
+
+#include <math.h>
+#include <string.h>
+
+static const PbfDef usual = {.tolerance = 0.01, .iterations = 100};
+
+/* clang-format off */
+static const Key keys[] = {
+    NUMBER("solver.compression", 0, "", 0, 1, offsetof(PbfDef, tolerance), "mean compression at which the iterations of a step end early; 0: all of them run"),
+    INTEGER("solver.corrections", 0, 1, 10000, offsetof(PbfDef, iterations), "iterations of a step, at most"),
+    KEYS_END,
+};
+/* clang-format on */
+
+/* Acceleration that drives the fluid, m/s2: gravity, or surface tension across the box's height if
+   greater. */
+static double pull_of(const WorldDef *def)
+{
+    const double *g = def->gravity, height = def->box_size[1];
+    double pull = sqrt(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+    for (int f = 0; f < def->fluid_count; f++)
+        pull = fmax(pull, def->fluids[f].surface_tension / (def->fluids[f].density * height * height));
+    return pull;
+}
+
+/* 1 over the time to settle. The time to settle is proportional to the time of a fall through the box, and is
+   1/60 s for a height of 1 m. Without a driving acceleration it is proportional to the time of sound across a
+   spacing, 1/60 s for 10 cm and 20 m/s. Sound has no other part in pbf. */
+static double settle_rate(const WorldDef *def)
+{
+    static const double FALLS = 60 * 60 / 9.81, SOUNDS = 60 * 0.1 / 20;
+    const double pull = pull_of(def);
+    return pull > 0 ? sqrt(FALLS * pull / def->box_size[1]) : SOUNDS * def->sound_speed / def->spacing;
+}
+
+static bool asks_sound(const WorldDef *def)
+{
+    return !(pull_of(def) > 0);
+}
+
+static void pbf_set(Constants *constants, const WorldDef *def)
+{
+    const IncompressibleFactors factors = incompressible_factors(def, constants);
+    const PbfConstants own = {
+        .sums = {.gradient = factors.gradient,
+                 .friction_gradient = factors.friction_gradient,
+                 .relaxation = factors.relaxation,
+                 .least_squares = factors.least_squares,
+                 .pressure_of_term = factors.pressure_of_term,
+                 .viscous_dt = (float)(STEP_VISCOUS_STANDS * step_viscous(def, &constants->friction)),
+                 .settle_rate = (float)settle_rate(def)},
+        .most = pbf_def(def)->iterations,
+        .tolerance = pbf_def(def)->tolerance,
+    };
+    _Static_assert(sizeof own <= METHOD_CONSTANTS_SIZE, "constants hold it");
+    memcpy(constants->of_method, &own, sizeof own);
+}
+
+/* Mean way of particles since the lists were made, in spacings; with a longer way lists miss neighbours. */
+static const double WAY_MOST = 0.2;
+
+/* How often lists are made in a step, at most. */
+enum { LISTS_MOST = 4 };
+
+/* Move by the multipliers of the step before. */
+static void begin(const Substep *step)
+{
+    substep_run(step, &pbf_begin, step->dt);
+    substep_run(step, &pbf_move, step->dt);
+    substep_run(step, &pbf_density, step->dt);
+}
+
+/* Make lists at the particles' present positions. */
+static void renew_lists(const Substep *step)
+{
+    step->backend->grid(step->state);
+    substep_run(step, &pbf_again, step->dt);
+    substep_run(step, &pbf_density, step->dt);
+}
+
+/* Iterate, with new lists where the old lists became useless, whatever their residual. Returns the number of
+   iterations; *left is the final compression. */
+static int iterate(const Substep *step, double tolerance, Excess *left)
+{
+    const int most = pbf_solver(step->constants)->most;
+    Excess way = {0};
+    Iteration iteration = {.passes = {&pbf_move, &pbf_density},
+                           .residual = pbf_miss,
+                           .tolerance = tolerance,
+                           .most = most,
+                           .asked = {{pbf_way, &way}, {pbf_compressed, left}}};
+    for (int lists = 1;; lists++) {
+        substep_iterate(step, &iteration, 0, step->dt);
+        iteration.most -= (int)step->solves[0].iterations;
+        if (way.mean <= WAY_MOST || iteration.most <= 0 || lists == LISTS_MOST)
+            return most - iteration.most;
+        renew_lists(step);
+        iteration.begun = true;
+    }
+}
+
+/* Factor of the residual for calm fluid (sim/methods/shared/incompressible.h), in a step of at least the time
+   to settle. A column of 15 layers meets the mean tolerance even if only the lowest row was moved; then steps
+   with more and with fewer iterations alternate. */
+static const double CALM = 0.15;
+
+/* A step reports the compression at its end; a solver in trouble reports the compression after many such
+   steps. */
+static void hold_density(const Substep *step)
+{
+    const double tolerance = pbf_solver(step->constants)->tolerance,
+                 share = (double)PBF_SHARE(pbf_constants(step->constants)->settle_rate * (float)step->dt);
+    StepSolve *solve = &step->solves[0];
+    Excess left = {0};
+    begin(step);
+    const double calm =
+        share < 1 ? share * tolerance : incompressible_rest_residual(step, step->dt, CALM, tolerance);
+    solve->iterations = iterate(step, calm, &left);
+    solve->tolerance = tolerance;
+    solve->mean /= share;
+    solve->most /= share;
+    solve->failed = !(solve->mean <= STEP_SOLVE_STANDS * tolerance);
+    if (tolerance == 0) /* asked for a number of iterations, without a residual */
+        solve->failed = false;
+    if (solve->failed)
+        return;
+    solve->mean = left.mean;
+    solve->most = left.greatest;
+}
+
+/* The whole flight comes first; grid and lists are made at the end of the flight. */
+static void pbf_substep(const Substep *step)
+{
+    const Backend *b = step->backend;
+    void *state = step->state;
+
+    STAGE (step->clock, STAGE_INTEGRATE) {
+        b->drift(state, &step->first_half);
+        substep_run(step, &pbf_predict, step->dt);
+        b->drift(state, &step->second_half);
+    }
+    STAGE (step->clock, STAGE_GRID)
+        b->grid(state);
+    STAGE (step->clock, STAGE_SOLVE)
+        hold_density(step);
+    STAGE (step->clock, STAGE_FORCE)
+        substep_run(step, &pbf_force, step->dt);
+    substep_terms(step);
+    STAGE (step->clock, STAGE_INTEGRATE)
+        substep_kick(step);
+}
+
+static const Pass *const passes[] = {&pbf_predict, &pbf_begin, &pbf_move,   &pbf_density,
+                                     &pbf_again,   &pbf_force, &pbf_settle, NULL};
+
+static double pressure_of_multiplier(const Constants *constants)
+{
+    return (double)pbf_constants(constants)->pressure_of_term;
+}
+
+static bool always(const Constants *constants)
+{
+    (void)constants;
+    return true;
+}
+
+/* Elements are vec4: density.comp. */
+static const ShaderBuffer buffers[] = {{"Motions", 16, always}, {0}};
+
+const Method method_pbf = {
+    .name = "pbf",
+    .help =
+        "Macklin and Mueller 2013: places corrected until nothing is compressed; made for long steps, 1/60 s",
+    .keys = keys,
+    .def = &usual,
+    .def_size = sizeof usual,
+    .incompressible = true,
+    .asks_sound = asks_sound,
+    .solvers = {{"places", "solver.compression", "solver.corrections"}},
+    .leaps = true,
+    .kernels = incompressible_kernels,
+    .friction = incompressible_friction,
+    .multiplier = &pbf_columns[TERM],
+    .pressure_of_multiplier = pressure_of_multiplier,
+    .constants = pbf_set,
+    .columns = pbf_columns,
+    .passes = passes,
+    .buffers = buffers,
+    .settle = &pbf_settle,
+    .substep = pbf_substep,
+};

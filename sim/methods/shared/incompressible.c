@@ -1,0 +1,124 @@
+#include "sim/methods/shared/incompressible.h"
+
+#include "sim/def/fluids.h"
+
+#include <math.h>
+
+typedef struct Sums {
+    double sum[3], squares;
+} Sums;
+
+/* Sums for a wave with phase `wave` per spacing. */
+static Sums wave_sums(const Kernel *kernel, int dimensions, double spacing, double h, const double wave[3])
+{
+    const int reach = (int)ceil(h / spacing), deep = dimensions == 3 ? reach : 0;
+    Sums s = {0};
+    for (int i = -reach; i <= reach; i++)
+        for (int j = -reach; j <= reach; j++)
+            for (int k = -deep; k <= deep; k++) {
+                const double r = spacing * sqrt((double)(i * i + j * j + k * k));
+                if (r == 0 || r >= h)
+                    continue;
+                const double slope = -kernel->derivative(r, h);
+                const double part = slope / r * spacing * sin(wave[0] * i + wave[1] * j + wave[2] * k);
+                s.sum[0] += part * i, s.sum[1] += part * j, s.sum[2] += part * k;
+                s.squares += slope * slope;
+            }
+    return s;
+}
+
+/* For a lattice with the given spacing and support radius h, m. */
+static JacobiLattice jacobi_lattice(const Kernel *kernel, int dimensions, double spacing, double h)
+{
+    enum { WAVES = 12 };
+    JacobiLattice lattice = {0};
+    for (int i = 0; i <= WAVES; i++)
+        for (int j = 0; j <= i; j++)
+            for (int k = 0; k <= (dimensions == 3 ? j : 0); k++) {
+                const double wave[3] = {M_PI * i / WAVES, M_PI * j / WAVES, M_PI * k / WAVES};
+                const Sums s = wave_sums(kernel, dimensions, spacing, h, wave);
+                const double *x = s.sum;
+                lattice.squares = s.squares;
+                lattice.greatest =
+                    fmax(lattice.greatest, (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) / s.squares);
+            }
+    return lattice;
+}
+
+MethodKernels incompressible_kernels(const WorldDef *def)
+{
+    (void)def;
+    return (MethodKernels){&shape_kernels[INCOMPRESSIBLE_KERNEL], &shape_kernels[INCOMPRESSIBLE_KERNEL]};
+}
+
+StepFriction incompressible_friction(const WorldDef *def, const Lattice *lattice)
+{
+    return (StepFriction){
+        .laminar = friction_rate(lattice, def->spacing, FRICTION_MORRIS, def->support * def->spacing, NULL),
+        .walls = DRAG_MORRIS};
+}
+
+/* f(q) = -w'(q) / q at q = 0.5, as in sim/cpu/pair_loop.h. */
+static double shape_half(void)
+{
+    return INCOMPRESSIBLE_KERNEL == KERNEL_CUBIC ? 3 : 2.5;
+}
+
+/* With momentum m Jacobi's method is stable below 2 (1 + m) over the greatest eigenvalue (Polyak 1964);
+   disordered fluid has greater eigenvalues than the lattice, by up to a half. */
+static const double RELAXATION = 1.8;
+
+/* Lower bound of D, over D on the lattice: else particles with few neighbours or on a wall would be
+   thrown. */
+static const double SQUARES_LEAST = 0.1;
+
+IncompressibleFactors incompressible_factors(const WorldDef *def, const Constants *constants)
+{
+    const Lattice *lattice = &constants->lattice;
+    const Kernel *kernel = &shape_kernels[INCOMPRESSIBLE_KERNEL];
+    const double h = def->support * def->spacing, r = 0.5 * h;
+    const double unit = constants->unit_volume, slope = -unit * kernel->derivative(r, h) / r / shape_half();
+    const double n0 = unit * lattice->number_density, scale = lattice->density_scale;
+    const JacobiLattice jacobi = jacobi_lattice(kernel, def->dimensions, def->spacing, h);
+    return (IncompressibleFactors){
+        .gradient = (float)(slope * scale),
+        .friction_gradient = (float)(slope * lattice->gradient_scale),
+        .relaxation = (float)(RELAXATION / jacobi.greatest),
+        .pressure_of_term = (float)(n0 * n0 * scale / lattice->gradient_scale),
+        .least_squares = (float)(SQUARES_LEAST * scale * scale * unit * unit * jacobi.squares),
+    };
+}
+
+double incompressible_rest_residual(const Substep *step, double dt, double part, double allowed)
+{
+    static const double CALM_LEAST = 1e-6;
+    const double h = (double)step->constants->support_radius, courant = step->speed * dt / h;
+    const float *g = step->gravity;
+    const double falls = dt * dt / h * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]));
+    if (falls == 0)
+        return allowed;
+    return fmin(allowed, fmax(part * fmax(falls, courant * courant), CALM_LEAST));
+}
+
+static float slope(const SolidPair *pair, double scale)
+{
+    return cpu_slope(&shape_kernels[INCOMPRESSIBLE_KERNEL], pair, scale);
+}
+
+void incompressible_push(const SolidPair *pair, float k, float force[3])
+{
+    const float push = k * slope(pair, pair->cpu->constants->lattice.density_scale);
+    for (int axis = 0; axis < 3; axis++)
+        force[axis] = push * pair->d[axis];
+}
+
+void incompressible_rub(const SolidPair *pair, const float u[3], float force[3])
+{
+    const Constants *s = pair->cpu->constants;
+    const float *volume = pair->cpu->now.volume;
+    const float drag = s->rubs ? slope(pair, s->lattice.gradient_scale) * volume[pair->i] * volume[pair->b] *
+                                     cpu_pair_viscosity(pair)
+                               : 0;
+    for (int axis = 0; axis < 3; axis++)
+        force[axis] = drag * u[axis];
+}

@@ -1,0 +1,148 @@
+#include "sim/points/fields.h"
+#include "sim/points/walk.h"
+
+#include <math.h>
+
+static const double finest = 1.0 / 32; /* of a width: the march of analytic fields */
+static const double paper = 1e-2;      /* of a width: sqrt(2 dt), Tanaka et al. 2012, section 4 */
+
+LANES_INLINE Lanes number(const LevelField *field, int k)
+{
+    return lanes((float)field->number[k]);
+}
+
+LANES_INLINE void sphere_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    const Lanes x = p->x - number(field, 0), y = p->y - number(field, 1), z = p->z - number(field, 2);
+    const Lanes r = lanes_sqrt(x * x + y * y + z * z), inverse = lanes(1) / r;
+    *out = (LaneSample){number(field, 3) - r, -x * inverse, -y * inverse, -z * inverse, lanes(-2) * inverse};
+}
+
+LANES_INLINE void torus_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    const Lanes x = p->x - number(field, 0), y = p->y - number(field, 1), z = p->z - number(field, 2);
+    const Lanes rho = lanes_sqrt(x * x + z * z), beyond = rho - number(field, 4);
+    const Lanes t = lanes_sqrt(beyond * beyond + y * y), inverse = lanes(1) / t;
+    const Lanes radial = beyond * inverse / rho;
+    *out = (LaneSample){number(field, 3) - t, -x * radial, -y * inverse, -z * radial, -(inverse + radial)};
+}
+
+LANES_INLINE void gyroid_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    const Lanes turns = number(field, 0), k = number(field, 1), square = k * k;
+    Lanes sx, cx, sy, cy, sz, cz;
+    lanes_turn(turns * p->x, &sx, &cx);
+    lanes_turn(turns * p->y, &sy, &cy);
+    lanes_turn(turns * p->z, &sz, &cz);
+    const Lanes a = sx * cy, b = sy * cz, c = sz * cx;
+    const Lanes straight[3] = {-square * (a + c), -square * (a + b), -square * (b + c)};
+    const Lanes mixed[3] = {-square * cx * sy, -square * cy * sz, -square * cz * sx};
+    *out = (LaneSample){a + b + c, k * (cx * cy - sz * sx), k * (cy * cz - sx * sy), k * (cz * cx - sy * sz),
+                        lanes(0)};
+    out->bend = lane_bend(out, straight, mixed);
+}
+
+LANES_INLINE void wave_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    const Lanes turns = number(field, 0), k = number(field, 1), high = number(field, 2), none = lanes(0);
+    Lanes sx, cx, sz, cz;
+    lanes_turn(turns * p->x, &sx, &cx);
+    lanes_turn(turns * p->z, &sz, &cz);
+    const Lanes wave = high * cx * cz, straight[3] = {-k * k * wave, none, -k * k * wave};
+    const Lanes mixed[3] = {none, none, k * k * high * sx * sz};
+    *out = (LaneSample){number(field, 3) + wave - p->y, -k * high * sx * cz, lanes(-1), -k * high * cx * sz,
+                        none};
+    out->bend = lane_bend(out, straight, mixed);
+}
+
+LANES_INLINE void plane_at(const LevelField *field, const LanePlace *p, LaneSample *out)
+{
+    const Lanes x = number(field, 0), y = number(field, 1), z = number(field, 2);
+    *out = (LaneSample){x * p->x + y * p->y + z * p->z - number(field, 3), x, y, z, lanes(0)};
+}
+
+LEVEL_KIND(sphere)
+LEVEL_KIND(torus)
+LEVEL_KIND(gyroid)
+LEVEL_KIND(wave)
+LEVEL_KIND(plane)
+
+/* A field of a given width, with derived steps. */
+static LevelField field_of(const LevelKind *kind, const double low[3], const double high[3], double length)
+{
+    LevelField field = {.kind = kind, .length = length, .number = {0}};
+    field.step = paper * length;
+    for (int k = 0; k < 3; k++) {
+        field.march[k] = finest * length;
+        field.low[k] = low[k];
+        field.high[k] = high[k];
+    }
+    return field;
+}
+
+static LevelField about(const LevelKind *kind, const double centre[3], const double half[3])
+{
+    double low[3], high[3];
+    for (int k = 0; k < 3; k++) {
+        low[k] = centre[k] - 1.1 * half[k];
+        high[k] = centre[k] + 1.1 * half[k];
+    }
+    LevelField field = field_of(kind, low, high, 2 * half[0]);
+    for (int k = 0; k < 3; k++)
+        field.number[k] = centre[k];
+    return field;
+}
+
+LevelField level_sphere(const double centre[3], double radius)
+{
+    LevelField field = about(&sphere_kind, centre, (double[3]){radius, radius, radius});
+    field.number[3] = radius;
+    return field;
+}
+
+LevelField level_torus(const double centre[3], double ring, double tube)
+{
+    LevelField field = about(&torus_kind, centre, (double[3]){ring + tube, tube, ring + tube});
+    for (int k = 0; k < 3; k++)
+        field.march[k] = fmin(field.march[k], tube / 8);
+    field.step = fmin(field.step, tube / 8);
+    field.number[3] = tube;
+    field.number[4] = ring;
+    return field;
+}
+
+LevelField level_gyroid(const double low[3], const double high[3], double period)
+{
+    LevelField field = field_of(&gyroid_kind, low, high, period);
+    field.number[0] = 1 / period;
+    field.number[1] = 2 * M_PI / period;
+    return field;
+}
+
+LevelField level_wave(const double low[3], const double high[3], double height, double amplitude,
+                      double period)
+{
+    LevelField field = field_of(&wave_kind, low, high, period);
+    field.number[0] = 1 / period;
+    field.number[1] = 2 * M_PI / period;
+    field.number[2] = amplitude;
+    field.number[3] = height;
+    return field;
+}
+
+static double longest_side(const double low[3], const double high[3])
+{
+    return fmax(high[0] - low[0], fmax(high[1] - low[1], high[2] - low[2]));
+}
+
+LevelField level_plane(const double low[3], const double high[3], const double point[3],
+                       const double normal[3])
+{
+    LevelField field = field_of(&plane_kind, low, high, longest_side(low, high));
+    const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (int k = 0; k < 3; k++) {
+        field.number[k] = normal[k] / length;
+        field.number[3] += field.number[k] * point[k];
+    }
+    return field;
+}

@@ -1,0 +1,293 @@
+#include "sim/base/sums.h"
+#include "sim/solids/bodies.h"
+#include "sim/step/sentinel.h"
+#include "sim/step/world.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { BIRTHS_FEW = 256 }; /* cheaper to keep than to check: the check reads ids back from a GPU */
+
+/* Direction of gravity in the box; without gravity, down. */
+static void falls(const World *world, double direction[3])
+{
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, direction);
+    if (world->def.dimensions == 2)
+        direction[2] = 0;
+    if (!(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2] > 1e-6))
+        direction[0] = direction[2] = 0, direction[1] = -1;
+}
+
+bool world_pours(const World *world, Emit *emit, int *fluid)
+{
+    const FingerState *finger = &world->finger;
+    *fluid = finger_on(finger) ? finger_fluid(&finger->wanted) : -1;
+    if (*fluid < 0 || *fluid >= world->def.fluid_count || !world->constants.emits)
+        return false;
+    *emit = (Emit){.radius = finger->wanted.radius, .speed = finger->wanted.strength, .start = world->pours};
+    memcpy(emit->centre, finger->point, sizeof emit->centre);
+    falls(world, emit->direction);
+    return true;
+}
+
+/* Makes room for a layer of the emitter; false if memory is short. */
+static bool layer_reserve(World *world, const Emit *emit)
+{
+    const size_t most = emit_most(emit, world->def.dimensions, world->def.spacing);
+    if (most <= world->layer_room)
+        return true;
+    float *more = realloc(world->layer, 3 * most * sizeof *more);
+    world->layer = more ? more : world->layer;
+    world->layer_room = more ? most : world->layer_room;
+    return more;
+}
+
+/* Counts consecutive layers without room for any particle. An emitter that waits for the world's particle
+   limit does not count. */
+static void look_for_room(unsigned short *barred, size_t came, bool full)
+{
+    if (came > 0 || full)
+        *barred = 0;
+    else if (*barred < BLOCKED_LAYERS)
+        ++*barred;
+}
+
+uint64_t world_barred(const World *world)
+{
+    uint64_t gates = 0;
+    for (int k = 0; k < EMITTERS_MAX; k++)
+        gates |= (uint64_t)(world->barred[k] == BLOCKED_LAYERS) << k;
+    return gates;
+}
+
+/* `barred`: the emitter's counter; NULL for poured fluid. */
+static void let_in(World *world, int fluid, const Emit *emit, unsigned short *barred, double begin,
+                   double end)
+{
+    const WorldDef *def = &world->def;
+    long first;
+    const long layers = emit_layers(emit, def->spacing, begin, end, &first);
+    for (long k = first; k < first + layers; k++) {
+        const uint64_t born = world->initial + world->emitted;
+        EmitLayer layer = {.position = world->layer, .fluid = fluid, .first_id = born};
+        if (k == first)
+            world->backend->grid(world->state); /* present positions */
+        emit_place(emit, def->dimensions, def->spacing, k, end, &layer);
+        for (size_t i = 0; i < layer.count; i++)
+            periodic_wrap(&world->constants.periodic, layer.position + 3 * i, NULL);
+        const size_t more = world->backend->emit(world->state, &layer, world->capacity - world->count);
+        if (barred && layer.count > 0)
+            look_for_room(barred, more, world->count == world->capacity);
+        energy_comes(world, &layer, more);
+        if (more > 0)
+            births_add(&world->births, layer.first_id, (float)emit_time(emit, def->spacing, k));
+        world->emitted += more;
+        world->count += more;
+    }
+}
+
+/* Reserves memory in advance, so that a layer is emitted with its birth time or the step does not begin. */
+static bool reserve(World *world, double begin, double end)
+{
+    const WorldDef *def = &world->def;
+    size_t layers = 0;
+    bool room = true;
+    long first;
+    Emit poured;
+    int fluid;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++) {
+            layers += (size_t)emit_layers(&def->fluids[f].emits[i], def->spacing, begin, end, &first);
+            room &= layer_reserve(world, &def->fluids[f].emits[i]);
+        }
+    if (world_pours(world, &poured, &fluid)) {
+        layers += (size_t)emit_layers(&poured, def->spacing, begin, end, &first);
+        room &= layer_reserve(world, &poured);
+    }
+    return room && births_reserve(&world->births, layers);
+}
+
+static int open_drains(const World *world, Fill open[DRAINS_MAX])
+{
+    int count = 0;
+    for (int k = 0; k < world->def.drain_count; k++)
+        if (!gate_shut(world->shut, gate_of_drain(k)))
+            open[count++] = world->def.drains[k];
+    return count;
+}
+
+static uint64_t gates_of(const WorldDef *def)
+{
+    uint64_t gates = 0;
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++)
+            gates |= 1ULL << gate_of_emitter(f, i);
+    for (int k = 0; k < def->drain_count; k++)
+        gates |= 1ULL << gate_of_drain(k);
+    return gates;
+}
+
+void world_shut_gates(World *world, uint64_t gates)
+{
+    world->shut = gates & gates_of(&world->def);
+}
+
+uint64_t world_gates_shut(const World *world)
+{
+    return world->shut;
+}
+
+bool world_names(const World *world, uint64_t born, Error *error)
+{
+    const uint64_t most = world->backend->gpu ? PARTICLE_IDS_GPU : PARTICLE_IDS;
+    if (born < most)
+        return true;
+    error_set(error, "backend %s tells 2^%d particles apart, and %llu have come; %s", world->backend->name,
+              world->backend->gpu ? 31 : 53, (unsigned long long)born,
+              world->backend->gpu ? "go on with backend cpu" : "begin anew");
+    return false;
+}
+
+bool world_flow(World *world, Error *error)
+{
+    const WorldDef *def = &world->def;
+    const double begin = world_time_at(world, (double)world->step);
+    const double end = world_time_at(world, (double)world->step + 1);
+    if (world->emitted > 0 && !world_names(world, world->initial + world->emitted, error))
+        return false;
+    if (!reserve(world, begin, end))
+        return error_set(error, "no memory for the particles that come");
+    for (int f = 0; f < def->fluid_count; f++)
+        for (int i = 0; i < def->fluids[f].emit_count; i++)
+            if (!gate_shut(world->shut, gate_of_emitter(f, i)))
+                let_in(world, f, &def->fluids[f].emits[i], &world->barred[gate_of_emitter(f, i)], begin, end);
+    Emit poured;
+    int fluid;
+    if (world_pours(world, &poured, &fluid))
+        let_in(world, fluid, &poured, NULL, begin, end);
+    Fill open[DRAINS_MAX];
+    const int count = open_drains(world, open);
+    if (count > 0) {
+        const size_t less = world->backend->drain(world->state, open, count);
+        world->drained += less;
+        world->count -= less;
+    }
+    return true;
+}
+
+void world_thin_births(World *world)
+{
+    Births *births = &world->births;
+    const bool all_here = !world->backend->held; /* a rank would drop births of foreign particles */
+    ParticleId *id = all_here && births->count > BIRTHS_FEW ? malloc((world->count + 1) * sizeof *id) : NULL;
+    if (id && world_read(world, &(ParticleArrays){.whole_id = id}))
+        births_keep(births, id, world->count);
+    free(id);
+    world->births_most = 2 * births->count > BIRTHS_FEW ? 2 * births->count : BIRTHS_FEW;
+}
+
+/* Plotted quantities of a running world: asked for first, answered when ready. Also forces on box and
+   solids, requested once. */
+
+static bool gather(World *world)
+{
+    double gravity[3];
+    quat_rotate_inverse(world->box.orientation, world->def.gravity, gravity);
+    return world->backend->gauge(world->state, gravity);
+}
+
+void world_gauge_request(World *world)
+{
+    if (world->gauge_asked)
+        return;
+    world->gauge_asked = gather(world);
+    world->gauge_time = world_time_at(world, (double)world->step);
+}
+
+bool world_gauge(World *world, WorldGauge *gauge)
+{
+    *gauge = (WorldGauge){.time = world->gauge_time};
+    if (!world->gauge_asked || !world->backend->gauged(world->state, gauge, false))
+        return false;
+    world->gauge_asked = false;
+    gauge->total_known = true;
+    for (int f = 0; f < world->def.fluid_count; f++)
+        if (world->def.tension_model != TENSION_NONE && world->def.fluids[f].surface_tension > 0)
+            gauge->total_known = false;
+    return true;
+}
+
+bool world_sum_forces(World *world, Error *error)
+{
+    Forces *to = world->backend->felt ? &world->felt : &world->pushed;
+    if (!world->backend->feel)
+        return error_set(error, "backend %s sums no forces; use backend cpu or compute",
+                         world->backend->name);
+    if (world->bodies) /* floating bodies have summed forces since the start */
+        bodies_tell(world->bodies, to);
+    world->sums_forces = world->bodies || world->backend->feel(world->state, to, error);
+    return world->sums_forces;
+}
+
+bool world_enable_forces(World *world, Error *error)
+{
+    world->felt = world->felt_before = (Forces){0};
+    world->feels = world_sum_forces(world, error);
+    return world->feels;
+}
+
+void world_forces(World *world, Forces *forces)
+{
+    const Backend *backend = world->backend;
+    *forces = (Forces){0};
+    /* For asynchronous steps: the next step takes these forces back. */
+    if (backend->felt && (!world_is_valid(world) || !backend->felt(world->state)))
+        return;
+    *forces = world->felt;
+    forces_mean(forces);
+    world->felt = world->felt_before = (Forces){0};
+}
+
+typedef struct Who {
+    ParticleId id;
+    size_t place;
+} Who;
+
+static int ascending(const void *a, const void *b)
+{
+    const ParticleId x = ((const Who *)a)->id, y = ((const Who *)b)->id;
+    return (x > y) - (x < y);
+}
+
+uint64_t world_hash(World *world)
+{
+    WorldInfo info;
+    world_info(world, &info);
+    const size_t n = info.count;
+    ParticleArrays out = {
+        .position = malloc((n + 1) * 4 * sizeof(float)),
+        .velocity = malloc((n + 1) * 4 * sizeof(float)),
+        .whole_id = malloc((n + 1) * sizeof(ParticleId)),
+    };
+    Who *order = malloc((n + 1) * sizeof *order);
+    uint64_t hash = 0;
+    if (out.position && out.velocity && out.whole_id && order && world_read(world, &out)) {
+        for (size_t i = 0; i < n; i++)
+            order[i] = (Who){out.whole_id[i], i};
+        qsort(order, n, sizeof *order, ascending);
+        hash = HASH_NONE;
+        for (size_t k = 0; k < n; k++) {
+            const size_t i = order[k].place;
+            hash = hash_add(hash, &out.position[4 * i], 3 * sizeof(float));
+            hash = hash_add(hash, &out.velocity[4 * i], 3 * sizeof(float));
+        }
+        for (int k = 0; k < world->def.solid_count; k++)
+            if (solid_floats(&world->def.solids[k]))
+                hash = hash_add(hash, &info.floating[k], sizeof info.floating[k]);
+    }
+    free(out.position);
+    free(out.velocity);
+    free(out.whole_id);
+    free(order);
+    return hash;
+}
