@@ -41,7 +41,7 @@ SCENES = {
 }
 SETS = ["baseline", "avx2"]
 STEP = ["world_substep"]
-WATCHES = ["energy_sound", "sentinel_mark", "sentinel_note_solves", "fluid_watch"]
+WATCHES = ["energy_is_valid", "sentinel_mark", "sentinel_note_solves", "fluid_watch"]
 
 
 def functions(profile, program):
