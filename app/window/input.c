@@ -1,6 +1,11 @@
 #include "app/window/input.h"
 
+#define GLFW_INCLUDE_NONE /* numbers only */
+#include <GLFW/glfw3.h>
+
+#include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static bool adds_up(ActionKind kind)
 {
@@ -52,13 +57,6 @@ bool action_next(ActionQueue *queue, Action *action)
     queue->count--;
     return true;
 }
-
-#define GLFW_INCLUDE_NONE /* numbers only */
-#include <GLFW/glfw3.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 static const double CLICK_REACH = 3;      /* pixels */
 static const double DRAG_TURN = 2 * M_PI; /* radians of a drag over the picture's height */
@@ -360,11 +358,6 @@ double input_fill_hand(PlayInput *input, const WindowGamepad *pad, double metres
     input->hand_event_ms = 0;
     return event_ms;
 }
-
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
-#include <string.h>
 
 typedef struct EditingKey {
     int glfw;

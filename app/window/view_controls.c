@@ -3,6 +3,9 @@
 #include "render/frame/passes.h"
 #include "render/frame/view.h"
 
+#define GLFW_INCLUDE_NONE /* numbers only */
+#include <GLFW/glfw3.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -171,11 +174,6 @@ void camera_home(PlayCamera *camera, PlayModel *model)
     view->camera_path_count = model->file_scene.view.camera_path_count;
     memcpy(view->camera_path, model->file_scene.view.camera_path, sizeof view->camera_path);
 }
-
-#define GLFW_INCLUDE_NONE /* numbers only */
-#include <GLFW/glfw3.h>
-
-#include <string.h>
 
 static const uint32_t REST = 0xe8eef4e0, LIT = 0xffc23dff, SHADE = 0x101418b0;
 

@@ -462,11 +462,6 @@ bool window_gamepad(const Window *window, WindowGamepad *gamepad)
     return false;
 }
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
-#include <math.h>
-
 static const double EVENT_MS = 8, SWING_HZ = 1.3, HEAVE_HZ = 0.7;
 
 bool window_shake_next(WindowShake *script, double now_ms, int width, int height, WindowEvent *event)

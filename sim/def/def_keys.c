@@ -101,7 +101,6 @@ const Key box_motion_keys[] = {
 
 /* Keys of the fluids: properties, fills at the start, emitters and drains. */
 
-#define AT(field)    offsetof(WorldDef, field)
 #define FLUID(field) offsetof(FluidDef, field)
 #define FILL(field)  offsetof(Fill, field)
 #define EMIT(field)  offsetof(Emit, field)
@@ -212,7 +211,6 @@ const Key fluid_keys[] = {
 
 /* Keys of the solids. */
 
-#define AT(field)    offsetof(WorldDef, field)
 #define SOLID(field) offsetof(SolidDef, field)
 
 /* Keys of each kind of solid. */
